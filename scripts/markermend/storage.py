@@ -1,0 +1,157 @@
+"""The files between stages: the only module that reads or writes them. Every write is atomic and byte-deterministic."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from markermend.events import Event
+from markermend.recording import ORIGINS, Recording, Restored, SetAside
+
+KEY = b"markermend"
+"""The footer key under which a Parquet file carries its facts, as JSON."""
+
+EVENT_SCHEMA = pa.schema(
+    [
+        ("marker", pa.string()),
+        ("start", pa.int64()),
+        ("stop", pa.int64()),
+        ("score", pa.float64()),
+        ("axes", pa.string()),
+        ("partner", pa.string()),
+    ]
+)
+
+
+def sha256(path: Path) -> str:
+    """Hex sha256 of a file's bytes."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Give a temporary path beside `path`; rename it onto `path` when the block succeeds, delete it otherwise."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        yield temporary
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write UTF-8 text with unix line ends."""
+    with replacing(path) as temporary:
+        temporary.write_bytes(text.encode())
+
+
+def write_json(path: Path, value: Any) -> None:
+    """Write JSON with sorted keys, so that equal values give equal bytes."""
+    write_text(path, json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def read_json(path: Path) -> Any:
+    """Read JSON; raises SetAside where an earlier stage set the recording aside."""
+    value = json.loads(path.read_text(encoding="utf-8"))
+    if isinstance(value, dict) and "set_aside" in value:
+        raise SetAside(**value["set_aside"])
+    return value
+
+
+def write_table(path: Path, table: pa.Table, facts: dict[str, Any]) -> None:
+    """Write a table with its facts in the footer."""
+    footer = json.dumps(facts, sort_keys=True, ensure_ascii=False, allow_nan=False).encode()
+    with replacing(path) as temporary:
+        pq.write_table(table.replace_schema_metadata({KEY: footer}), temporary, compression="zstd")
+
+
+def read_facts(path: Path) -> dict[str, Any]:
+    """Read the facts in a Parquet footer; raises SetAside where the recording was set aside."""
+    facts = json.loads(pq.read_schema(path).metadata[KEY])
+    if "set_aside" in facts:
+        raise SetAside(**facts["set_aside"])
+    return facts
+
+
+def set_aside(path: Path, stage: str, reason: str) -> None:
+    """Write, in place of a Parquet or JSON file, the note that `stage` set the recording aside."""
+    note = {"set_aside": {"stage": stage, "reason": reason}}
+    if path.suffix == ".parquet":
+        write_table(path, pa.table({}), note)
+    else:
+        write_json(path, note)
+
+
+def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> None:
+    """Write trajectories (and, for a Restored one, origin and errors) one row per frame, columns `{marker}.x` and so on.
+
+    The recording's markers, rate and first frame join the facts in the footer.
+    """
+    columns: dict[str, pa.Array] = {}
+    for m, marker in enumerate(recording.markers):
+        for a, axis in enumerate("xyz"):
+            columns[f"{marker}.{axis}"] = pa.array(np.ascontiguousarray(recording.positions[:, m, a]))
+        if isinstance(recording, Restored):
+            codes = pa.array(np.ascontiguousarray(recording.origin[:, m]).astype(np.int8))
+            columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, pa.array(ORIGINS))
+            columns[f"{marker}.error"] = pa.array(np.ascontiguousarray(recording.error[:, m]))
+            columns[f"{marker}.error95"] = pa.array(np.ascontiguousarray(recording.error95[:, m]))
+    own = {
+        "markers": list(recording.markers),
+        "rate": recording.rate,
+        "first_frame": recording.first_frame,
+        "frames": recording.frames,
+        "unit": "mm",
+    }
+    write_table(path, pa.table(columns), {**recording.facts, **facts, **own})
+
+
+def read_recording(path: Path) -> Recording:
+    """Read trajectories written by write_recording: a Restored one where origins are stored.
+
+    Raises SetAside where an earlier stage set the recording aside.
+    """
+    facts = read_facts(path)
+    table = pq.read_table(path, use_threads=False)
+    markers = tuple(facts["markers"])
+    frames = facts["frames"]
+    positions = np.full((frames, len(markers), 3), np.nan)
+    for m, marker in enumerate(markers):
+        for a, axis in enumerate("xyz"):
+            positions[:, m, a] = table[f"{marker}.{axis}"].to_numpy()
+    common = (markers, positions, facts["rate"], facts["first_frame"], facts)
+    if not any(name.endswith(".origin") for name in table.column_names):
+        return Recording(*common)
+    origin = np.zeros((frames, len(markers)), np.uint8)
+    error, error95 = np.zeros((2, frames, len(markers)))
+    codes = {name: code for code, name in enumerate(ORIGINS)}
+    for m, marker in enumerate(markers):
+        stored = table[f"{marker}.origin"].combine_chunks()
+        translate = np.array([codes[name] for name in stored.dictionary.to_pylist()], np.uint8)
+        origin[:, m] = translate[stored.indices.to_numpy()]
+        error[:, m] = table[f"{marker}.error"].to_numpy()
+        error95[:, m] = table[f"{marker}.error95"].to_numpy()
+    return Restored(*common, origin, error, error95)
+
+
+def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> None:
+    """Write events, sorted by marker and start."""
+    rows = [vars(event) for event in sorted(events, key=lambda event: event.order)]
+    write_table(path, pa.Table.from_pylist(rows, schema=EVENT_SCHEMA), facts)
+
+
+def read_events(path: Path) -> list[Event]:
+    """Read events; raises SetAside where an earlier stage set the recording aside."""
+    read_facts(path)
+    return [Event(**row) for row in pq.read_table(path, use_threads=False).to_pylist()]
