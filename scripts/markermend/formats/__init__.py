@@ -25,3 +25,15 @@ class Reading:
     model_outputs: tuple[str, ...] = ()
     missing: dict[str, int] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class PatchResult:
+    """What writing edited samples back into a copy of the original came to.
+
+    samples: how many samples were written. refused: (frame, column) of those that the file's number format cannot
+    hold, which stand as in the original.
+    """
+
+    samples: int
+    refused: tuple[tuple[int, int], ...] = ()
