@@ -1,1 +1,64 @@
 """Where should a marker be, and how sure is that? One interface, used by detection, repair and filling."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """Where a marker should be at some frames.
+
+    positions: float64 (n, 3), mm, NaN where the method cannot tell. error: float64 (n,), mm, the standard deviation of
+    each axis; NaN where the method does not state one.
+    """
+
+    positions: np.ndarray
+    error: np.ndarray
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is observed of a recording, as the predictors see it.
+
+    positions: float64 (frames, markers, 3), mm, NaN = missing or not to be believed. rate: Hz. neighbours: for each
+    marker the indices of the others of its component, steadiest first (the mesh's ranking).
+    """
+
+    positions: np.ndarray
+    rate: float
+    neighbours: Sequence[np.ndarray]
+
+    @cached_property
+    def present(self) -> np.ndarray:
+        """Bool (frames, markers): True where the marker is observed."""
+        return ~np.isnan(self.positions).any(axis=2)
+
+    def hiding(self, marker: int, start: int, stop: int) -> Scene:
+        """The same scene without one marker's samples over [start, stop)."""
+        positions = self.positions.copy()
+        positions[start:stop, marker] = np.nan
+        return replace(self, positions=positions)
+
+
+class Predictor(Protocol):
+    """A method that tells where a marker should be during a gap.
+
+    continuous: whether predictions meet the observed samples at the borders by themselves; otherwise the time
+    constraint has to be applied (tits2018 eq 16-19).
+    """
+
+    name: str
+    continuous: bool
+
+    def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """Predict over [start - 1, stop + 1): the gap and the frame at either border, n = stop - start + 2.
+
+        The marker's samples in [start, stop) are not looked at. Border frames outside the recording are NaN.
+        """
+        ...

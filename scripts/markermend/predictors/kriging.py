@@ -1,0 +1,89 @@
+"""Kriging: carry the residual of a regression across a gap by its own autocovariance (simple kriging in time)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+
+def autocovariance(residual: np.ndarray, lags: int) -> np.ndarray:
+    """Empirical autocovariance (lags,) of a residual (frames, axes) about zero, averaged over the axes.
+
+    NaN = missing: pairs with a missing end do not count; a lag without any pair gets 0.
+    """
+    known = ~np.isnan(residual).any(axis=1)
+    values = np.where(known[:, None], residual, 0.0)
+    size = int(2 ** np.ceil(np.log2(2 * len(values))))
+    spectrum = np.fft.rfft(values, size, axis=0)
+    products = np.fft.irfft((np.abs(spectrum) ** 2).sum(axis=1), size)[:lags]
+    mask = np.fft.rfft(known.astype(float), size)
+    pairs = np.round(np.fft.irfft(np.abs(mask) ** 2, size)[:lags])
+    return np.where(pairs > 0, products / np.maximum(pairs, 1) / residual.shape[1], 0.0)
+
+
+@dataclass(frozen=True)
+class Covariance:
+    """A covariance function of time: white noise plus a non-negative sum of Matern kernels of order 3/2 and 5/2.
+
+    weights: (1 + 2 * scales,), mm^2: noise, order 3/2, order 5/2. scales_s: correlation lengths in s.
+    """
+
+    weights: np.ndarray
+    scales_s: np.ndarray
+
+    def __call__(self, lag_s: np.ndarray) -> np.ndarray:
+        """Covariance, mm^2, at lags in s, without the white noise."""
+        return kernels(lag_s, self.scales_s) @ self.weights[1:]
+
+    @property
+    def noise(self) -> float:
+        """Variance of the white noise, mm^2."""
+        return float(self.weights[0])
+
+
+def kernels(lag_s: np.ndarray, scales_s: np.ndarray) -> np.ndarray:
+    """Unit Matern kernels (..., 2 * scales) at lags in s: first order 3/2, then 5/2.
+
+    No RBF kernel: its paths are so smooth that a small misfit at the border extrapolates to metres.
+    """
+    scaled = np.abs(lag_s)[..., None] / scales_s
+    once, twice = np.sqrt(3) * scaled, np.sqrt(5) * scaled
+    return np.concatenate([(1 + once) * np.exp(-once), (1 + twice + twice**2 / 3) * np.exp(-twice)], axis=-1)
+
+
+def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, longest_s: float) -> Covariance:
+    """Fit a covariance function to a residual's autocovariance by non-negative least squares.
+
+    residual: (frames, axes), mm, NaN = missing. rate: Hz. longest_s: lags beyond it are not looked at.
+    """
+    lags = int(np.clip(round(longest_s * rate), 2, max(2, len(residual) // 2)))
+    empirical = autocovariance(residual, lags)
+    # Lags are thinned towards the long ones, so that the short ones, which matter at the borders, are not outvoted.
+    chosen = np.unique(np.round(np.geomspace(1, lags, 40)).astype(int) - 1)
+    lag_s = chosen / rate
+    design = np.concatenate([(chosen == 0)[:, None].astype(float), kernels(lag_s, scales_s)], axis=1)
+    weights, _ = nnls(design, empirical[chosen])
+    if weights.sum() <= 0:
+        weights[0] = max(empirical[0], 1e-12)
+    return Covariance(weights, scales_s)
+
+
+def krige(
+    covariance: Covariance, *, known_s: np.ndarray, values: np.ndarray, wanted_s: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Mean (n, axes) and variance (n,) of a zero-mean process at `wanted_s`, given `values` (k, axes) at `known_s`.
+
+    The mean is that of the smooth part; the variance adds the white noise, because a true sample has it too.
+    """
+    total = covariance(np.zeros(1))[0] + covariance.noise
+    if len(known_s) == 0:
+        return np.zeros((len(wanted_s), values.shape[1])), np.full(len(wanted_s), total)
+    # The fitted covariance is never exact: without some noise a near-singular system would amplify its misfit.
+    jitter = 1e-5 * total + 1e-12
+    between = covariance(known_s[:, None] - known_s[None]) + np.eye(len(known_s)) * (covariance.noise + jitter)
+    across = covariance(wanted_s[:, None] - known_s[None])
+    gain = np.linalg.solve(between, across.T).T
+    variance = total - np.einsum("nk,nk->n", gain, across)
+    return gain @ values, np.maximum(variance, covariance.noise)

@@ -1,0 +1,288 @@
+"""Local ridge: a marker predicted in the frame of its steadiest neighbours, and the residual carried on by kriging.
+
+The frame is the pose of the steadiest present neighbours (the anchors); the inputs are the local coordinates of up to a
+dozen present neighbours; the model is a ridge regression with an intercept. It never looks at the marker's own course,
+so it follows the body and not an artifact: the detectors work on its residual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.predictors import Prediction, Scene
+from markermend.predictors.frames import align, mean_shape, width
+from markermend.predictors.kriging import Covariance, fit_covariance, krige
+
+
+@dataclass(frozen=True)
+class RidgeOptions:
+    """Settings of the local ridge (config section `local_ridge`).
+
+    anchors: markers in the frame. inputs: neighbours regressed on. width_mm: anchors thinner than this get company.
+    ridge_mm2: penalty, the variance of the noise on an input. frames: training frames, evenly spaced. minimum_frames:
+    fewer joint frames than this and no model is made. robust_sigmas: training residuals beyond this many robust sigmas
+    lose weight. scales_s, longest_s, border_s: correlation lengths, longest lag, and reach of kriging, s.
+    """
+
+    anchors: int
+    inputs: int
+    width_mm: float
+    ridge_mm2: float
+    frames: int
+    minimum_frames: int
+    robust_sigmas: float
+    scales_s: tuple[float, ...]
+    longest_s: float
+    border_s: float
+
+
+@dataclass(frozen=True)
+class _Model:
+    """A marker's training data in one frame of anchors.
+
+    anchors, inputs: marker indices. template: (anchors, 3), mm. centre: (3 k + 3,), the typical local coordinates of
+    the k inputs and the target. local: (training, 3 k + 3), coordinates about it. weights: (training,). training: frames.
+    """
+
+    anchors: np.ndarray
+    inputs: np.ndarray
+    template: np.ndarray
+    centre: np.ndarray
+    local: np.ndarray
+    weights: np.ndarray
+    training: np.ndarray
+
+    def coefficients(self, used: np.ndarray, ridge: float, without: slice | None = None) -> np.ndarray:
+        """Coefficients (1 + 3 u, 3) on the inputs marked in `used` (k,), optionally leaving training rows out."""
+        columns = np.flatnonzero(np.repeat(used, 3))
+        design, target, weights = self.local[:, columns], self.local[:, -3:], self.weights
+        if without is not None:
+            kept = np.ones(len(weights), bool)
+            kept[without] = False
+            design, target, weights = design[kept], target[kept], weights[kept]
+        return _ridge(design, target, weights, ridge)
+
+
+def _ridge(design: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
+    """Weighted ridge regression with an unpenalised intercept: coefficients (1 + columns, targets)."""
+    full = np.concatenate([np.ones((len(design), 1)), design], axis=1)
+    weighted = full * weights[:, None]
+    gram = weighted.T @ full
+    penalty = np.full(gram.shape[0], ridge * weights.sum())
+    penalty[0] = 1e-9 * weights.sum()
+    gram[np.diag_indices_from(gram)] += penalty
+    return np.linalg.solve(gram, weighted.T @ target)
+
+
+class LocalRidge:
+    """The local ridge as a predictor; `residuals` is what the detectors use."""
+
+    name = "local_ridge"
+    continuous = True
+
+    def __init__(self, options: RidgeOptions) -> None:
+        """Keep the settings; nothing is trained before a marker is asked for."""
+        self.options = options
+
+    def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """See Predictor. The error is the kriging standard deviation, from residuals that were left out in training."""
+        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
+        positions = np.full((stop - start + 2, 3), np.nan)
+        error = np.full(stop - start + 2, np.nan)
+        first = start - 1
+        for model, used, rows in self._models(hidden, marker, frames):
+            beta = model.coefficients(used, self.options.ridge_mm2)
+            mean, spread = self._krige(hidden, marker, model, used, beta, rows, stop - start)
+            local, rotation, origin = _evaluate(model, hidden.positions, used, beta, rows)
+            positions[rows - first] = np.einsum("nj,nij->ni", local + mean, rotation) + origin
+            error[rows - first] = spread
+        return Prediction(positions, error)
+
+    def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
+        """Observed minus predicted, (frames, markers, 3), mm, laboratory axes; NaN where either is missing.
+
+        markers: indices to work on; the others stay NaN. Each marker is predicted from the others alone, by a model
+        trained on all frames with robust weights.
+        """
+        out = np.full(scene.positions.shape, np.nan)
+        for marker in range(scene.positions.shape[1]) if markers is None else markers:
+            frames = np.flatnonzero(scene.present[:, marker])
+            for model, used, rows in self._models(scene, marker, frames):
+                beta = model.coefficients(used, self.options.ridge_mm2)
+                local, rotation, origin = _evaluate(model, scene.positions, used, beta, rows)
+                predicted = np.einsum("nj,nij->ni", local, rotation) + origin
+                out[rows, marker] = scene.positions[rows, marker] - predicted
+        return out
+
+    def _models(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[tuple[_Model, np.ndarray, np.ndarray]]:
+        """Yield (model, inputs used, frames) such that each frame that can be predicted appears once."""
+        candidates = self._candidates(scene, marker, frames)
+        if len(candidates) < 3 or len(frames) == 0:
+            return
+        present = scene.present[np.ix_(frames, candidates)]
+        # A frame's anchors are its first present candidates; frames that share them share a model.
+        leading = present & (np.cumsum(present, axis=1) <= self.options.anchors)
+        for anchors, rows in _groups(leading):
+            if anchors.sum() < 3:
+                continue
+            model = self._fit(scene, marker, candidates, np.flatnonzero(anchors), frames[rows], present[rows])
+            if model is None:
+                continue
+            seen = scene.present[np.ix_(frames[rows], model.inputs)]
+            for used, members in _groups(seen):
+                yield model, used, frames[rows][members]
+
+    def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
+        """Neighbours to use for these frames: steadiest first, but those that are there throughout come before."""
+        ranked = np.asarray(scene.neighbours[marker], int)
+        ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.minimum_frames]
+        if len(ranked) == 0 or len(frames) == 0:
+            return ranked
+        share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
+        return ranked[np.argsort(share < 0.9, kind="stable")][: 2 * self.options.inputs]
+
+    def _fit(
+        self,
+        scene: Scene,
+        marker: int,
+        candidates: np.ndarray,
+        anchors: np.ndarray,
+        frames: np.ndarray,
+        present: np.ndarray,
+    ) -> _Model | None:
+        """Train in the frame of `anchors` (positions in candidates); None where they share too few frames."""
+        options = self.options
+        together = scene.present[:, marker] & scene.present[:, candidates[anchors]].all(axis=1)
+        chosen = list(anchors)
+        shape = _shape(scene, together, candidates[chosen], options.minimum_frames)
+        if shape is None:
+            return None
+        for extra in np.flatnonzero(present.all(axis=0)):
+            if width(shape) >= options.width_mm or len(chosen) >= options.anchors + 3:
+                break
+            if extra not in chosen:
+                wider = together & scene.present[:, candidates[extra]]
+                grown = _shape(scene, wider, candidates[[*chosen, extra]], options.minimum_frames)
+                if grown is not None:
+                    chosen, together, shape = [*chosen, extra], wider, grown
+        inputs = self._inputs(scene, together, candidates, chosen, present)
+        joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
+        training = joint[np.unique(np.linspace(0, len(joint) - 1, options.frames).astype(int))]
+        rotation, origin = align(scene.positions[np.ix_(training, candidates[chosen])], shape)
+        points = scene.positions[np.ix_(training, [*inputs, marker])] - origin[:, None]
+        local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)
+        centre = np.median(local, axis=0)
+        local = local - centre
+        weights = _robust_weights(local, options)
+        return _Model(candidates[chosen], inputs, shape, centre, local, weights, training)
+
+    def _inputs(
+        self, scene: Scene, together: np.ndarray, candidates: np.ndarray, anchors: list[int], present: np.ndarray
+    ) -> np.ndarray:
+        """The anchors and the next candidates that are seen in these frames and leave enough joint training frames."""
+        inputs = list(candidates[anchors])
+        enough = max(self.options.minimum_frames, int(0.6 * together.sum()))
+        for c, candidate in enumerate(candidates):
+            if len(inputs) >= self.options.inputs:
+                break
+            if c in anchors or not present[:, c].any():
+                continue
+            joint = together & scene.present[:, candidate]
+            if joint.sum() >= enough:
+                inputs.append(candidate)
+                together = joint
+        return np.array(inputs)
+
+    def _krige(
+        self,
+        scene: Scene,
+        marker: int,
+        model: _Model,
+        used: np.ndarray,
+        beta: np.ndarray,
+        rows: np.ndarray,
+        length: int,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Residual to expect at `rows` in local coordinates (n, 3) and its standard deviation (n,), mm."""
+        options = self.options
+        covariance = self._covariance(scene, model, used, length)
+        reach = np.unique(np.round(np.geomspace(1, max(2.0, options.border_s * scene.rate), 12)).astype(int))
+        nearby = np.concatenate([rows[0] - reach[::-1], rows, rows[-1] + reach])
+        nearby = nearby[(nearby >= 0) & (nearby < len(scene.positions))]
+        needed = [*model.anchors, *model.inputs[used], marker]
+        nearby = np.unique(nearby[scene.present[np.ix_(nearby, needed)].all(axis=1)])
+        values = np.zeros((0, 3))
+        if len(nearby):
+            predicted, rotation, origin = _evaluate(model, scene.positions, used, beta, nearby)
+            observed = np.einsum("ni,nij->nj", scene.positions[nearby, marker] - origin, rotation)
+            values = observed - predicted
+        mean, variance = krige(covariance, known_s=nearby / scene.rate, values=values, wanted_s=rows / scene.rate)
+        return mean, np.sqrt(variance)
+
+    def _covariance(self, scene: Scene, model: _Model, used: np.ndarray, length: int) -> Covariance:
+        """Covariance of residuals over stretches as long as the gap, each left out of its own training."""
+        span = len(scene.positions)
+        blocks = int(np.clip(span // max(length, 1), 2, 12))
+        block = model.training * blocks // span
+        columns = np.flatnonzero(np.repeat(used, 3))
+        residual = np.full((span, 3), np.nan)
+        for b in np.unique(block):
+            rows = np.flatnonzero(block == b)
+            if len(rows) == len(block):
+                continue
+            beta = model.coefficients(used, self.options.ridge_mm2, slice(rows[0], rows[-1] + 1))
+            full = np.concatenate([np.ones((len(rows), 1)), model.local[np.ix_(rows, columns)]], axis=1)
+            left = model.local[rows, -3:] - full @ beta
+            residual[model.training[rows]] = np.where(model.weights[rows, None] > 0.5, left, np.nan)
+        return fit_covariance(
+            residual,
+            rate=scene.rate,
+            scales_s=np.array(self.options.scales_s),
+            longest_s=self.options.longest_s,
+        )
+
+
+def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield each distinct row of a bool matrix with the indices of the rows that equal it."""
+    distinct, inverse = np.unique(rows, axis=0, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    order = np.argsort(inverse, kind="stable")
+    yield from zip(distinct, np.split(order, np.cumsum(np.bincount(inverse))[:-1]), strict=True)
+
+
+def _shape(scene: Scene, together: np.ndarray, markers: np.ndarray, minimum: int) -> np.ndarray | None:
+    """Mean shape of markers over at most 500 of the frames that they share; None where those are too few."""
+    joint = np.flatnonzero(together)
+    if len(joint) < minimum:
+        return None
+    sample = joint[np.unique(np.linspace(0, len(joint) - 1, 500).astype(int))]
+    return mean_shape(scene.positions[np.ix_(sample, markers)])
+
+
+def _robust_weights(local: np.ndarray, options: RidgeOptions) -> np.ndarray:
+    """Weights (training,) that keep artifacts out of the training: 1 inside `robust_sigmas`, falling to 0 beyond."""
+    weights = np.ones(len(local))
+    design = np.concatenate([np.ones((len(local), 1)), local[:, :-3]], axis=1)
+    for _ in range(2):
+        residual = np.linalg.norm(
+            local[:, -3:] - design @ _ridge(local[:, :-3], local[:, -3:], weights, options.ridge_mm2), axis=1
+        )
+        sigma = 1.4826 * np.median(residual) + 1e-9
+        weights = np.minimum(1.0, (options.robust_sigmas * sigma / np.maximum(residual, 1e-9)) ** 2)
+    return weights
+
+
+def _evaluate(
+    model: _Model, positions: np.ndarray, used: np.ndarray, beta: np.ndarray, rows: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
+    rotation, origin = align(positions[np.ix_(rows, model.anchors)], model.template)
+    points = positions[np.ix_(rows, model.inputs[used])] - origin[:, None]
+    columns = np.flatnonzero(np.repeat(used, 3))
+    local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(rows), -1) - model.centre[columns]
+    predicted = np.concatenate([np.ones((len(rows), 1)), local], axis=1) @ beta + model.centre[-3:]
+    return predicted, rotation, origin
