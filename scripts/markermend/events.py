@@ -42,7 +42,8 @@ def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: S
     found = []
     for m, marker in enumerate(markers):
         for start, stop in runs(mask[:, m]):
-            axes = "".join(axis for axis, hit in zip("xyz", fired[start:stop, m].any(axis=0), strict=True) if hit)
+            hits: list[bool] = np.any(fired[start:stop, m], axis=0).tolist()
+            axes = "".join(axis for axis, hit in zip("xyz", hits, strict=True) if hit)
             best = float(max(1.0, np.nanmax(score[start:stop, m], initial=1.0)))
             found.append(Event(marker, start, stop, best, axes or "xyz"))
     return tidy(found)

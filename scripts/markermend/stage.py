@@ -107,6 +107,7 @@ class Stage:
         call = SimpleNamespace(**{name: arguments[name] for name in self.inputs + self.outputs})
         call.options = {name: arguments[name] for name in self.options}
         started = time.perf_counter()
+        failure: SetAside | None = None
         try:
             call.facts = {
                 "stage": self.name,
@@ -124,8 +125,6 @@ class Stage:
             reason = f"{self.name} failed: {type(error).__name__}: {error}"
             failure, result = SetAside(self.name, reason), f"set aside: {reason}"
             self._count_failure(call, failure)
-        else:
-            failure = None
         if failure is not None:
             if set_aside is not None:
                 set_aside(call, failure)

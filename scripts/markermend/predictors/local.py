@@ -44,7 +44,8 @@ class _Model:
     """A marker's training data in one frame of anchors.
 
     anchors, inputs: marker indices. template: (anchors, 3), mm. centre: (3 k + 3,), the typical local coordinates of
-    the k inputs and the target. local: (training, 3 k + 3), coordinates about it. weights: (training,). training: frames.
+    the k inputs and the target. local: (training, 3 k + 3), coordinates about it. weights,
+    training: (training,), weight and frame of each.
     """
 
     anchors: np.ndarray
