@@ -1,0 +1,39 @@
+"""markermend: from recordings of optical motion capture to cleaned ones, with a record of every change.
+
+Reads: the recordings named by the config's `recordings`, a folder or a table.
+Writes: {results}/{subject}/{recording}/ with a file per stage and the cleaned recording, and {results}/report/.
+"""
+
+import atexit
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: f"{workflow.basedir}/config/config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/ingest.smk"
+include: "workflow/rules/detect.smk"
+include: "workflow/rules/restore.smk"
+include: "workflow/rules/report.smk"
+
+
+localrules:
+    all,
+
+
+rule all:
+    default_target: True
+    input:
+        rules.report.output,
+
+
+onsuccess:
+    atexit.register(close)
+
+
+onerror:
+    atexit.register(close)

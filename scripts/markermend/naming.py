@@ -1,0 +1,60 @@
+"""Names of subjects and recordings as folder names: ordinary names as they are, everything else percent-encoded."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from collections.abc import Collection
+from urllib.parse import unquote_to_bytes
+
+LONGEST = 255
+"""Bytes that a file system takes for one name (NAME_MAX)."""
+
+RESERVED_SUBJECTS = frozenset({"report"})
+"""Names beside the subjects' folders that are ours."""
+
+RESERVED_RECORDINGS = frozenset({"mesh.json", "logs", "failures.tsv"})
+"""Names beside the recordings' folders of a subject that are ours."""
+
+
+def encode(name: str, reserved: Collection[str] = ()) -> str:
+    """Turn a name into a folder name.
+
+    Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, and
+    the first character of a reserved name (in any case) become `%XX`, one per byte of UTF-8. A result over 255 bytes is
+    cut and ends in `~` and 16 hex digits of the full name's sha256. Raises ValueError for an empty name.
+    """
+    if not name:
+        raise ValueError("a name must not be empty")
+    parts = [character if ordinary(character) else percent(character) for character in name]
+    if name[0] == "." or name.casefold() in reserved:
+        parts[0] = percent(name[0])
+    encoded = "".join(parts)
+    if len(encoded.encode()) <= LONGEST:
+        return encoded
+    mark = "~" + hashlib.sha256(encoded.encode()).hexdigest()[:16]
+    kept, room = "", LONGEST - len(mark)
+    for part in parts:
+        room -= len(part.encode())
+        if room < 0:
+            break
+        kept += part
+    return kept + mark
+
+
+def decode(folder: str) -> str:
+    """Undo `encode`. Raises ValueError for a name that was cut."""
+    if re.search("~[0-9a-f]{16}$", folder):
+        raise ValueError(f"{folder} was shortened: the name cannot be read back from it")
+    return unquote_to_bytes(folder).decode()
+
+
+def ordinary(character: str) -> bool:
+    """Tell whether a character stands for itself in a folder name."""
+    return character in "_-." or unicodedata.category(character)[0] in "LMN"
+
+
+def percent(character: str) -> str:
+    """Percent-encode a character whatever it is."""
+    return "".join(f"%{byte:02X}" for byte in character.encode())

@@ -1,0 +1,32 @@
+"""What a run came to, in a few lines for the terminal."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+STATUSES = ("cleaned", "unchanged", "static", "set aside")
+"""What can become of a recording, in the order in which a summary counts them."""
+
+LISTED = 10
+"""At most so many recordings set aside are named in a terminal; the report names all."""
+
+
+def summary(paths: Iterable[Path], report: Path) -> str:
+    """Sum up the quality files of a data set's recordings: counts by status, changed samples, what was set aside and why.
+
+    Files that do not exist count as unfinished. The path of the report is the last line, if there is one.
+    """
+    found = [json.loads(path.read_text(encoding="utf-8")) if path.exists() else {} for path in paths]
+    counts = Counter(quality.get("status", "unfinished") for quality in found)
+    lines = [", ".join(f"{counts[status]} {status}" for status in (*STATUSES, "unfinished") if counts[status])]
+    lines[0] = (
+        f"{len(found)} recordings: {lines[0]}; {sum(q.get('changed_samples') or 0 for q in found)} samples changed"
+    )
+    aside = [quality for quality in found if quality.get("status") == "set aside"]
+    lines += [f"  set aside: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in aside[:LISTED]]
+    if len(aside) > LISTED:
+        lines.append(f"  and {len(aside) - LISTED} more, all in the report")
+    return "\n".join([*lines, *([f"Report: {report}"] if report.exists() else [])])

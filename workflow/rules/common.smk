@@ -1,0 +1,173 @@
+"""What the rules share: the settings, the recordings, and what a command is made of.
+
+Reads: the config, the recordings' folder or table, failures.tsv among the results.
+Writes: nothing.
+"""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+from snakemake.io import contains_wildcard
+from snakemake.utils import validate
+
+PROJECT = Path(workflow.basedir)
+SCRIPTS = str(PROJECT / "scripts")
+sys.path.insert(0, SCRIPTS)
+
+from markermend import dataset, outcome, provenance, settings, storage
+from markermend.events import CLASSES
+
+# Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
+# rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
+PYTHON = "python" if workflow.deployment_settings.deployment_method else sys.executable
+
+
+def recordings(name, results):
+    """The data set's recordings, by the folder names of subject and recording."""
+    path = os.path.abspath(os.path.expanduser(name))
+    if os.path.isdir(path):
+        entries = dataset.find(path, results)
+    elif os.path.isfile(path):
+        rows = dataset.read_rows(path)
+        validate({"recordings": rows}, str(PROJECT / "workflow/schemas/recordings.schema.yaml"))
+        entries = dataset.from_rows(rows, path)
+    else:
+        raise dataset.BadDataSet(
+            f"recordings: no such folder or table: {path}\n"
+            "Name the folder that holds them: --config recordings=FOLDER results=FOLDER\n"
+            "or a table of them (config/README.md); `make demo` shows both on made-up recordings"
+        )
+    return {entry.folders: entry for entry in entries}
+
+
+try:
+    settings.prepare(config)
+    validate(config, str(PROJECT / "workflow/schemas/config.schema.yaml"))
+    RESULTS = settings.folder(config["results"])
+    RECORDINGS = recordings(config["recordings"], RESULTS)
+except (dataset.BadDataSet, OSError) as error:
+    raise WorkflowError(str(error))
+
+DETECTORS = [stage for stage in CLASSES if stage in config["detect"]]
+FAILURES = settings.failures(RESULTS)
+
+SUBJECT = f"{RESULTS}/{{subject}}"
+HERE = f"{SUBJECT}/{{recording}}"
+LOGS = f"{HERE}/logs"
+MESH = f"{SUBJECT}/mesh.json"
+MARKERS = f"{HERE}/01_markers.parquet"
+EVENTS = {stage: f"{HERE}/{number:02d}_{stage}.parquet" for number, stage in enumerate(CLASSES, 2)}
+REPAIRED = f"{HERE}/06_repaired.parquet"
+FILLED = f"{HERE}/07_filled.parquet"
+CHANGES = f"{HERE}/changes.tsv"
+CERTIFICATE = f"{HERE}/certificate.json"
+QUALITY = f"{HERE}/08_qc.json"
+PAGE = f"{HERE}/page.html"
+
+
+wildcard_constraints:
+    subject="[^/]+",
+    recording="[^/]+",
+
+
+def entry(wildcards):
+    """The recording that a job is about."""
+    return RECORDINGS[wildcards.subject, wildcards.recording]
+
+
+def original(wildcards):
+    """Path of the original file."""
+    return entry(wildcards).source
+
+
+def nameable(path):
+    """Whether Snakemake can take a file of this name as an input: without braces, and in UTF-8."""
+    return not contains_wildcard(path) and path == path.encode(errors="replace").decode()
+
+
+def source(wildcards):
+    """The original file as an input, where its name can be one."""
+    path = original(wildcards)
+    return path if nameable(path) else []
+
+
+def source_hash(wildcards):
+    """In place of the input: the content of an original whose name cannot be one."""
+    path = original(wildcards)
+    return None if nameable(path) else storage.sha256(Path(path))
+
+
+def subject_name(wildcards):
+    """The subject's own name, as a flag."""
+    return f"--subject={entry(wildcards).subject}"
+
+
+def recording_name(wildcards):
+    """The recording's own name, as a flag."""
+    return f"--recording={entry(wildcards).recording}"
+
+
+def kind(wildcards):
+    """What the table says of the recording's kind, as a flag."""
+    return f"--kind={entry(wildcards).kind}"
+
+
+def rate(wildcards):
+    """What the table says of the recording's rate, as a flag."""
+    return f"--rate={settings.text(entry(wildcards).rate)}"
+
+
+def of_subject(wildcards):
+    """01 of each of the subject's recordings."""
+    pairs = [pair for pair in RECORDINGS if pair[0] == wildcards.subject]
+    return [MARKERS.format(subject=subject, recording=recording) for subject, recording in pairs]
+
+
+def with_suffix(suffix):
+    """A constraint on the subject that only recordings of one format meet: a look ahead at subject and recording."""
+    folders = ["/".join(pair) for pair, item in RECORDINGS.items() if item.format == suffix]
+    return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
+
+
+def mesh_files(wildcards):
+    """Mesh files that the user supplies for the subject: the table's, else the config's."""
+    supplied = {item.mesh for (subject, _), item in RECORDINGS.items() if subject == wildcards.subject and item.mesh}
+    return sorted(supplied) or [os.path.abspath(path) for path in config["mesh"]["files"]]
+
+
+def before(stage):
+    """The events that a detector may look at: those of the detectors before it."""
+    return [EVENTS[earlier] for earlier in DETECTORS[: DETECTORS.index(stage)]]
+
+
+def options(stage, without=()):
+    """The stage's section of the config as flags; a function, so that braces in values stay what they are."""
+    flags = settings.flags(config[stage], without)
+
+    def of_stage(wildcards):
+        return flags
+
+    return of_stage
+
+
+def code(stage, *extra):
+    """The stage's script and modules by content, one entry each: an edit reruns the stages that use the module."""
+    return provenance.code(PROJECT / "scripts" / f"{stage}.py", map(PROJECT.joinpath, extra))
+
+
+def failures(stage):
+    """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
+
+    def of_stage(wildcards):
+        return FAILURES[wildcards.get("subject", "report"), wildcards.get("recording", ""), stage]
+
+    return of_stage
+
+
+def close():
+    """Print what the run came to."""
+    paths = [QUALITY.format(subject=subject, recording=recording) for subject, recording in RECORDINGS]
+    print(outcome.summary(map(Path, paths), Path(RESULTS, "report", "index.html")), file=sys.stderr)
