@@ -21,16 +21,18 @@ for stage in DETECTORS:
             f"{LOGS}/{stage}.tsv"
         group:
             "recording"
+        conda:
+            "../../envs/base.yaml"
         threads: 1
         resources:
             mem_mb=2000,
             runtime=10,
-        conda:
-            "../../envs/base.yaml"
         params:
             *code(stage),
             options=options(stage),
             failures=failures(stage),
+        message:
+            "Detect {rule} in {wildcards.subject}/{wildcards.recording}"
         shell:
             "{PYTHON:q} {SCRIPTS:q}/{rule}.py --markers {input.markers:q} --mesh {input.mesh:q}"
             " --earlier {input.earlier:q} --events {output.events:q} {params.options} 2> {log:q}"

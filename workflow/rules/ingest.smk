@@ -16,12 +16,12 @@ rule ingest:
         f"{LOGS}/ingest.tsv"
     group:
         "subject"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=2000,
         runtime=10,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("ingest"),
         options=options("ingest"),
@@ -32,6 +32,8 @@ rule ingest:
         recording=recording_name,
         kind=kind,
         rate=rate,
+    message:
+        "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/ingest.py --source {params.source:q} --markers {output.markers:q}"
         " {params.subject:q} {params.recording:q} {params.kind:q} {params.rate:q} {params.options} 2> {log:q}"
@@ -49,16 +51,18 @@ rule mesh:
         f"{SUBJECT}/logs/mesh.tsv"
     group:
         "subject"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
         runtime=20,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("mesh"),
         options=options("mesh", without=["files"]),
         failures=failures("mesh"),
+    message:
+        "Infer the body mesh of {wildcards.subject}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/mesh.py --markers {input.markers:q} --mesh-files {input.files:q}"
         " --mesh {output.mesh:q} {params.options} 2> {log:q}"

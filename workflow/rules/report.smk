@@ -23,16 +23,18 @@ rule qc:
         f"{LOGS}/qc.tsv"
     group:
         "recording"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=2000,
         runtime=10,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("qc", "workflow/report"),
         options=options("qc"),
         failures=failures("qc"),
+    message:
+        "Judge {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/qc.py --markers {input.markers:q} --mesh {input.mesh:q} --events {input.events:q}"
         " --repaired {input.repaired:q} --filled {input.filled:q} --changes {input.changes:q}"
@@ -50,16 +52,18 @@ rule report:
         f"{RESULTS}/report/logs/report.log",
     benchmark:
         f"{RESULTS}/report/logs/report.tsv"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
         runtime=20,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("report", "workflow/report"),
         options=options("report"),
         failures=failures("report"),
+    message:
+        "Write the report"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/report.py --qc {input.qc:q} --index {output.index:q} --summary {output.summary:q}"
         " --script {output.script:q} {params.options} 2> {log:q}"

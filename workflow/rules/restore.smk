@@ -18,16 +18,18 @@ rule repair:
         f"{LOGS}/repair.tsv"
     group:
         "recording"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
         runtime=30,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("repair"),
         options=options("repair"),
         failures=failures("repair"),
+    message:
+        "Repair {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/repair.py --markers {input.markers:q} --mesh {input.mesh:q}"
         " --events {input.events:q} --repaired {output.repaired:q} {params.options} 2> {log:q}"
@@ -45,16 +47,18 @@ rule fill:
         f"{LOGS}/fill.tsv"
     group:
         "recording"
+    conda:
+        "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
         runtime=60,
-    conda:
-        "../../envs/base.yaml"
     params:
         *code("fill"),
         options=options("fill"),
         failures=failures("fill"),
+    message:
+        "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --mesh {input.mesh:q}"
         " --filled {output.filled:q} {params.options} 2> {log:q}"
@@ -65,8 +69,6 @@ for suffix in dataset.FORMATS:
     rule:
         name:
             f"export_{suffix}"
-        wildcard_constraints:
-            subject=with_suffix(suffix),
         input:
             source=source,
             markers=MARKERS,
@@ -80,20 +82,24 @@ for suffix in dataset.FORMATS:
             f"{LOGS}/export.log",
         benchmark:
             f"{LOGS}/export.tsv"
+        wildcard_constraints:
+            subject=with_suffix(suffix),
         group:
             "recording"
+        conda:
+            "../../envs/base.yaml"
         threads: 1
         resources:
             mem_mb=2000,
             runtime=10,
-        conda:
-            "../../envs/base.yaml"
         params:
             *code("export"),
             options=options("export"),
             failures=failures("export"),
             source=original,
             source_hash=source_hash,
+        message:
+            "Export {wildcards.subject}/{wildcards.recording}"
         shell:
             "{PYTHON:q} {SCRIPTS:q}/export.py --source {params.source:q} --markers {input.markers:q}"
             " --filled {input.filled:q} --cleaned {output.cleaned:q} --trc {output.trc:q}"
