@@ -22,7 +22,7 @@ class PairStatistics:
 
     markers: sorted names. valid: int (markers,), sampled frames on which each was seen. distance, deviation: float64
     (markers, markers), mm, median and robust standard deviation of the distance. coherence: correlation of the
-    displacements, -1 to 1. NaN where a pair is unknown; the diagonal is 0, 0 and 1. seconds: duration of the recordings.
+    displacements, -1 to 1. NaN where a pair is unknown; the diagonal is 0, 0 and 1. seconds: total duration.
     """
 
     markers: tuple[str, ...]

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from markermend.mesh_tree import Skeleton
+from markermend.mesh_tree import Skeleton, edge_costs
 from markermend.recording import BadRecording
 
 
@@ -18,7 +18,7 @@ from markermend.recording import BadRecording
 class Supplied:
     """Segments as a user wrote them: unique names and markers, parents by index (None for a root), no cycles.
 
-    parent_markers: the marker that each segment hangs on, a marker of its parent; for a root of any other segment, or None.
+    parent_markers: the marker that each segment hangs on, one of its parent; for a root one of any other, or None.
     """
 
     names: tuple[str, ...]
@@ -54,45 +54,54 @@ def parse(entry: dict[str, Any], where: str) -> Supplied:
     if not isinstance(segments, list) or not segments or not all(isinstance(part, dict) for part in segments):
         raise bad("'segments' must be a list of one or more objects")
     for s, part in enumerate(segments):
-        for key in ("name", "markers", "parent", "parent_marker"):
-            if key not in part:
-                raise bad(f"segment {part.get('name', s)!r} lacks the key {key!r}")
-        if not isinstance(part["name"], str) or not part["name"]:
-            raise bad(f"segment {s} needs a name, not {part['name']!r}")
-        markers = part["markers"]
-        if not isinstance(markers, list) or not markers or not all(isinstance(marker, str) for marker in markers):
-            raise bad(f"'markers' of segment {part['name']!r} must be a list of one or more names")
+        if problem := flaw(part):
+            raise bad(f"segment {part.get('name', s)!r}: {problem}")
     names = [part["name"] for part in segments]
     everywhere = [marker for part in segments for marker in part["markers"]]
     for what, values in (("segment", names), ("marker", everywhere)):
         if twice := sorted({value for value in values if values.count(value) > 1}):
-            raise bad(f"{what} {twice[0]!r} stands there twice: each belongs to one place")
-    parents = [parent_index(part, names, bad) for part in segments]
-    for s, part in enumerate(segments):
-        hook, above = part["parent_marker"], parents[s]
-        allowed = everywhere if above is None else segments[above]["markers"]
-        if hook not in allowed and not (above is None and hook is None):
-            raise bad(f"parent_marker {hook!r} of segment {part['name']!r} is no marker of its parent segment")
-        above, steps = parents[s], 0
-        while above is not None:
-            above, steps = parents[above], steps + 1
-            if steps > len(segments):
-                raise bad(f"the parents of segment {part['name']!r} run in a circle: one segment needs parent null")
+            raise bad(f"{what} {twice[0]!r} stands there twice: name it once")
+    parents: list[int | None] = []
+    for part in segments:
+        parent = names.index(part["parent"]) if part["parent"] in names else part["parent"]
+        if parent is not None and parent not in range(len(names)):
+            raise bad(
+                f"segment {part['name']!r}: parent {parent!r} is no segment: give an index from 0, a name, or null"
+            )
+        hook = part["parent_marker"]
+        if hook not in ([*everywhere, None] if parent is None else segments[parent]["markers"]):
+            raise bad(f"segment {part['name']!r}: parent_marker {hook!r} is no marker of its parent segment")
+        parents.append(parent)
+    if (lost := circular(parents)) is not None:
+        raise bad(f"segment {names[lost]!r}: its parents run in a circle: one segment of each body needs parent null")
     members = tuple(tuple(part["markers"]) for part in segments)
-    hooks = tuple(None if part["parent_marker"] in part["markers"] else part["parent_marker"] for part in segments)
-    return Supplied(tuple(names), members, tuple(parents), hooks)
+    return Supplied(tuple(names), members, tuple(parents), tuple(part["parent_marker"] for part in segments))
 
 
-def parent_index(part: dict[str, Any], names: list[str], bad: Any) -> int | None:
-    """Index of a segment's parent, which may be given by index or name."""
-    parent = part["parent"]
-    if parent is None:
-        return None
-    if isinstance(parent, str) and parent in names:
-        return names.index(parent)
-    if isinstance(parent, int) and not isinstance(parent, bool) and 0 <= parent < len(names):
-        return parent
-    raise bad(f"parent {parent!r} of segment {part['name']!r} is no segment: give an index from 0, a name, or null")
+def flaw(part: dict[str, Any]) -> str | None:
+    """What is wrong with one segment by itself, None if nothing is."""
+    for key in ("name", "markers", "parent", "parent_marker"):
+        if key not in part:
+            return f"lacks the key {key!r}"
+    markers, parent = part["markers"], part["parent"]
+    if not isinstance(part["name"], str) or not part["name"]:
+        return "'name' must be a text"
+    if not isinstance(markers, list) or not markers or not all(isinstance(marker, str) for marker in markers):
+        return "'markers' must be a list of one or more names"
+    if isinstance(parent, bool) or not isinstance(parent, int | str | None):
+        return f"'parent' must be the index or name of a segment, or null, not {parent!r}"
+    return None
+
+
+def circular(parents: Sequence[int | None]) -> int | None:
+    """The first segment whose chain of parents never ends, None if all end at a root."""
+    for s in range(len(parents)):
+        above, steps = parents[s], 0
+        while above is not None and steps <= len(parents):
+            above, steps = parents[above], steps + 1
+        if above is not None:
+            return s
+    return None
 
 
 def adopt(
@@ -126,24 +135,25 @@ def adopt(
         choice = [m for b in linked for m in members[b]]
         if hooks[i] not in choice:
             hooks[i] = least(hanging, part, choice)
-    owner = {m: i for i, part in enumerate(members) for m in part}
-    if loose := [m for m in seen if m not in owner]:
+    skeleton = Skeleton(tuple(members), tuple(parents), tuple(hooks), tuple(names))
+    if loose := [m for m in seen if not any(m in part for part in members)]:
         remarks.append(f"not named in the mesh file, hung on the nearest: {', '.join(markers[m] for m in loose)}")
-    for m in loose:
-        hook = least(hanging, (m,), list(owner))
-        near = hook is not None and hanging[m, hook] <= component_cost
-        members.append((m,))
-        names.append(None)
-        parents.append(owner[hook] if near and hook is not None else None)
-        hooks.append(hook if near else None)
-    return Skeleton(tuple(members), tuple(parents), tuple(hooks), tuple(names)), remarks
+    return hang_loose(skeleton, loose, hanging, component_cost), remarks
+
+
+def hang_loose(skeleton: Skeleton, loose: Sequence[int], hanging: np.ndarray, component_cost: float) -> Skeleton:
+    """Add each loose marker as a segment of its own, on the marker of least cost unless that exceeds component_cost."""
+    owner = {m: i for i, part in enumerate(skeleton.members) for m in part}
+    hooks = [least(hanging, (m,), tuple(owner)) for m in loose]
+    hooks = [None if h is None or not hanging[m, h] <= component_cost else h for m, h in zip(loose, hooks, strict=True)]
+    return Skeleton(
+        members=(*skeleton.members, *((m,) for m in loose)),
+        parent=(*skeleton.parent, *(None if hook is None else owner[hook] for hook in hooks)),
+        parent_marker=(*skeleton.parent_marker, *hooks),
+        names=(*skeleton.names, *(None for _ in loose)),
+    )
 
 
 def least(hanging: np.ndarray, part: Sequence[int], choice: Sequence[int]) -> int | None:
     """The marker of `choice` on which hanging `part` costs least: the first where no cost is known, None of none."""
-    if not choice:
-        return None
-    costs = hanging[np.ix_(list(part), list(choice))]
-    known = ~np.isnan(costs)
-    mean = np.where(known.any(axis=0), np.nan_to_num(costs).sum(axis=0) / np.maximum(known.sum(axis=0), 1), np.inf)
-    return int(choice[int(np.argmin(mean))])
+    return int(edge_costs(hanging, [tuple(part), tuple(choice)])[1][0, 1]) if choice else None

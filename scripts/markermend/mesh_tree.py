@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,7 +72,7 @@ def cluster(dissimilarity: np.ndarray, *, cut_mm: float) -> list[tuple[int, ...]
     return [tuple(group) for group in groups.values()]
 
 
-def edge_costs(hanging: np.ndarray, members: list[tuple[int, ...]]) -> tuple[np.ndarray, np.ndarray]:
+def edge_costs(hanging: np.ndarray, members: Sequence[tuple[int, ...]]) -> tuple[np.ndarray, np.ndarray]:
     """Cost of hanging each segment (row) on its best marker of each other segment (column), and that marker.
 
     hanging: (markers, markers), mm, cost of hanging marker (row) on marker (column), NaN = unknown. The cost of a
