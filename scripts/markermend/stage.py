@@ -76,10 +76,11 @@ class Stage:
         nargs = ("*" if optional else "+") if many else None
         self._reads.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
-    def writes(self, name: str, help: str) -> None:
-        """Declare an output file."""
+    def writes(self, name: str, help: str, *, many: bool = False) -> None:
+        """Declare an output file, or any number of them."""
         self.outputs.append(name)
-        self._writes.add_argument(flag(name), type=Path, required=True, metavar="FILE", help=help)
+        nargs = "*" if many else None
+        self._writes.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
     def option(self, name: str, parse: Callable[[str], Any], help: str, *, many: bool = False, **more: Any) -> None:
         """Declare an option; its value reaches the work function as `options[name]`."""

@@ -1,0 +1,169 @@
+"""From restored trajectories back to the recording's own file: what changed, the list of changes, and the certificate."""
+
+from __future__ import annotations
+
+import csv
+import io
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from markermend import storage
+from markermend.formats import PatchResult, comparison, files
+from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Recording, Restored, runs
+
+COLUMNS = (
+    "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
+    "method", "samples", "largest_change_mm", "expected_error_mm",
+)  # fmt: skip
+"""The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
+
+
+def changed_samples(measured: Recording, restored: Restored) -> np.ndarray:
+    """Bool (frames, markers): True where the restored position is not the measured one, bit for bit (NaN equals NaN)."""
+    same = (measured.positions == restored.positions) | (np.isnan(measured.positions) & np.isnan(restored.positions))
+    return ~same.all(axis=2)
+
+
+def check_invariant(measured: Recording, restored: Restored) -> None:
+    """Raise BadRecording where a sample said to be measured is not the one that was ingested."""
+    wrong = changed_samples(measured, restored) & (restored.origin == MEASURED)
+    if wrong.any():
+        raise BadRecording(f"{int(wrong.sum())} samples marked as measured differ from the recording: run it again")
+
+
+def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]]:
+    """One row per change (COLUMNS), by marker and frame: repairs and fills, what was blanked, and their figures.
+
+    The facts of the restored recording name the changes (`repairs`, `fills`); what a fill covers of a repair that
+    blanked its samples is told by the fill.
+    """
+    changed = changed_samples(measured, restored)
+    rows = []
+    for change, (start, stop) in _named_changes(restored):
+        m = restored.markers.index(change["marker"])
+        own = np.zeros(restored.frames, bool)
+        own[start:stop] = changed[start:stop, m]
+        own &= (restored.origin[:, m] == FILLED) == (change["class"] == "filled")
+        for first, last in runs(own) if change["class"] == "filled" else [(start, stop)] * bool(own.any()):
+            rows.append(_row(measured, restored, change, m, first, last, own))
+    return sorted(rows, key=lambda row: (row["marker"], row["first_frame"], row["class"]))
+
+
+def _named_changes(restored: Restored) -> Iterator[tuple[dict[str, Any], tuple[int, int]]]:
+    """The changes that the facts name, with their intervals; what repair blanked has the method `blanked`."""
+    facts = restored.facts
+    for repair in facts.get("repairs", []):
+        yield repair, (repair["start"], repair["stop"])
+    for left in facts.get("repairs_left", []):
+        if left.get("blanked"):
+            yield {**left, "method": "blanked"}, (left["start"], left["stop"])
+    for fill in facts.get("fills", []):
+        yield {**fill, "class": "filled"}, (fill["start"], fill["stop"])
+
+
+def _row(
+    measured: Recording, restored: Restored, change: dict[str, Any], m: int, start: int, stop: int, own: np.ndarray
+) -> dict[str, Any]:
+    """One row of changes.tsv, its figures over the samples `own` (frames,) in [start, stop)."""
+    span = np.flatnonzero(own[start:stop]) + start
+    moved = np.linalg.norm(restored.positions[span, m] - measured.positions[span, m], axis=1)
+    error = restored.error[span, m]
+    return {
+        "recording": restored.facts.get("recording", ""),
+        "marker": change["marker"],
+        "first_frame": restored.first_frame + start,
+        "last_frame": restored.first_frame + stop - 1,
+        "start_s": round(start / restored.rate, 4),
+        "stop_s": round(stop / restored.rate, 4),
+        "class": change["class"],
+        "score": _rounded(change.get("score")),
+        "axes": change.get("axes") or "",
+        "partner": change.get("partner") or "",
+        "method": change["method"],
+        "samples": len(span),
+        "largest_change_mm": _rounded(np.nanmax(moved) if np.isfinite(moved).any() else None),
+        "expected_error_mm": _rounded(np.nanmax(error) if np.isfinite(error).any() else None),
+    }
+
+
+def _rounded(value: float | None) -> float | str:
+    """A figure for a person, blank where there is none."""
+    return "" if value is None else round(float(value), 3)
+
+
+def changes_table(rows: list[dict[str, Any]]) -> str:
+    """The rows of changes as tab-separated text with a header."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Restored) -> dict[str, Any]:
+    """Write the cleaned copy of the source and return its certificate.
+
+    Only samples that changed differ from the source; the copy is compared with it byte by byte (text: cell by cell) by
+    code that had no part in writing it. Raises BadRecording where the source is not the file that was ingested, or
+    where any other byte differs.
+    """
+    check_invariant(measured, restored)
+    facts = measured.facts["source"]
+    before = storage.sha256(source)
+    if before != facts["sha256"]:
+        raise BadRecording(f"{source.name} has changed since it was ingested: run the workflow again")
+    changed = changed_samples(measured, restored)
+    columns = facts["columns"]
+    with storage.replacing(cleaned) as temporary:
+        if changed.any():
+            result = files.write_back(
+                source,
+                temporary,
+                format=facts["format"],
+                positions=restored.positions,
+                changed=changed,
+                columns=columns,
+            )
+        else:
+            shutil.copyfile(source, temporary)
+            result = PatchResult(0)
+        difference = comparison.compare(source, temporary, format=facts["format"], changed=changed, columns=columns)
+        after = storage.sha256(temporary)
+        if not difference.other_bytes_equal:
+            raise BadRecording(f"writing {cleaned.name} would have changed more than the repaired samples; not written")
+    blanked = changed & (restored.origin == MISSING)
+    return {
+        "source": facts["name"],
+        "original_sha256": before,
+        "cleaned_sha256": after,
+        "changed_samples": result.samples,
+        "blanked_samples": int(blanked.sum()),
+        "changed_bytes": difference.changed_bytes,
+        "other_bytes_equal": difference.other_bytes_equal,
+        "refused": [
+            {"marker": measured.markers[columns.index(column)], "frame": measured.first_frame + frame}
+            for frame, column in result.refused
+        ],
+    }
+
+
+def pass_through(source: Path, cleaned: Path, stage: str, reason: str) -> dict[str, Any]:
+    """Copy a recording that was set aside, byte for byte, and return a certificate that says so."""
+    with storage.replacing(cleaned) as temporary:
+        shutil.copyfile(source, temporary)
+        after = storage.sha256(temporary)
+    return {
+        "source": source.name,
+        "original_sha256": storage.sha256(source),
+        "cleaned_sha256": after,
+        "changed_samples": 0,
+        "blanked_samples": 0,
+        "changed_bytes": 0,
+        "other_bytes_equal": True,
+        "refused": [],
+        "untouched": {"stage": stage, "reason": reason},
+    }

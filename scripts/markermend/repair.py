@@ -1,0 +1,281 @@
+"""Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
+
+A repair replaces the samples of its interval and says how and how surely; where none can be trusted, the samples become
+missing and say why. Samples outside the intervals are returned bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+from typing import Any
+
+import numpy as np
+
+from markermend import events as finding
+from markermend.events import Event
+from markermend.predictors import Prediction, Predictor, Scene
+from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored, runs
+
+ORIGIN_OF = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
+"""What a repaired sample is called, by the detector that found it."""
+
+BALL68, BALL95 = 1.8724, 2.7955
+"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
+
+
+@dataclass(frozen=True)
+class RepairOptions:
+    """Settings of the repair (config section `repair`).
+
+    methods: for each class the methods to try, best first: names of predictors, `savitzky_golay`, `offset` (subtract
+    a step), `swap` (swap back with the partner) or `blank`. protect: marker name patterns never touched.
+    max_altered_share: with more than this share of the seen samples found, nothing is repaired. max_repair_s: longer
+    findings become missing. max_error_mm: likewise where the expected error (68 %) exceeds it. coherent_share: a step is
+    subtracted where what remains of it varies by less than this share of its size. savitzky_golay_order,
+    savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the error of a method is
+    told that does not state one.
+    """
+
+    methods: Mapping[str, Sequence[str]]
+    protect: Sequence[str]
+    max_altered_share: float
+    max_repair_s: float
+    max_error_mm: float
+    coherent_share: float
+    savitzky_golay_order: int
+    savitzky_golay_s: float
+    trials: int
+
+
+@dataclass(frozen=True)
+class _Proposal:
+    """New samples for one marker and interval: positions (n, 3), mm, and their standard deviation per axis (n,), mm."""
+
+    method: str
+    positions: np.ndarray
+    error: np.ndarray
+
+
+def repair(
+    recording: Recording,
+    *,
+    found: Mapping[str, Sequence[Event]],
+    neighbours: Sequence[np.ndarray],
+    predictors: Mapping[str, Predictor],
+    options: RepairOptions,
+) -> Restored:
+    """Repair the findings of each class (in detector order) and return the recording with the story of every sample.
+
+    neighbours: as in Scene. predictors: by name, those that `options.methods` mention. The facts of the result gain
+    `repairs` (marker, start, stop, class, method, score, axes, partner) and `repairs_left` (the same with a reason and
+    whether the samples were blanked). Missing samples stay missing. Static recordings and protected markers are left.
+    """
+    work = _Repairer(recording, found, neighbours, predictors, options)
+    refusal = work.refusal()
+    for marker, start, stop, members in work.findings():
+        reason = refusal or work.protection(marker)
+        if reason:
+            work.leave(marker, start, stop, members, reason, blank=False)
+        elif len(members) > 1:
+            work.leave(marker, start, stop, members, "several kinds of artifact at once: treated as a gap", blank=True)
+        else:
+            work.mend(marker, start, stop, members)
+    return work.restored()
+
+
+class _Repairer:
+    """The state of one repair: the original, the scene without any finding, and the result as it grows."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        found: Mapping[str, Sequence[Event]],
+        neighbours: Sequence[np.ndarray],
+        predictors: Mapping[str, Predictor],
+        options: RepairOptions,
+    ) -> None:
+        self.recording, self.predictors, self.options = recording, predictors, options
+        self.found = {kind: list(events) for kind, events in found.items() if events}
+        self.flagged = np.zeros((recording.frames, len(recording.markers)), bool)
+        for events in self.found.values():
+            self.flagged |= finding.mask(events, recording.frames, recording.markers)
+        self.flagged &= ~recording.missing
+        believed = np.where(self.flagged[..., None], np.nan, recording.positions)
+        self.scene = Scene(believed, recording.rate, neighbours)
+        self.positions = recording.positions.copy()
+        self.origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
+        self.error = np.where(recording.missing, np.nan, 0.0)
+        self.repairs: list[dict[str, Any]] = []
+        self.left: list[dict[str, Any]] = []
+        self.swapped: set[tuple[str, int, int]] = set()
+
+    def refusal(self) -> str | None:
+        """Why nothing at all may be repaired, or None."""
+        if self.recording.facts.get("kind") == "static":
+            return "static recording: never repaired"
+        share = self.flagged.sum() / max(1, int((~self.recording.missing).sum()))
+        if share > self.options.max_altered_share:
+            return f"findings cover {share:.1%} of the recording, more than {self.options.max_altered_share:.0%}"
+        return None
+
+    def protection(self, marker: str) -> str | None:
+        """Why this marker may not be repaired, or None."""
+        return "protected" if any(fnmatchcase(marker, pattern) for pattern in self.options.protect) else None
+
+    def findings(self) -> list[tuple[str, int, int, list[tuple[str, Event]]]]:
+        """The intervals to work on, by marker and time, each with the findings (class, event) that overlap in it."""
+        together: list[tuple[str, int, int, list[tuple[str, Event]]]] = []
+        everything = [(event, kind) for kind, events in self.found.items() for event in events]
+        for event, kind in sorted(everything, key=lambda pair: pair[0].order):
+            last = together[-1] if together else None
+            if last and last[0] == event.marker and event.start < last[2]:
+                together[-1] = (event.marker, last[1], max(last[2], event.stop), [*last[3], (kind, event)])
+            else:
+                together.append((event.marker, event.start, event.stop, [(kind, event)]))
+        return together
+
+    def mend(self, marker: str, start: int, stop: int, members: list[tuple[str, Event]]) -> None:
+        """Repair one finding by the first of its class's methods that can be trusted; blank it if none can."""
+        kind, event = members[0]
+        if (marker, start, stop) in self.swapped:
+            return
+        if stop - start > self.options.max_repair_s * self.recording.rate and event.partner is None:
+            limit = f"longer than {self.options.max_repair_s:g} s"
+            self.leave(marker, start, stop, members, limit, blank=True)
+            return
+        reasons = []
+        for method in self.options.methods[kind]:
+            if method == "swap":
+                if event.partner in self.recording.markers:
+                    self._swap_back(event)
+                    return
+                continue
+            proposal = self._propose(method, self.recording.markers.index(marker), start, stop)
+            worst = float(np.max(proposal.error)) * BALL68 if proposal else np.nan
+            if proposal and worst <= self.options.max_error_mm:
+                self._accept(kind, event, proposal)
+                return
+            reasons.append(f"{method}: " + (f"expected error {worst:.1f} mm" if proposal else "not applicable"))
+        self.leave(marker, start, stop, members, "no repair can be trusted (" + "; ".join(reasons) + ")", blank=True)
+
+    def leave(
+        self, marker: str, start: int, stop: int, members: list[tuple[str, Event]], reason: str, *, blank: bool
+    ) -> None:
+        """Note that an interval was not repaired; with `blank`, its samples become missing."""
+        if blank:
+            m = self.recording.markers.index(marker)
+            self.positions[start:stop, m] = np.nan
+            self.origin[start:stop, m] = MISSING
+            self.error[start:stop, m] = np.nan
+        kinds = "+".join(dict.fromkeys(ORIGIN_OF[kind] for kind, _ in members))
+        score = max(event.score for _, event in members)
+        note = {"marker": marker, "start": start, "stop": stop, "class": kinds, "score": score}
+        self.left.append({**note, "reason": reason, "blanked": blank})
+
+    def restored(self) -> Restored:
+        """The repaired recording."""
+        facts = {**self.recording.facts, "repairs": self.repairs, "repairs_left": self.left}
+        common = (self.recording.markers, self.positions, self.recording.rate, self.recording.first_frame, facts)
+        return Restored(*common, self.origin, self.error * BALL68, self.error * BALL95)
+
+    def _accept(self, kind: str, event: Event, proposal: _Proposal) -> None:
+        """Write a proposal where the marker was seen, and note the repair."""
+        m = self.recording.markers.index(event.marker)
+        seen = ~self.recording.missing[event.start : event.stop, m]
+        rows = np.flatnonzero(seen) + event.start
+        self.positions[rows, m] = proposal.positions[seen]
+        self.origin[rows, m] = ORIGINS.index(ORIGIN_OF[kind])
+        self.error[rows, m] = proposal.error[seen]
+        self._note(event, ORIGIN_OF[kind], proposal.method)
+
+    def _note(self, event: Event, origin: str, method: str) -> None:
+        """Note a repair."""
+        self.repairs.append({**vars(event), "class": origin, "method": method})
+
+    def _swap_back(self, event: Event) -> None:
+        """Exchange the original samples of a marker and its partner over the interval."""
+        span = slice(event.start, event.stop)
+        pair = [self.recording.markers.index(name) for name in (event.marker, event.partner)]
+        self.positions[span, pair] = self.recording.positions[span, pair[::-1]]
+        missing = np.isnan(self.positions[span, pair]).any(axis=2)
+        self.origin[span, pair] = np.where(missing, MISSING, ORIGINS.index("swap"))
+        self.error[span, pair] = np.where(missing, np.nan, 0.0)
+        self.swapped.add((str(event.partner), event.start, event.stop))
+        self._note(event, "swap", "swap")
+        self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap")
+
+    def _propose(self, method: str, m: int, start: int, stop: int) -> _Proposal | None:
+        """What a method would write, or None where it cannot tell for every sample."""
+        if method == "blank":
+            return None
+        if method == "offset":
+            return self._without_offset(m, start, stop)
+        if method == "savitzky_golay":
+            return self._smoothed(m, start, stop)
+        prediction = self.predictors[method].predict(self.scene, m, start, stop)
+        positions, error = prediction.positions[1:-1], prediction.error[1:-1]
+        if np.isnan(positions).any():
+            return None
+        if np.isnan(error).any():
+            error = np.full(stop - start, self._tried_error(method, m, start, stop))
+        return None if np.isnan(error).any() else _Proposal(method, positions, error)
+
+    def _tried_error(self, method: str, m: int, start: int, stop: int) -> float:
+        """Root mean square error per axis, mm, of a method on stretches of the same length hidden nearby; NaN if none fits."""
+        length = stop - start
+        errors = []
+        for trial in range(1, self.options.trials + 1):
+            for first in (start - 2 * trial * length - 2, stop + (2 * trial - 1) * length + 2):
+                last = first + length
+                if first < 1 or last >= self.recording.frames or not self.scene.present[first - 1 : last + 1, m].all():
+                    continue
+                guess: Prediction = self.predictors[method].predict(self.scene, m, first, last)
+                errors.append(np.mean((guess.positions[1:-1] - self.scene.positions[first:last, m]) ** 2))
+        return float(np.sqrt(np.mean(errors))) if errors else np.nan
+
+    def _without_offset(self, m: int, start: int, stop: int) -> _Proposal | None:
+        """The measured samples less a constant offset, where they are otherwise coherent with the prediction.
+
+        The offset is told by the jumps at both edges, which the prediction's slow error does not touch.
+        """
+        prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
+        rows = np.arange(start - 1, stop + 1)
+        inside = (rows >= 0) & (rows < self.recording.frames)
+        observed = np.full((len(rows), 3), np.nan)
+        observed[inside] = self.recording.positions[rows[inside], m]
+        residual = observed - prediction.positions
+        body = residual[1:-1]
+        if np.isnan(body).any() or np.isnan(residual[[0, -1]]).any():
+            return None
+        edges = np.stack([residual[1] - residual[0], residual[-2] - residual[-1]])
+        offset = edges.mean(axis=0)
+        size = np.linalg.norm(offset)
+        uneven = np.linalg.norm(edges[0] - edges[1]) / 2
+        wobble = np.linalg.norm(np.std(body, axis=0))
+        if max(uneven, wobble) > self.options.coherent_share * size:
+            return None
+        error = np.full(stop - start, np.sqrt(uneven**2 + wobble**2 / len(body)) / np.sqrt(3))
+        positions = self.recording.positions[start:stop, m] - offset
+        return _Proposal("offset", positions, np.maximum(error, 1e-6))
+
+    def _smoothed(self, m: int, start: int, stop: int) -> _Proposal | None:
+        """The distorted samples under a Savitzky-Golay smoother (order 13 over 101 samples in the paper).
+
+        Its error is told by how far it moved the samples.
+        """
+        window, order = (
+            2 * int(self.options.savitzky_golay_s * self.recording.rate / 2) + 1,
+            self.options.savitzky_golay_order,
+        )
+        run = next((r for r in runs(~self.recording.missing[:, m]) if r[0] <= start and stop <= r[1]), None)
+        if run is None:
+            return None
+        from scipy.signal import savgol_filter  # slow to import, and not among the default methods
+
+        window = min(window, (run[1] - run[0] - 1) // 2 * 2 + 1)
+        smooth = savgol_filter(self.recording.positions[slice(*run), m], window, min(order, window - 1), axis=0)
+        positions = smooth[start - run[0] : stop - run[0]]
+        moved = np.linalg.norm(positions - self.recording.positions[start:stop, m], axis=1)
+        return _Proposal("savitzky_golay", positions, np.full(stop - start, np.sqrt(np.mean(moved**2) / 3)))
