@@ -87,12 +87,12 @@ def frame_rows(sheet: Sheet, start: int, delimiter: bytes, *, section: bool) -> 
     """
     lines = sheet.filled(start, delimiter)
     numbered = [_is_numbered(sheet.lines[line], delimiter) for line in lines]
+    if section:
+        gaps = [line > before + 1 for before, line in zip([start - 1, *lines], lines, strict=False)]
+        end = next((i for i in range(len(lines)) if gaps[i] and not numbered[i]), len(lines))
+        lines, numbered = lines[:end], numbered[:end]
     first = next((i for i, number in enumerate(numbered) if number), len(lines))
     lines, numbered = lines[first:], numbered[first:]
-    if section:
-        ends = (i for i in range(1, len(lines)) if not numbered[i] and lines[i] > lines[i - 1] + 1)
-        end = next(ends, len(lines))
-        lines, numbered = lines[:end], numbered[:end]
     last = max((i for i, number in enumerate(numbered) if number), default=-1) + 1
     warnings = []
     if last < len(lines):

@@ -113,7 +113,7 @@ def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
         "\t" + "".join(f"\tX{i}\tY{i}\tZ{i}" for i in range(1, count + 1)),
         "",
     ]
-    positions = (recording.positions / MILLIMETRES[unit]).reshape(recording.frames, -1)
+    positions = (recording.positions / MILLIMETRES[unit]).reshape(recording.frames, 3 * count)
     unseen = np.repeat(recording.missing, 3, axis=1).tolist()
     for row, (cells, blank) in enumerate(zip(positions.tolist(), unseen, strict=True)):
         written = ["" if gone else f"{cell:.{decimals}f}" for cell, gone in zip(cells, blank, strict=True)]
