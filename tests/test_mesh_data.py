@@ -32,7 +32,18 @@ PART = {
 UNAMBIGUOUS = ("head", "thorax", "pelvis", "Lforearm", "Rforearm", "Lfoot", "Rfoot")
 JOINTS = {
     frozenset(part.format(side) for part in pair.split("-"))
-    for pair in ["head-thorax", "thorax-pelvis", "thorax-{}shoulder", "thorax-{}arm", "{}shoulder-{}arm", "{}arm-{}forearm", "{}forearm-{}hand", "pelvis-{}thigh", "{}thigh-{}shank", "{}shank-{}foot"]
+    for pair in [
+        "head-thorax",
+        "thorax-pelvis",
+        "thorax-{}shoulder",
+        "thorax-{}arm",
+        "{}shoulder-{}arm",
+        "{}arm-{}forearm",
+        "{}forearm-{}hand",
+        "pelvis-{}thigh",
+        "{}thigh-{}shank",
+        "{}shank-{}foot",
+    ]
     for side in "LR"
 }
 WINDOWS = {"85_12.c3d": 7, "HDM_mm_01-02_03_120.c3d": 7, "85_02.c3d": 1}

@@ -49,6 +49,13 @@ def test_a_branching_body_gives_exact_segments_and_tree(seed):
     assert edges(mesh) == joined
 
 
+def test_the_residual_is_the_deviation_of_a_marker_per_axis(chain):
+    names, positions, _ = chain
+    shaking = positions + np.random.default_rng(2).normal(0, 2, positions.shape)
+    mesh = infer_mesh([recording(names, shaking)], **OPTIONS)
+    assert [s.residual_mm for s in mesh.segments] == pytest.approx([2.0] * 5, rel=0.1)
+
+
 def test_children_hang_on_the_marker_at_their_joint(chain_mesh):
     hooks = {s.markers[0][0]: s.parent_marker for s in chain_mesh.segments}
     assert (hooks["3"], hooks["4"]) == ("2d", "3d")
@@ -123,7 +130,7 @@ def test_a_subject_that_stands_still_is_warned_about(chain):
     mesh = infer_mesh([recording(names, still)], **OPTIONS)
     assert [w.split(":")[0] for w in mesh.warnings] == [
         "only 3.0 s of motion (10 s wanted)",
-        f"only {len(mesh.segments)} segments for 20 markers (3 wanted)",
+        f"only {len(mesh.segments)} segments for 20 markers (4 wanted)",
         "distances vary by only 4 mm (30 mm wanted)",
     ]
     assert all("range-of-motion trial or supply a mesh" in w for w in mesh.warnings)
@@ -195,6 +202,7 @@ def test_recordings_are_pooled_and_their_order_does_not_matter(chain, chain_mesh
     assert edges(one[0]) == edges(chain_mesh)
     assert one[0].absent == {"a": (names[0],)}
     assert one[0].warnings == ()
+    assert one[0].segments == infer_mesh([first, second], **OPTIONS).segments
     alone = infer_mesh([static], **OPTIONS)
     assert len(alone.segments) == 1
     assert len(alone.warnings) >= 2

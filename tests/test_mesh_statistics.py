@@ -96,6 +96,17 @@ def test_frozen_markers_have_no_coherence_and_pairs_never_seen_together_are_unkn
     assert np.isnan(found.hanging(found.dissimilarity(300.0))[1, 2])
 
 
+def test_cost_and_dissimilarity_are_those_defined(gappy):
+    names, positions = gappy
+    keep = [0, 1, 2, 6]
+    names, positions = [names[m] for m in keep], positions[:, keep]
+    found = mesh_statistics.pair_statistics([recording(names, positions)], frames=500, valid_frames=60, markers=names)
+    median, deviation = np.nan_to_num(naive_distances(positions, 60))
+    near = found.dissimilarity(250.0)
+    np.testing.assert_allclose(near, deviation * median / 250.0, atol=1e-6)
+    np.testing.assert_allclose(found.hanging(near), near * (2 - naive_coherence(positions)), atol=1e-4)
+
+
 @pytest.mark.parametrize(("frames", "kept"), [(100, 100), (101, 101), (7, 7), (1000, 1000), (2500, 1000)])
 def test_thinning_keeps_the_duration_and_spreads_the_frames(frames, kept):
     whole = recording(["a"], np.arange(3000.0).reshape(1000, 1, 3))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -28,7 +29,7 @@ def excitation(
     if statistics.seconds < excitation_s:
         lacks.append(f"only {statistics.seconds:.1f} s of motion ({excitation_s:g} s wanted): {advice}")
     if segments < wanted:
-        lacks.append(f"only {segments} segments for {markers} markers ({wanted:.0f} wanted): {advice}")
+        lacks.append(f"only {segments} segments for {markers} markers ({math.ceil(wanted)} wanted): {advice}")
     if sigma < excitation_sigma_mm:
         lacks.append(f"distances vary by only {sigma:.0f} mm ({excitation_sigma_mm:g} mm wanted): {advice}")
     share = min(1.0, statistics.seconds / excitation_s, segments / max(wanted, 1.0), sigma / excitation_sigma_mm)
