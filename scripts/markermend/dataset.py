@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from markermend.formats.files import READABLE
 from markermend.naming import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode
 
-FORMATS = ("c3d", "trc", "csv", "tsv")
+FORMATS = tuple(ending[1:] for ending in READABLE)
 """Suffixes of the files that can be read. Of two files with one stem, the first in this order keeps it as its name."""
 
 COLUMNS = ("recording", "subject", "file", "kind", "rate", "mesh")

@@ -1,0 +1,39 @@
+# make demo: from nothing to a report on made-up recordings. Needs Python 3.11 or later and make.
+PYTHON ?= python3
+BIN := .venv/bin
+CORES ?= all
+
+.PHONY: demo test lint lock clean
+
+demo: .venv/ready
+	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
+	$(BIN)/snakemake --cores $(CORES) --config recordings=demo/recordings results=demo/results
+	@echo
+	@echo "$(CURDIR)/demo/results/report/index.html"
+
+test: lint
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 -m "not slow"
+
+lint: .venv/ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/mypy
+
+# The newest versions of what requirements.in names; then bring envs/*.yaml in step.
+lock: .venv/ready
+	$(PYTHON) -m venv .venv-lock
+	.venv-lock/bin/pip install --quiet uv
+	.venv-lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --no-emit-find-links \
+		--python-version 3.11 --upgrade --custom-compile-command "make lock" requirements.in --output-file requirements.lock
+	rm -r .venv-lock
+
+.venv/ready: requirements.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+		|| (echo "markermend needs Python 3.11 or later: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1)
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --require-hashes --requirement requirements.lock
+	touch $@
+
+clean:
+	rm -rf demo .venv .snakemake

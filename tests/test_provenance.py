@@ -1,0 +1,57 @@
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from markermend import provenance
+
+SCRIPTS = Path(__file__).parents[1] / "scripts"
+STAGES = sorted(path.stem for path in SCRIPTS.glob("*.py"))
+
+
+@pytest.fixture
+def project(tmp_path):
+    files = {
+        "scripts/fill.py": "from markermend import ensemble\n",
+        "scripts/markermend/__init__.py": "",
+        "scripts/markermend/ensemble.py": "def late():\n    from markermend.weights import kde\n",
+        "scripts/markermend/weights.py": "import json\n",
+        "scripts/markermend/other.py": "",
+        "workflow/report/page.html": "<p>",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def names(entries):
+    return [entry.split(":")[0] for entry in entries]
+
+
+def test_code_is_the_script_what_it_imports_and_what_it_reads(project):
+    entries = provenance.code(project / "scripts/fill.py", [project / "workflow/report"])
+    modules = ["markermend/__init__.py", "markermend/ensemble.py", "markermend/weights.py"]
+    assert names(entries) == ["fill.py", *modules, "workflow/report/page.html"]
+
+
+def test_an_edit_changes_the_entry_of_its_module_only(project):
+    before = provenance.code(project / "scripts/fill.py")
+    provenance.content_hash.cache_clear()
+    (project / "scripts/markermend/weights.py").write_text("import math\n")
+    (project / "scripts/markermend/other.py").write_text("import math\n")
+    after = provenance.code(project / "scripts/fill.py")
+    assert names(set(after) - set(before)) == ["markermend/weights.py"]
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_no_module_escapes(stage):
+    listed = set(names(provenance.code(SCRIPTS / f"{stage}.py")))
+    show = "import runpy, sys; sys.path.insert(0, sys.argv[1]); runpy.run_path(sys.argv[2])\n" + (
+        "print(*[m.__file__ for n, m in list(sys.modules.items()) if n.split('.')[0] == 'markermend'], sep='\\n')"
+    )
+    command = [sys.executable, "-c", show, str(SCRIPTS), str(SCRIPTS / f"{stage}.py")]
+    loaded = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    assert loaded
+    assert {Path(path).relative_to(SCRIPTS).as_posix() for path in loaded} <= listed

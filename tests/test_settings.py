@@ -1,0 +1,75 @@
+import shlex
+
+import pytest
+
+from markermend import settings
+from markermend.dataset import BadDataSet
+
+
+def test_flags_carry_every_kind_of_value():
+    section = {
+        "cut_mm": 12,
+        "share": 0.1,
+        "deep": True,
+        "limit": None,
+        "names": ["static", "a b", "{x}"],
+        "none": [],
+        "prior": {"b": 1, "a": [2]},
+        "dash": "-x",
+    }
+    assert shlex.split(settings.flags(section, without=["share"])) == [
+        "--cut-mm=12",
+        "--deep=true",
+        "--limit=none",
+        "--names",
+        "static",
+        "a b",
+        "{x}",
+        "--none",
+        '--prior={"a": [2], "b": 1}',
+        "--dash=-x",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "detect"),
+    [
+        ("[]", []),
+        ("", []),
+        (None, []),
+        ("peaks", ["peaks"]),
+        ("[peaks, slow]", ["peaks", "slow"]),
+        (["steps"], ["steps"]),
+    ],
+)
+def test_detect_may_come_from_a_command_line(given, detect):
+    config = {"recordings": "a", "results": "b", "detect": given}
+    settings.prepare(config)
+    assert config["detect"] == detect
+
+
+@pytest.mark.parametrize("value", [202301, True, None, ["a"]])
+def test_a_folder_that_snakemake_took_for_something_else_is_an_error(value):
+    with pytest.raises(BadDataSet, match=r"results: Snakemake understood .* Write \./ before"):
+        settings.prepare({"recordings": "a", "results": value, "detect": []})
+
+
+def test_results_in_a_folder_with_braces_are_refused():
+    with pytest.raises(BadDataSet, match="braces"):
+        settings.folder("results/{a}")
+
+
+def test_failures_are_counted_by_subject_recording_and_stage(tmp_path):
+    for place, text in {
+        "S01/walk": "fill\tno memory\nfill\tno disk\nqc\tx\n",
+        "S01": "mesh\tx\n",
+        "report": "report\tx\n",
+    }.items():
+        (tmp_path / place).mkdir(parents=True, exist_ok=True)
+        (tmp_path / place / "failures.tsv").write_text(text)
+    assert settings.failures(str(tmp_path)) == {
+        ("S01", "walk", "fill"): 2,
+        ("S01", "walk", "qc"): 1,
+        ("S01", "", "mesh"): 1,
+        ("report", "", "report"): 1,
+    }
