@@ -32,6 +32,9 @@ limbs the pelvis goes on evenly and the standing foot does not slide."""
 WANDER = {"head": 3.0, "thorax": 1.2, "pelvis": 0.6, "hand": 5.0, "forearm": 3.0, "upper_arm": 2.5}
 """Standard deviation in degrees of the slow wandering of a joint that no movement repeats exactly; legs 0.5."""
 
+QUIET = 0.12
+"""How much of that wandering is left in quiet standing."""
+
 
 Angle = np.ndarray | float
 
@@ -94,7 +97,7 @@ def move(body: Body, *, time: np.ndarray, activities: Sequence[str], rng: np.ran
     angles = np.zeros((len(time), len(body.segments), 3))
     heading = np.zeros(len(time)) + rng.uniform(-180.0, 180.0)
     strides = 0.94 * rng.normal(1.0, 0.04) * time + 0.02 * wander(time, every=2.0, shape=(), rng=rng)
-    entered = np.ones(len(time))
+    entered, lively = np.ones(len(time)), np.zeros(len(time))
     for number, (name, start, stop) in enumerate(bouts):
         pose = Pose(body, time)
         _stand(pose)
@@ -106,11 +109,12 @@ def move(body: Body, *, time: np.ndarray, activities: Sequence[str], rng: np.ran
             half = max(CHANGES[name], CHANGES[bouts[number + 1][0]]) / 2
             left = minimum_jerk(time, stop - half, stop + half)
         angles += (entered - left)[:, None, None] * pose.angles
+        lively += (entered - left) * (QUIET if name == "stand" else 1.0)
         entered = left
         if name == "walk":
             heading += rng.choice([-1, 1]) * rng.uniform(90, 190) * minimum_jerk(time, start + 0.8, stop - 0.6)
     spread = np.array([WANDER.get(kind(name), 0.5) for name in body.segments])
-    angles += spread[:, None] * wander(time, every=0.7, shape=angles.shape[1:], rng=rng)
+    angles += lively[:, None, None] * spread[:, None] * wander(time, every=0.7, shape=angles.shape[1:], rng=rng)
     return Motion(angles, heading, bouts)
 
 
@@ -142,7 +146,7 @@ def _stand(pose: Pose) -> None:
 def _quiet(pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: object) -> None:
     """Stand and sway a little."""
     sway = 2 * np.pi * 0.3 * time
-    pose.add("thorax", np.sin(sway), 0.5 * np.cos(sway))
+    pose.add("thorax", 0.4 * np.sin(sway), 0.3 * np.cos(sway))
 
 
 def _walk(

@@ -1,0 +1,51 @@
+"""Make a small data set of synthetic motion capture sessions, with the truth beside it.
+
+Writes: FOLDER/{subject}/{static,daily,gait}.c3d, the recordings: the static trials and the gait of every second subject
+are clean, the others have artifacts, swapped labels and gaps; TRUTH/{subject}/{recording}/: clean.parquet, the complete
+trajectories, and peaks, noise, steps, slow and gaps.parquet, the damage as events.
+"""
+
+import argparse
+from pathlib import Path
+
+from markermend import storage
+from markermend.formats.c3d_new import write_new
+from markermend.session import Take, session
+
+
+def write(take: Take, subject: str, folder: Path, truth: Path) -> None:
+    write_new(
+        folder / subject / f"{take.name}.c3d",
+        labels=take.seen.markers,
+        positions=take.seen.positions,
+        rate=take.seen.rate,
+        first_frame=take.seen.first_frame,
+        storage=take.storage,
+        groups={"SUBJECTS": {"USED": 1, "NAMES": [subject]}},
+    )
+    storage.write_recording(truth / subject / take.name / "clean.parquet", take.clean, {"stage": "truth"})
+    for kind, events in take.truth.items():
+        storage.write_events(truth / subject / take.name / f"{kind}.parquet", events, {"stage": kind})
+
+
+def main(argv: list[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(
+        prog="synthesize.py",
+        description=__doc__,
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--folder", type=Path, required=True, help="where the recordings go")
+    parser.add_argument("--truth", type=Path, required=True, help="where the truth goes, outside of the recordings")
+    parser.add_argument("--seed", type=int, required=True, help="equal seeds give equal files")
+    parser.add_argument("--subjects", type=int, required=True, help="number of subjects")
+    parser.add_argument("--duration-s", type=float, required=True, help="length of a recording that moves, s")
+    parser.add_argument("--rate", type=float, required=True, help="frames per second")
+    flags = parser.parse_args(argv)
+    for number in range(1, flags.subjects + 1):
+        for take in session(seed=flags.seed, subject=number, duration=flags.duration_s, rate=flags.rate):
+            write(take, f"S{number:02d}", flags.folder, flags.truth)
+
+
+if __name__ == "__main__":
+    main()
