@@ -1,8 +1,9 @@
 """What every stage's command shares: its flags, its log, its facts, and what happens when a recording cannot be worked on.
 
 A stage that fails on a recording sets that recording aside: each of its outputs is written as a note with the reason,
-later stages pass the note on, the report lists it, and the run goes on. The failure is counted beside the log, so that
-the next run tries the stage again.
+later stages pass the note on, the report lists it, and the run goes on. A BadRecording stays bad until the file, the
+code or an option changes. Any other failure may pass (a disk that went away, memory that ran out), so it is counted in
+failures.tsv, and the next run tries the stage again.
 """
 
 from __future__ import annotations
@@ -120,7 +121,6 @@ class Stage:
             failure, result = note, f"set aside by {note.stage}: {note.reason}"
         except BadRecording as bad:
             failure, result = SetAside(self.name, str(bad)), f"set aside: {bad}"
-            self._count_failure(call, failure)
         except Exception as error:
             log.error("%s", traceback.format_exc())
             reason = f"{self.name} failed: {type(error).__name__}: {error}"
