@@ -38,9 +38,9 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--folder", type=Path, required=True, help="where the recordings go")
     parser.add_argument("--truth", type=Path, required=True, help="where the truth goes, outside of the recordings")
     parser.add_argument("--seed", type=int, required=True, help="equal seeds give equal files")
-    parser.add_argument("--subjects", type=int, required=True, help="number of subjects")
-    parser.add_argument("--duration-s", type=float, required=True, help="length of a recording that moves, s")
-    parser.add_argument("--rate", type=float, required=True, help="frames per second")
+    parser.add_argument("--subjects", type=int, default=2, help="number of subjects")
+    parser.add_argument("--duration-s", type=float, default=15.0, help="length of a recording that moves, s")
+    parser.add_argument("--rate", type=float, default=100.0, help="frames per second")
     flags = parser.parse_args(argv)
     for number in range(1, flags.subjects + 1):
         for take in session(seed=flags.seed, subject=number, duration=flags.duration_s, rate=flags.rate):

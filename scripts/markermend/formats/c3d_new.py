@@ -104,46 +104,43 @@ def write_new(
     shapes disagree or the parameters exceed what a C3D file can hold.
     """
     processor, real = STORAGES[storage]
-    words = Words(processor)
-    frames = len(positions)
+    words, frames = Words(processor), len(positions)
     if positions.shape != (frames, len(labels), 3):
         raise ValueError(f"positions {positions.shape} do not fit {len(labels)} labels")
-    signals = np.zeros((frames, 0, 0)) if analog is None else np.asarray(analog, float)
-    extent = float(np.nanmax(np.abs(positions), initial=0.0)) or 1.0
-    scale = float(np.float32(extent / FULL_SCALE))
-    per_channel = np.abs(signals).max(axis=(0, 1), initial=0.0) / FULL_SCALE
-    analog_scale = np.where((per_channel > 0) & (not real), per_channel, 1.0).astype(np.float32)
-
-    points = _points(positions, residuals, scale, real)
-    samples = signals / analog_scale
-    data = np.concatenate((points.reshape(frames, -1), samples.reshape(frames, -1)), axis=1)
+    scale, points = _points(positions, residuals, real)
+    analog_scale, samples = _samples(np.zeros((frames, 0, 0)) if analog is None else analog, real)
     own: dict[str, dict[str, Any]] = {
         "POINT": _point_group(labels, frames, rate, -scale if real else scale, unit),
-        "ANALOG": _analog_group(analog_scale, rate * signals.shape[1]),
+        "ANALOG": _analog_group(analog_scale, rate * samples.shape[1]),
         "TRIAL": _trial_group(first_frame, frames, rate),
     }
     for group, parameters in (groups or {}).items():
         own[group] = {**own.get(group, {}), **parameters}
     section = _parameter_section(own, words)
-    header = (
-        b"\x02\x50"
-        + words.integers([len(labels), data.shape[1] - 4 * len(labels), min(first_frame, MOST)])
-        + words.integers([min(first_frame + frames - 1, MOST), 0])
-        + words.reals(own["POINT"]["SCALE"])
-        + words.integers([own["POINT"]["DATA_START"], signals.shape[1]])
-        + words.reals(rate)
-    )
+    numbers = np.concatenate((points.reshape(frames, -1), samples.reshape(frames, -1)), axis=1).ravel()
+    data = words.reals(numbers) if real else words.integers(np.rint(numbers))
     with replacing(path) as temporary, open(temporary, "wb") as file:
-        file.write(_padded(header))
+        file.write(_header(own["POINT"], first_frame, first_frame + frames - 1, samples.shape, words))
         file.write(section)
-        body = np.ascontiguousarray(data).ravel()
-        content = words.reals(body) if real else words.integers(np.rint(body))
         # Where 16 bits cannot hold the number of frames, readers count them by the size of the file.
-        file.write(_padded(content) if frames < MOST else content)
+        file.write(_padded(data) if frames < MOST else data)
 
 
-def _points(positions: np.ndarray, residuals: np.ndarray | None, scale: float, real: bool) -> np.ndarray:
-    """Coordinates and word 4 as numbers, (frames, labels, 4)."""
+def _header(point: dict[str, Any], first: int, last: int, samples: tuple[int, ...], words: Words) -> bytes:
+    """The header block, which repeats some parameters; frame numbers beyond 16 bits are cut short here only."""
+    return _padded(
+        b"\x02\x50"
+        + words.integers([point["USED"], samples[1] * samples[2], min(first, MOST), min(last, MOST), 0])
+        + words.reals(point["SCALE"])
+        + words.integers([point["DATA_START"], samples[1]])
+        + words.reals(point["RATE"])
+    )
+
+
+def _points(positions: np.ndarray, residuals: np.ndarray | None, real: bool) -> tuple[float, np.ndarray]:
+    """The scale, and coordinates and word 4 as numbers to store (frames, labels, 4)."""
+    extent = float(np.nanmax(np.abs(positions), initial=0.0)) or 1.0
+    scale = float(np.float32(extent / FULL_SCALE))
     absent = np.isnan(positions).any(axis=2)
     coordinates = np.where(absent[:, :, None], 0.0, positions)
     word = np.full(absent.shape, CAMERAS)
@@ -151,7 +148,14 @@ def _points(positions: np.ndarray, residuals: np.ndarray | None, scale: float, r
         word = CAMERAS + np.clip(np.rint(np.nan_to_num(residuals) / scale), 0, 255)
         absent = absent | (residuals < 0)
     word = np.where(absent, -1, word)
-    return np.concatenate((coordinates if real else coordinates / scale, word[:, :, None]), axis=2)
+    return scale, np.concatenate((coordinates if real else coordinates / scale, word[:, :, None]), axis=2)
+
+
+def _samples(analog: np.ndarray, real: bool) -> tuple[np.ndarray, np.ndarray]:
+    """The scale of each channel, and analog samples as numbers to store (frames, samples per frame, channels)."""
+    extent = np.abs(analog).max(axis=(0, 1), initial=0.0)
+    scale = np.where((extent > 0) & (not real), extent / FULL_SCALE, 1.0).astype(np.float32)
+    return scale, analog / scale
 
 
 def _point_group(labels: Sequence[str], frames: int, rate: float, scale: float, unit: str) -> dict[str, Any]:
