@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.formats import Reading, text
+from markermend.formats.comparison import compare
 from markermend.recording import BadRecording
 from text_files import FORMATS, MARKERS, make, positions
 
@@ -118,6 +119,9 @@ def test_patch_lengthens_a_short_row_only_as_far_as_needed(tmp_path: Path) -> No
     content = b"frame,A_x,A_y,A_z,B_x,B_y,B_z\r\n1,1,2,30,4,5,60\r\n2\r\n3,1,2,30\r\n"
     new = patched(tmp_path, content, {(1, 0): [11, 12, 13], (2, 1): [np.nan] * 3}, rate=50)
     assert new == content.replace(b"\r\n2\r\n", b"\r\n2,11.000,12.000,13.000\r\n")
+    changed = np.array([[False, False], [True, False], [False, True]])
+    difference = compare(tmp_path / "walk.txt", tmp_path / "new", format="csv", changed=changed, columns=(0, 1))
+    assert difference.other_bytes_equal
 
 
 def test_patch_refuses_what_would_be_read_as_missing(tmp_path: Path) -> None:

@@ -204,6 +204,9 @@ def test_plain_units_and_times(tmp_path: Path) -> None:
     named = content.replace(b"time", b"time (ms)").replace(b"A_x", b"A_x_cm")
     reading = read(tmp_path, named)
     assert (reading.unit, reading.recording.rate, reading.warnings) == ("cm", 120.0, ())
+    with pytest.raises(BadRecording, match="no usable frame rate"):
+        read(tmp_path, content.replace(b"16.7", b"-5").replace(b"8.3", b"-2").replace(b"25.0", b"-9"))
+    assert read(tmp_path, content.replace(b"8.3", b"1e-310")).recording.rate > 0
     leap = content.replace(b"25.0", b"250.0")
     assert any("leap" in warning for warning in read(tmp_path, leap).warnings)
 

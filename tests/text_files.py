@@ -17,7 +17,7 @@ UNITS = {"trc": 1.0, "nexus": 1.0, "motive": 1000.0, "qtm": 1.0, "csv": 1.0}
 
 
 def positions(frames: int = 30, markers: int = 4, seed: int = 5) -> np.ndarray:
-    """Positions (frames, markers, 3) in mm, exact in three decimals of mm and six of m; two gaps in the second marker."""
+    """Positions (frames, markers, 3) in mm, exact in three decimals of mm; two gaps in the second marker."""
     rng = np.random.default_rng(seed)
     values = np.round(rng.uniform(-2000, 2000, (frames, markers, 3)), 3)
     values[4:7, 1] = np.nan

@@ -76,7 +76,8 @@ def _compare_cells(
         row = row_of.get(number)
         allowed = () if row is None else (layout.columns[columns[m]] for m in np.flatnonzero(changed[row]).tolist())
         cells = {cell for triple in allowed for cell in triple}
-        olds, news = sheet.split(old, layout.delimiter), sheet.split(new, layout.delimiter)
+        olds, news = (sheet.split(line.removesuffix(b"\r"), layout.delimiter) for line in (old, new))
+        equal &= old.endswith(b"\r") == new.endswith(b"\r")
         olds += [b""] * (len(news) - len(olds))
         if len(olds) != len(news):
             return Difference(count, False)

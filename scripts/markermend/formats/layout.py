@@ -32,10 +32,11 @@ class Layout:
     """Where the trajectories of a text file stand.
 
     rows: numbers of the lines that hold the frames. names: one per trajectory, as in the file. columns: the cells of
-    its x, y, z. unit, rate (Hz): as the file says; None where it does not. frame, time: columns of the frame number and the time.
-    seconds: how many seconds the unit of time has. left: trajectories left alone whatever their name.
-    model_outputs: names of computed quantities left alone. frames: as the header promises. decimal_comma: numbers are
-    written so. own_missing: what is missing is written as the file itself does, else left blank. warnings: one sentence each.
+    its x, y, z. unit, rate (Hz): as the file says; None where it does not. frame, time: columns of the frame number
+    and the time. seconds: how many seconds the unit of time has. left: trajectories left alone whatever their name.
+    model_outputs: names of computed quantities left alone. frames: as the header promises. decimal_comma: whether
+    numbers are written with one. own_missing: whether a missing sample is written as the file itself does, or else
+    left blank. warnings: one sentence each.
     """
 
     format: str
@@ -104,7 +105,7 @@ def frame_rows(sheet: Sheet, start: int, delimiter: bytes, *, section: bool) -> 
 
 
 def plain_rows(sheet: Sheet, start: int, delimiter: bytes) -> list[int]:
-    """Find the lines of a table without frame numbers: all that are not empty, up to the last that has anything in it."""
+    """Find the lines of a table without frame numbers: all that are not empty, up to the last with anything in it."""
     filled = sheet.filled(start, delimiter)
     return [i for i in range(start, filled[-1] + 1) if sheet.lines[i].strip(b" \r")] if filled else []
 
@@ -116,8 +117,9 @@ def row_widths(sheet: Sheet, rows: Sequence[int], delimiter: bytes) -> list[int]
 
 
 def writes_decimal_comma(sheet: Sheet, rows: Sequence[int], delimiter: bytes) -> bool:
-    """Tell whether the first rows write numbers with a decimal comma."""
-    return has_decimal_comma((sheet.lines[row] for row in rows[:SAMPLE_LINES]), delimiter)
+    """Tell whether the rows write numbers with a decimal comma, by a sample of them."""
+    sample = rows[:: max(1, len(rows) // SAMPLE_LINES)]
+    return has_decimal_comma((sheet.lines[row] for row in sample), delimiter)
 
 
 def triples(axes: Sequence[str], start: int) -> list[int]:

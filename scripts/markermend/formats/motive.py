@@ -44,7 +44,7 @@ def describe(sheet: Sheet) -> Layout:
     ]
     if not starts:
         raise BadRecording(
-            f"{sheet.name}: no column holds a measured marker (type 'Marker', 'Position'): export the markers from Motive"
+            f"{sheet.name}: no column holds a measured marker (type 'Marker'): export the markers from Motive"
         )
     rows, warnings = frame_rows(sheet, titles[0] + 1, delimiter, section=False)
     solved = {name: None for name, kind in zip(names[2:], kinds[2:], strict=False) if kind not in ("Marker", "")}

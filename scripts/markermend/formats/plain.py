@@ -1,4 +1,4 @@
-"""Where the trajectories stand in a plain CSV or TSV: columns named by marker and axis, as `LASI_x`, `LASI.Y`, `C7-z`."""
+"""Where the trajectories stand in a plain CSV or TSV: columns named by marker and axis, as `LASI_x`, `LASI.Y`."""
 
 from __future__ import annotations
 

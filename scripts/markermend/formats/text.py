@@ -94,8 +94,8 @@ def patch(
 
     format: as read. positions: float64 (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers).
     columns: index of each marker among the file's trajectories. Numbers get as many decimals as the column has, and at
-    least 3 for mm, 6 for m. A sample that cannot be written (partly missing, too far, or rounded to 0, 0, 0, which means missing)
-    is refused and stands as it was.
+    least 3 for mm, 6 for m. A sample that cannot be written (partly missing, too far, or rounded to 0, 0, 0, which
+    means missing) is refused and stands as it was.
     """
     content = sheet.load(original)
     layout = FORMATS[format](content)
@@ -128,7 +128,8 @@ def _cells(layout: Layout, trajectories: Sequence[int]) -> list[int]:
 
 def _positions(numbers: np.ndarray, why: np.ndarray, unit: str) -> tuple[np.ndarray, dict[str, int]]:
     """Positions in mm, NaN where missing, and how many samples each clause of the rule caught."""
-    samples = numbers.reshape(len(numbers), -1, 3) * MILLIMETRES[unit]
+    with np.errstate(over="ignore"):
+        samples = numbers.reshape(len(numbers), -1, 3) * MILLIMETRES[unit]
     reasons = why.reshape(samples.shape)
     seen = np.ones(samples.shape[:2], bool)
     missing = {}

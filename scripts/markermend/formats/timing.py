@@ -23,7 +23,11 @@ WHOLE = 0.002
 LEAP = 2.5
 """Steps between times this many times the usual one, or longer, are leaps; shorter ones may be due to rounding."""
 
+SHORTEST = 1e-9
+"""s. No system captures frames nearer to each other."""
+
 LARGEST_FRAME = 2**53
+"""Beyond, whole numbers are not told apart."""
 
 
 @dataclass(frozen=True)
@@ -89,6 +93,6 @@ def _rate_of_times(times: np.ndarray | None, seconds: float) -> tuple[float | No
     if not 0 < step < float("inf"):
         return None, []
     even = (steps >= 0) & (steps < LEAP * step)
-    rate = float(1 / steps[even].mean())
+    rate = 1 / max(float(steps[even].mean()), SHORTEST)
     rate = float(round(rate)) if abs(rate - round(rate)) < WHOLE * rate else rate
     return rate, [] if even.all() else [f"{int((~even).sum())} times leap or go back: rows are taken as evenly spaced."]

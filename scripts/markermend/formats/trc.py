@@ -98,8 +98,8 @@ def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int])
 def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
     """Write a TRC file that OpenSim opens: tabs, missing samples blank, exact counts, a blank line above the data.
 
-    unit: mm, cm or m, of the file; the recording is in mm. Times start at zero. A recording without frames or markers gives a file
-    without them.
+    unit: mm, cm or m, of the file; the recording is in mm. Times start at zero. A recording without frames or markers
+    gives a file without them.
     """
     decimals = DECIMALS[unit]
     count = len(recording.markers)
