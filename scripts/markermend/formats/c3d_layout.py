@@ -106,16 +106,16 @@ def _options(*values: float | None) -> list[int]:
 
 
 def _options_real(*scales: float | None) -> list[float]:
-    """One scale per sign, in order; a scale that is absent, zero or not finite says nothing."""
+    """One scale per sign, in order; a scale that is absent, zero or not finite says nothing, and none at all: either."""
     usable = [scale for scale in scales if scale and math.isfinite(scale)]
-    return list({scale < 0: scale for scale in reversed(usable)}.values())[::-1] or [-1.0]
+    return list({scale < 0: scale for scale in reversed(usable)}.values())[::-1] or [-1.0, 1.0]
 
 
 def _starts(section: Section, size: int, name: str) -> list[int]:
     """The bytes at which the data may start: by the parameters, by the header, after the parameters."""
     header = section.header
     blocks = _options(section.number("POINT", "DATA_START"), header.data_block)
-    after = header.parameter_block - 1 + math.ceil(section.end / BLOCK)
+    after = math.ceil((section.end + 2) / BLOCK)
     usable = [block for block in blocks if block > header.parameter_block and (block - 1) * BLOCK < size]
     starts = [(block - 1) * BLOCK for block in usable] or [after * BLOCK]
     if starts[0] >= size:

@@ -39,7 +39,10 @@ class Coding:
 
     def decode_floats(self, stored: np.ndarray) -> np.ndarray:
         """Stored floats (any shape, of float_type) as float64, exactly."""
-        return decode_dec(stored) if self.processor is Processor.DEC else stored.astype(np.float64)
+        if self.processor is Processor.DEC:
+            return decode_dec(stored)
+        with np.errstate(invalid="ignore"):  # a signalling NaN is a NaN
+            return stored.astype(np.float64)
 
     def encode_floats(self, values: np.ndarray) -> np.ndarray:
         """Float64 values (any shape) as stored floats, to the nearest; what is too large becomes NaN or infinite."""

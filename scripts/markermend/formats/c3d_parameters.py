@@ -1,20 +1,20 @@
 """The header and the parameter section of a C3D file, read without trust in either.
 
 Our own parser checks every length against the bytes that are there. Only a section that it finds sound is handed to
-ezc3d, and without the data, since ezc3d reads whole files and trusts them.
+ezc3d, and without the data, since ezc3d reads whole files and trusts them. ezc3d does not know MIPS files.
 """
 
 from __future__ import annotations
 
 import math
 import struct
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from markermend.formats.c3d_isolated import strings_by_ezc3d
 from markermend.formats.c3d_numbers import Coding, Processor
 from markermend.recording import BadRecording
 
@@ -22,6 +22,8 @@ BLOCK = 512
 KEY = 0x50
 LONGEST_SECTION = 4096 * BLOCK
 """More than the 255 blocks of the standard, for the files that exceed it."""
+
+LONGEST_DESCRIPTION = 127
 
 TEXT, BYTE, INTEGER, FLOAT = -1, 1, 2, 4
 
@@ -44,13 +46,15 @@ class Header:
 class Section:
     """The parameters of a C3D file by group and name, both in capitals, as lists of strings or numbers.
 
-    Integers are unsigned. sound: whether every record fits the section. end: where the records end, in bytes.
+    Integers are unsigned. sound: whether every record fits the section. exact: whether, besides, each is as long as its
+    contents, and no longer. end: where the records end, in bytes.
     """
 
     coding: Coding
     header: Header
     groups: dict[str, dict[str, list]] = field(default_factory=dict)
     sound: bool = True
+    exact: bool = True
     end: int = 0
 
     def texts(self, group: str, name: str) -> list[str]:
@@ -82,8 +86,9 @@ def read_section(path: Path) -> Section:
     coding = Coding(Processor(head[start + 3]))
     section = Section(coding, _header(head, coding))
     _parse(head, start + 4, section)
-    if section.sound:
-        for group, parameters in _read_with_ezc3d(head, section).items():
+    readable = section.coding.processor is not Processor.MIPS
+    if section.sound and section.exact and readable:
+        for group, parameters in strings_by_ezc3d(_without_data(head, section)).items():
             section.groups.setdefault(group, {}).update(parameters)
     return section
 
@@ -111,13 +116,16 @@ def _parse(head: bytes, start: int, section: Section) -> None:
             break
         if identity and position is None:
             section.end = limit
-        if identity < 0:
-            names[-identity] = name
-        elif identity > 0:
-            try:
-                found.append((identity, name, _values(body, section.coding)))
-            except _UnsoundError:
-                section.sound = False
+        try:
+            if identity < 0:
+                names[-identity] = name
+                length = 0
+            elif identity > 0:
+                values, length = _values(body, section.coding)
+                found.append((identity, name, values))
+            section.exact &= identity == 0 or _described(body[length:], whole=position is not None)
+        except _UnsoundError:
+            section.sound = False
     for identity, name, values in found:
         section.sound &= identity in names
         section.groups.setdefault(names.get(identity, ""), {}).setdefault(name, values)
@@ -151,8 +159,15 @@ def _record(head: bytes, position: int, limit: int, coding: Coding) -> tuple[int
     return identity, name, head[at + 2 : at + offset], at + offset
 
 
-def _values(body: bytes, coding: Coding) -> list:
-    """The values of a parameter record: strings along the first dimension, or numbers."""
+def _described(rest: bytes, *, whole: bool) -> bool:
+    """Tell whether what follows the contents of a record is a description, and (`whole`) nothing else."""
+    if not rest or rest[0] > LONGEST_DESCRIPTION:
+        return False
+    return len(rest) == 1 + rest[0] if whole else len(rest) >= 1 + rest[0]
+
+
+def _values(body: bytes, coding: Coding) -> tuple[list, int]:
+    """The values of a parameter record (strings along the first dimension, or numbers), and how many bytes they take."""
     if len(body) < 2 or len(body) < 2 + body[1]:
         raise _UnsoundError
     (kind,) = struct.unpack_from("b", body)
@@ -160,14 +175,15 @@ def _values(body: bytes, coding: Coding) -> list:
     if kind not in (TEXT, BYTE, INTEGER, FLOAT) or len(dimensions) > 7:
         raise _UnsoundError
     size = math.prod(dimensions) * abs(kind)
-    data = body[2 + len(dimensions) : 2 + len(dimensions) + size]
+    length = 2 + len(dimensions) + size
+    data = body[2 + len(dimensions) : length]
     if len(data) < size:
         raise _UnsoundError
     if kind == TEXT:
-        return list(_texts(data, dimensions[0] if dimensions else 1))
+        return list(_texts(data, dimensions[0] if dimensions else 1)), length
     if kind == BYTE:
-        return list(data)
-    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist()
+        return list(data), length
+    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist(), length
 
 
 def _texts(data: bytes, width: int) -> Iterator[str]:
@@ -185,34 +201,12 @@ def _text(data: bytes) -> str:
     return text.rstrip(" \0")
 
 
-def _read_with_ezc3d(head: bytes, section: Section) -> dict[str, dict[str, list]]:
-    """The strings of a sound parameter section as ezc3d reads them; empty where it cannot.
-
-    ezc3d gets a copy of the section under a header that declares no data. It does not know MIPS files, and
-    allocates for rotations by what the parameters claim.
-    """
-    if section.coding.processor is Processor.MIPS or "ROTATION" in section.groups:
-        return {}
-    import ezc3d
-
+def _without_data(head: bytes, section: Section) -> bytes:
+    """A C3D file with the parameter section and nothing behind it, under a header that declares no data."""
     start = (section.header.parameter_block - 1) * BLOCK
-    parameters = head[start : max(section.end, start + head[start + 2] * BLOCK)]
+    parameters = bytearray(head[start : section.end]) + bytes(2)
     parameters += bytes(-len(parameters) % BLOCK)
-    blank = np.zeros(BLOCK // 2, f"{section.coding.order}u2")
-    blank[3], blank[4], blank[8] = 1, 0, len(parameters) // BLOCK + 2
-    with tempfile.NamedTemporaryFile(suffix=".c3d") as file:
-        file.write(bytes((2, KEY)) + blank.tobytes()[2:] + parameters)
-        file.flush()
-        try:
-            groups = ezc3d.c3d(file.name)["parameters"]
-        except (OSError, RuntimeError, ValueError, IndexError):
-            return {}
-    return {group.upper(): dict(_strings(groups[group])) for group in groups}
-
-
-def _strings(parameters: dict) -> Iterator[tuple[str, list]]:
-    """The parameters of an ezc3d group that hold strings."""
-    for name, parameter in parameters.items():
-        if isinstance(parameter, dict) and parameter.get("type") == TEXT:
-            raw = (value.encode("utf-8", "surrogateescape") for value in parameter["value"])
-            yield name.upper(), [_text(value) for value in raw]
+    parameters[2] = min(len(parameters) // BLOCK, 255)
+    words = np.zeros(BLOCK // 2, f"{section.coding.order}u2")
+    words[3], words[4], words[8] = 1, 0, len(parameters) // BLOCK + 2
+    return bytes((2, KEY)) + words.tobytes()[2:] + bytes(parameters)

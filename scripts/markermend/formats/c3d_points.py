@@ -79,11 +79,11 @@ def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarr
     word4 = np.where(missing, -1.0, 0.0)
     if layout.real:
         stored = coding.encode_floats(np.column_stack((positions, word4)))
-        readable = np.isfinite(coding.decode_floats(stored)).all(axis=1)
+        readable = np.asarray(np.isfinite(coding.decode_floats(stored)).all(axis=1))
         vanished = (coding.decode_floats(stored[:, :3]) == 0).all(axis=1)
     else:
         steps = np.rint(positions / layout.scale)
-        readable = (np.abs(steps) <= LARGEST).all(axis=1)
+        readable = np.asarray((np.abs(steps) <= LARGEST).all(axis=1))
         vanished = (steps == 0).all(axis=1)
         held = np.where(readable[:, None], steps, 0.0)
         stored = np.column_stack((held, word4)).astype(coding.integer_type)
