@@ -15,8 +15,10 @@ import numpy as np
 
 from markermend import events as finding
 from markermend.events import Event
-from markermend.predictors import Prediction, Predictor, Scene
-from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored, runs
+from markermend.predictors import Predictor, Scene
+from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
+from markermend.repair_methods import Proposal, predicted, smoothed, without_offset
+from markermend.robust import samples
 
 ORIGIN_OF = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
 """What a repaired sample is called, by the detector that found it."""
@@ -47,15 +49,6 @@ class RepairOptions:
     savitzky_golay_order: int
     savitzky_golay_s: float
     trials: int
-
-
-@dataclass(frozen=True)
-class _Proposal:
-    """New samples for one marker and interval: positions (n, 3), mm, and their standard deviation per axis (n,), mm."""
-
-    method: str
-    positions: np.ndarray
-    error: np.ndarray
 
 
 def repair(
@@ -169,7 +162,7 @@ class _Repairer:
             self.positions[start:stop, m] = np.nan
             self.origin[start:stop, m] = MISSING
             self.error[start:stop, m] = np.nan
-        kinds = "+".join(dict.fromkeys(ORIGIN_OF[kind] for kind, _ in members))
+        kinds = "+".join(ORIGIN_OF[kind] for kind in ORIGIN_OF if kind in dict(members))
         score = max(event.score for _, event in members)
         note = {"marker": marker, "start": start, "stop": stop, "class": kinds, "score": score}
         self.left.append({**note, "reason": reason, "blanked": blank})
@@ -180,7 +173,7 @@ class _Repairer:
         common = (self.recording.markers, self.positions, self.recording.rate, self.recording.first_frame, facts)
         return Restored(*common, self.origin, self.error * BALL68, self.error * BALL95)
 
-    def _accept(self, kind: str, event: Event, proposal: _Proposal) -> None:
+    def _accept(self, kind: str, event: Event, proposal: Proposal) -> None:
         """Write a proposal where the marker was seen, and note the repair."""
         m = self.recording.markers.index(event.marker)
         seen = ~self.recording.missing[event.start : event.stop, m]
@@ -206,76 +199,17 @@ class _Repairer:
         self._note(event, "swap", "swap")
         self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap")
 
-    def _propose(self, method: str, m: int, start: int, stop: int) -> _Proposal | None:
+    def _propose(self, method: str, m: int, start: int, stop: int) -> Proposal | None:
         """What a method would write, or None where it cannot tell for every sample."""
+        options, original = self.options, self.recording.positions[:, m]
         if method == "blank":
             return None
-        if method == "offset":
-            return self._without_offset(m, start, stop)
         if method == "savitzky_golay":
-            return self._smoothed(m, start, stop)
-        prediction = self.predictors[method].predict(self.scene, m, start, stop)
-        positions, error = prediction.positions[1:-1], prediction.error[1:-1]
-        if np.isnan(positions).any():
-            return None
-        if np.isnan(error).any():
-            error = np.full(stop - start, self._tried_error(method, m, start, stop))
-        return None if np.isnan(error).any() else _Proposal(method, positions, error)
-
-    def _tried_error(self, method: str, m: int, start: int, stop: int) -> float:
-        """Root mean square error per axis, mm, of a method on stretches of the same length hidden nearby; NaN if none fits."""
-        length = stop - start
-        errors = []
-        for trial in range(1, self.options.trials + 1):
-            for first in (start - 2 * trial * length - 2, stop + (2 * trial - 1) * length + 2):
-                last = first + length
-                if first < 1 or last >= self.recording.frames or not self.scene.present[first - 1 : last + 1, m].all():
-                    continue
-                guess: Prediction = self.predictors[method].predict(self.scene, m, first, last)
-                errors.append(np.mean((guess.positions[1:-1] - self.scene.positions[first:last, m]) ** 2))
-        return float(np.sqrt(np.mean(errors))) if errors else np.nan
-
-    def _without_offset(self, m: int, start: int, stop: int) -> _Proposal | None:
-        """The measured samples less a constant offset, where they are otherwise coherent with the prediction.
-
-        The offset is told by the jumps at both edges, which the prediction's slow error does not touch.
-        """
-        prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
-        rows = np.arange(start - 1, stop + 1)
-        inside = (rows >= 0) & (rows < self.recording.frames)
-        observed = np.full((len(rows), 3), np.nan)
-        observed[inside] = self.recording.positions[rows[inside], m]
-        residual = observed - prediction.positions
-        body = residual[1:-1]
-        if np.isnan(body).any() or np.isnan(residual[[0, -1]]).any():
-            return None
-        edges = np.stack([residual[1] - residual[0], residual[-2] - residual[-1]])
-        offset = edges.mean(axis=0)
-        size = np.linalg.norm(offset)
-        uneven = np.linalg.norm(edges[0] - edges[1]) / 2
-        wobble = np.linalg.norm(np.std(body, axis=0))
-        if max(uneven, wobble) > self.options.coherent_share * size:
-            return None
-        error = np.full(stop - start, np.sqrt(uneven**2 + wobble**2 / len(body)) / np.sqrt(3))
-        positions = self.recording.positions[start:stop, m] - offset
-        return _Proposal("offset", positions, np.maximum(error, 1e-6))
-
-    def _smoothed(self, m: int, start: int, stop: int) -> _Proposal | None:
-        """The distorted samples under a Savitzky-Golay smoother (order 13 over 101 samples in the paper).
-
-        Its error is told by how far it moved the samples.
-        """
-        window, order = (
-            2 * int(self.options.savitzky_golay_s * self.recording.rate / 2) + 1,
-            self.options.savitzky_golay_order,
-        )
-        run = next((r for r in runs(~self.recording.missing[:, m]) if r[0] <= start and stop <= r[1]), None)
-        if run is None:
-            return None
-        from scipy.signal import savgol_filter  # slow to import, and not among the default methods
-
-        window = min(window, (run[1] - run[0] - 1) // 2 * 2 + 1)
-        smooth = savgol_filter(self.recording.positions[slice(*run), m], window, min(order, window - 1), axis=0)
-        positions = smooth[start - run[0] : stop - run[0]]
-        moved = np.linalg.norm(positions - self.recording.positions[start:stop, m], axis=1)
-        return _Proposal("savitzky_golay", positions, np.full(stop - start, np.sqrt(np.mean(moved**2) / 3)))
+            window = samples(options.savitzky_golay_s, self.recording.rate, odd=True)
+            return smoothed(
+                original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
+            )
+        if method == "offset":
+            prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
+            return without_offset(original, prediction, start, stop, coherent_share=options.coherent_share)
+        return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)

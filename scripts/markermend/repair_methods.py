@@ -1,0 +1,95 @@
+"""Ways to mend one marker over one interval: predict it, subtract a step, or smooth it; each says how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.predictors import Prediction, Predictor, Scene
+from markermend.recording import runs
+from markermend.robust import high_pass
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """New samples over [start, stop): positions (n, 3), mm, and their standard deviation per axis (n,), mm."""
+
+    method: str
+    positions: np.ndarray
+    error: np.ndarray
+
+
+def predicted(
+    predictor: Predictor, scene: Scene, marker: int, start: int, stop: int, *, trials: int
+) -> Proposal | None:
+    """What a predictor says; None where it cannot tell for every sample, or how sure it is.
+
+    trials: hidden stretches on either side from which the error of a predictor is told that does not state one.
+    """
+    prediction = predictor.predict(scene, marker, start, stop)
+    positions, error = prediction.positions[1:-1], prediction.error[1:-1]
+    if np.isnan(positions).any():
+        return None
+    if np.isnan(error).any():
+        error = np.full(stop - start, tried_error(predictor, scene, marker, start, stop, trials=trials))
+    return None if np.isnan(error).any() else Proposal(predictor.name, positions, error)
+
+
+def tried_error(predictor: Predictor, scene: Scene, marker: int, start: int, stop: int, *, trials: int) -> float:
+    """Root mean square error per axis, mm, of a predictor on stretches of the same length hidden nearby; NaN if none fits."""
+    length, errors = stop - start, []
+    for trial in range(1, trials + 1):
+        for first in (start - 2 * trial * length - 2, stop + (2 * trial - 1) * length + 2):
+            last = first + length
+            if first < 1 or last >= len(scene.positions) or not scene.present[first - 1 : last + 1, marker].all():
+                continue
+            guess = predictor.predict(scene, marker, first, last)
+            errors.append(np.mean((guess.positions[1:-1] - scene.positions[first:last, marker]) ** 2))
+    return float(np.sqrt(np.mean(errors))) if errors else np.nan
+
+
+def without_offset(
+    original: np.ndarray, prediction: Prediction, start: int, stop: int, *, coherent_share: float
+) -> Proposal | None:
+    """The measured samples less a constant offset, where they are otherwise coherent with the prediction.
+
+    original: (frames, 3), the marker's course as measured. The offset is told by the jumps at both edges, which the
+    prediction's slow error does not touch. None where edges disagree, or where what remains varies, by more than
+    `coherent_share` of the offset.
+    """
+    rows = np.arange(start - 1, stop + 1)
+    if rows[0] < 0 or rows[-1] >= len(original):
+        return None
+    residual = original[rows] - prediction.positions
+    if np.isnan(residual).any():
+        return None
+    edges = np.stack([residual[1] - residual[0], residual[-2] - residual[-1]])
+    offset = edges.mean(axis=0)
+    uneven = np.linalg.norm(edges[0] - edges[1]) / 2
+    wobble = np.linalg.norm(np.std(residual[1:-1], axis=0))
+    if max(uneven, wobble) > coherent_share * np.linalg.norm(offset):
+        return None
+    error = np.sqrt(uneven**2 + wobble**2 / (stop - start)) / np.sqrt(3)
+    return Proposal("offset", original[start:stop] - offset, np.full(stop - start, max(error, 1e-6)))
+
+
+def smoothed(
+    original: np.ndarray, flagged: np.ndarray, start: int, stop: int, *, window: int, order: int
+) -> Proposal | None:
+    """The distorted samples under a Savitzky-Golay smoother (order 13 over 101 samples in skurowski2022).
+
+    original: (frames, 3), NaN = missing. flagged: bool (frames,), samples that some detector found. The error is told by
+    how far the smoother moves the good samples around, which the distortion drags along. None across a gap.
+    """
+    run = next((r for r in runs(~np.isnan(original).any(axis=1)) if r[0] <= start and stop <= r[1]), None)
+    if run is None:
+        return None
+    course = original[slice(*run)]
+    smooth = course - np.stack([high_pass(axis, window, order) for axis in course.T], axis=1)
+    around = np.arange(max(run[0], start - window // 2), min(run[1], stop + window // 2))
+    good = around[~flagged[around]] - run[0]
+    if not len(good):
+        return None
+    error = np.sqrt(np.mean((smooth[good] - course[good]) ** 2))
+    return Proposal("savitzky_golay", smooth[start - run[0] : stop - run[0]], np.full(stop - start, error))

@@ -1,0 +1,53 @@
+"""Repair what the detectors found, each class in its way, from the original samples.
+
+Reads: 01_markers.parquet, mesh.json, the events files, in the order of the detectors.
+Writes: 06_repaired.parquet.
+"""
+
+from markermend import mesh, storage
+from markermend.predictors.registry import REGISTRY, members
+from markermend.repair import RepairOptions, repair
+from markermend.stage import Stage, mapping
+
+STAGE = Stage("repair", __doc__)
+STAGE.reads("markers", "trajectories as ingested")
+STAGE.reads("mesh", "functional body mesh of the subject")
+STAGE.reads("events", "findings, one file per detector", many=True, optional=True)
+STAGE.writes("repaired", "trajectories after repair")
+STAGE.option("methods", mapping, "for each detector the methods to try, best first: predictors, offset, swap, ...")
+STAGE.option("protect", str, "markers never touched, as name patterns with * and ?", many=True)
+STAGE.option("max_altered_share", float, "share of the seen samples; if more are found, nothing is repaired")
+STAGE.option("max_repair_s", float, "longer findings become missing instead, s")
+STAGE.option("max_error_mm", float, "findings whose repair is expected to err by more become missing instead, mm")
+STAGE.option("coherent_share", float, "a step is subtracted if what remains of it varies by less than this share")
+STAGE.option("savitzky_golay_order", int, "order of the method savitzky_golay")
+STAGE.option("savitzky_golay_s", float, "window of the method savitzky_golay, s")
+STAGE.option("trials", int, "hidden stretches that tell the error of a method that does not state one")
+STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
+STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
+
+
+def work(call):
+    recording = storage.read_recording(call.markers)
+    body = mesh.read(call.mesh, recording.facts["recording"])
+    found = {storage.read_facts(path)["stage"]: storage.read_events(path) for path in call.events}
+    settings = {name: call.options[name] for name in ("local_ridge", "interpolation")}
+    own = {name: value for name, value in call.options.items() if name not in settings}
+    names = {name for methods in own["methods"].values() for name in methods if name in REGISTRY} | {"local_ridge"}
+    result = repair(
+        recording,
+        found=found,
+        neighbours=body.neighbour_indices(recording.markers),
+        predictors={predictor.name: predictor for predictor in members(sorted(names), settings)},
+        options=RepairOptions(**own),
+    )
+    storage.write_recording(call.repaired, result, call.facts)
+    return f"{len(result.facts['repairs'])} repairs, {len(result.facts['repairs_left'])} findings not repaired"
+
+
+def main(argv=None):
+    STAGE.run(work, argv)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,238 @@
+"""Repair: each class undone on a body whose truth is known, nothing else touched, every refusal with its reason."""
+
+import bodies
+import numpy as np
+import pytest
+
+from markermend.events import Event
+from markermend.predictors.interpolation import Interpolation
+from markermend.predictors.local import LocalRidge, RidgeOptions
+from markermend.recording import MEASURED, MISSING, ORIGINS
+from markermend.repair import RepairOptions, repair
+
+RIDGE = RidgeOptions(
+    anchors=3,
+    inputs=8,
+    width_mm=5,
+    ridge_mm2=1,
+    frames=1000,
+    minimum_frames=60,
+    robust_sigmas=6,
+    scales_s=(0.05, 0.2, 1),
+    longest_s=1,
+    border_s=0.15,
+)
+METHODS = {
+    "peaks": ["spline"],
+    "noise": ["local_ridge"],
+    "steps": ["swap", "offset", "local_ridge"],
+    "slow": ["local_ridge"],
+}
+MARKER, START, STOP = "2b", 600, 640
+
+
+@pytest.fixture(scope="module")
+def clean():
+    names, positions, _ = bodies.subject(8, frames=1500, markers=4)
+    rng = np.random.default_rng(3)
+    return bodies.recording(names, positions + rng.normal(0, 0.05, positions.shape))
+
+
+def neighbours_of(recording):
+    """The others of the same segment, then of the next ones: names carry the segment's number."""
+    segments = np.array([int(name[0]) for name in recording.markers])
+    return [
+        np.array([j for j in np.argsort(abs(segments - segments[m]), kind="stable") if j != m])
+        for m in range(len(segments))
+    ]
+
+
+def mend(recording, found, **changes):
+    settings = {
+        "methods": METHODS,
+        "protect": [],
+        "max_altered_share": 0.3,
+        "max_repair_s": 2.0,
+        "max_error_mm": 20.0,
+        "coherent_share": 0.25,
+        "savitzky_golay_order": 13,
+        "savitzky_golay_s": 1.01,
+        "trials": 5,
+    }
+    return repair(
+        recording,
+        found=found,
+        neighbours=neighbours_of(recording),
+        predictors={**{kind: Interpolation(kind, knots=10) for kind in ("spline", "linear")}, "local_ridge": LocalRidge(RIDGE)},
+        options=RepairOptions(**{**settings, **changes}),
+    )
+
+
+def distorted(clean, offsets, start=START, stop=STOP, marker=MARKER):
+    positions = clean.positions.copy()
+    positions[start:stop, clean.markers.index(marker)] += offsets
+    return bodies.recording(clean.markers, positions)
+
+
+def check_only(recording, result, start, stop, origin, marker=MARKER):
+    """Everything outside the interval is the original bit for bit; inside it is marked as repaired, with an error."""
+    m = recording.markers.index(marker)
+    inside = np.zeros(result.origin.shape, bool)
+    inside[start:stop, m] = True
+    assert np.array_equal(result.positions[~inside], recording.positions[~inside])
+    assert (result.origin[~inside] == MEASURED).all()
+    assert (result.error[~inside] == 0).all()
+    assert (result.origin[start:stop, m] == ORIGINS.index(origin)).all()
+    assert (result.error[start:stop, m] > 0).all()
+    assert (result.error95 >= result.error).all()
+
+
+def error(clean, result, start=START, stop=STOP, marker=MARKER):
+    m = clean.markers.index(marker)
+    return np.linalg.norm(result.positions[start:stop, m] - clean.positions[start:stop, m], axis=1)
+
+
+@pytest.mark.parametrize("kind", ["noise", "slow"])
+def test_prediction_replaces_noise_and_drift(clean, kind):
+    rng = np.random.default_rng(1)
+    recording = distorted(clean, rng.normal(0, 10, (STOP - START, 3)))
+    result = mend(recording, {kind: [Event(MARKER, START, STOP, 3.0)]})
+    check_only(recording, result, START, STOP, kind)
+    assert error(clean, result).max() < 1
+    assert result.facts["repairs"] == [
+        {
+            "marker": MARKER,
+            "start": START,
+            "stop": STOP,
+            "score": 3.0,
+            "axes": "xyz",
+            "partner": None,
+            "class": kind,
+            "method": "local_ridge",
+        }
+    ]
+
+
+def test_spline_replaces_a_peak_and_states_a_fair_error(clean):
+    recording = distorted(clean, 15.0, 700, 703)
+    result = mend(recording, {"peaks": [Event(MARKER, 700, 703, 5.0)]})
+    check_only(recording, result, 700, 703, "peak")
+    miss = error(clean, result, 700, 703)
+    stated = result.error95[700:703, clean.markers.index(MARKER)]
+    assert miss.max() < 0.5
+    assert stated.max() < 1
+    assert (miss < 2 * stated).all()
+
+
+def test_offset_keeps_the_measured_detail_of_a_step(clean):
+    recording = distorted(clean, np.array([9.0, -4.0, 2.0]))
+    result = mend(recording, {"steps": [Event(MARKER, START, STOP, 5.0)]})
+    check_only(recording, result, START, STOP, "step")
+    assert result.facts["repairs"][0]["method"] == "offset"
+    m = clean.markers.index(MARKER)
+    shift = result.positions[START:STOP, m] - clean.positions[START:STOP, m]
+    assert np.abs(shift).max() < 0.3
+    assert np.ptp(shift, axis=0).max() < 1e-9  # one constant: the detail is the measured one
+
+
+def test_a_step_with_noise_on_it_is_predicted(clean):
+    rng = np.random.default_rng(2)
+    recording = distorted(clean, 9.0 + rng.normal(0, 6, (STOP - START, 3)))
+    result = mend(recording, {"steps": [Event(MARKER, START, STOP, 5.0)]})
+    assert result.facts["repairs"][0]["method"] == "local_ridge"
+    assert error(clean, result).max() < 1
+
+
+def test_swap_is_undone_bit_for_bit(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    recording = bodies.recording(clean.markers, positions)
+    events = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(recording, {"steps": events})
+    assert np.array_equal(result.positions, clean.positions)
+    assert (result.origin[START:STOP, [a, b]] == ORIGINS.index("swap")).all()
+    assert [(r["marker"], r["partner"], r["class"]) for r in result.facts["repairs"]] == [
+        ("2b", "3a", "swap"),
+        ("3a", "2b", "swap"),
+    ]
+
+
+def test_swap_with_a_missing_partner_moves_the_samples(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, b] = positions[START:STOP, a]
+    positions[START:STOP, a] = np.nan
+    recording = bodies.recording(clean.markers, positions)
+    result = mend(recording, {"steps": [Event("3a", START, STOP, 9.0, "xyz", "2b")]})
+    assert np.array_equal(result.positions[:, a], clean.positions[:, a])
+    assert np.isnan(result.positions[START:STOP, b]).all()
+    assert (result.origin[START:STOP, b] == MISSING).all()
+
+
+def test_the_neighbours_artifact_does_not_leak_into_a_repair(clean):
+    recording = distorted(distorted(clean, 30.0), 40.0, marker="1a")
+    events = [Event(MARKER, START, STOP, 5.0), Event("1a", START, STOP, 5.0)]
+    result = mend(recording, {"slow": events})
+    assert error(clean, result).max() < 1.5
+    assert error(clean, result, marker="1a").max() < 1.5
+
+
+def test_overlapping_classes_become_a_gap(clean):
+    recording = distorted(clean, 20.0)
+    found = {"peaks": [Event(MARKER, 610, 613, 2.0)], "slow": [Event(MARKER, START, STOP, 4.0)]}
+    result = mend(recording, found)
+    m = clean.markers.index(MARKER)
+    assert np.isnan(result.positions[START:STOP, m]).all()
+    assert (result.origin[START:STOP, m] == MISSING).all()
+    (left,) = result.facts["repairs_left"]
+    assert (left["class"], left["start"], left["stop"], left["blanked"]) == ("peak+slow", START, STOP, True)
+
+
+def test_what_cannot_be_trusted_becomes_missing_and_says_why(clean):
+    recording = distorted(clean, 20.0)
+    for changes, reason in (({"max_error_mm": 1e-6}, "expected error"), ({"max_repair_s": 0.1}, "longer than 0.1 s")):
+        result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
+        assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
+        assert reason in result.facts["repairs_left"][0]["reason"]
+        assert not result.facts["repairs"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "facts", "reason"),
+    [
+        ({"protect": ["2*"]}, {}, "protected"),
+        ({"max_altered_share": 0.0001}, {}, "more than"),
+        ({}, {"kind": "static"}, "static"),
+    ],
+)
+def test_refusals_leave_every_sample(clean, changes, facts, reason):
+    recording = bodies.recording(clean.markers, distorted(clean, 20.0).positions, **facts)
+    result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
+    assert np.array_equal(result.positions, recording.positions)
+    (left,) = result.facts["repairs_left"]
+    assert reason in left["reason"] and not left["blanked"]
+
+
+def test_missing_samples_inside_a_finding_stay_missing(clean):
+    recording = distorted(clean, 20.0)
+    m = clean.markers.index(MARKER)
+    recording.positions[615:620, m] = np.nan
+    result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]})
+    assert np.isnan(result.positions[615:620, m]).all()
+    assert (result.origin[615:620, m] == MISSING).all()
+
+
+@pytest.mark.parametrize("method", ["linear", "spline", "savitzky_golay"])
+def test_selectable_methods_bring_a_peak_closer(clean, method):
+    recording = distorted(clean, 15.0, 700, 703)
+    result = mend(recording, {"peaks": [Event(MARKER, 700, 703, 5.0)]}, methods={**METHODS, "peaks": [method]})
+    assert result.facts["repairs"][0]["method"] == method
+    assert error(clean, result, 700, 703).max() < error(clean, recording, 700, 703).min()
+
+
+def test_nothing_found_gives_the_recording_back(clean):
+    result = mend(clean, {})
+    assert np.array_equal(result.positions, clean.positions)
+    assert not result.origin.any() and not result.error.any()
+    assert result.facts["repairs"] == result.facts["repairs_left"] == []
