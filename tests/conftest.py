@@ -31,7 +31,7 @@ def walker() -> Walker:
         body=make_body(rng=rng),
         duration=12.0,
         rate=100.0,
-        activities=["walk", "stand", "sit", "exercise"],
+        activities=["exercise", "walk", "stand", "sit"],
         noise=0.2,
         soft_tissue=1.0,
         rng=rng,

@@ -14,7 +14,7 @@ from markermend.walker import make_body, walk
 
 TRIALS = (
     ("static", ("stand",), "pc_int", ()),
-    ("daily", ("walk", "stand", "sit", "reach", "exercise"), "pc_real", (0, 1)),
+    ("daily", ("exercise", "walk", "stand", "sit", "reach"), "pc_real", (0, 1)),
     ("gait", ("walk", "reach"), "dec_real", (1,)),
 )
 """Name, activities, storage, and whether it is damaged for subjects of even (0) and odd (1) number."""

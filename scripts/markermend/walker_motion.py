@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from markermend.walker_body import Body, kind
 
-DURATIONS = {"stand": 1.5, "walk": 4.5, "reach": 3.0, "sit": 3.4, "exercise": 3.6}
+DURATIONS = {"stand": 1.5, "walk": 4.5, "reach": 3.0, "sit": 3.4, "exercise": 5.0}
 """Mean duration of an activity, s; a bout's varies by a tenth."""
 
 CHANGES = {"stand": 0.8, "walk": 1.2, "reach": 0.8, "sit": 1.5, "exercise": 0.9}
@@ -66,11 +66,11 @@ class Pose:
                     self.angles[:, index, axis] += angle
 
     def plant(self) -> None:
-        """Turn the ankles so that the soles are level."""
+        """Turn the ankles so that the soles are level but for what was added to the ankles."""
         tilt = self.angles[:, self.body.segments.index("pelvis"), 0]
         for side in ("left", "right"):
             hip, knee, ankle = (self.body.segments.index(f"{side}_{part}") for part in ("thigh", "shank", "foot"))
-            self.angles[:, ankle, 0] = self.angles[:, knee, 0] - self.angles[:, hip, 0] + tilt
+            self.angles[:, ankle, 0] += self.angles[:, knee, 0] - self.angles[:, hip, 0] + tilt
 
 
 def minimum_jerk(time: np.ndarray, start: float, stop: float) -> np.ndarray:
@@ -206,18 +206,20 @@ def _sit(
 def _exercise(
     pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: np.random.Generator
 ) -> None:
-    """Circle the arms, bend elbows and wrists, turn head and trunk and dip at the knees: a short range-of-motion set."""
-    turns = 2 * np.pi * 0.55 * (time - start)
-    for side, lag in (("left", 0.0), ("right", rng.uniform(0.5, 1.5))):
+    """Circle the arms, bend elbows and wrists, turn head and trunk, lift the knees: a short range-of-motion set."""
+    turns = 2 * np.pi * 0.5 * (time - start)
+    middle = (start + stop) / 2
+    for side, lag, since, until in (("left", 0.0, start, middle), ("right", rng.uniform(0.5, 1.5), middle, stop)):
         at = turns + lag
-        pose.add(f"{side}_upper_arm", 55 - 50 * np.cos(at), 25 + 25 * np.sin(at), 20 * np.sin(0.8 * at))
-        pose.add(f"{side}_forearm", 30 - 40 * np.sin(at + 0.6), 0.0, 25 * np.sin(1.3 * at))
-        pose.add(f"{side}_hand", 40 * np.sin(1.4 * at), 15 * np.cos(1.1 * at))
-    pose.add("thorax", 8 * np.sin(turns), 10 * np.sin(0.7 * turns), 22 * np.sin(0.9 * turns + 1))
-    pose.add("head", 15 * np.sin(1.1 * turns), 10 * np.sin(0.6 * turns), 40 * np.sin(0.8 * turns + 2))
-    dip = 1 - np.cos(turns)
-    pose.add("thigh", 16 * dip)
-    pose.add("shank", 24 * dip)
+        pose.add(f"{side}_upper_arm", 45 - 45 * np.cos(at), 25 + 25 * np.sin(at), 20 * np.sin(0.8 * at))
+        pose.add(f"{side}_forearm", 45 - 60 * np.sin(at + 0.6), 0.0, 35 * np.sin(1.3 * at))
+        pose.add(f"{side}_hand", 55 * np.sin(1.4 * at), 20 * np.cos(1.1 * at))
+        lift = bell(time, since, until)
+        pose.add(f"{side}_thigh", 65 * lift, 8 * lift, 10 * lift)
+        pose.add(f"{side}_shank", 85 * lift)
+        pose.add(f"{side}_foot", lift * 35 * np.sin(2 * turns), 0.0, 12 * lift)
+    pose.add("thorax", 10 + 14 * np.sin(turns), 14 * np.sin(0.7 * turns), 30 * np.sin(0.9 * turns + 1))
+    pose.add("head", 25 * np.sin(1.1 * turns), 15 * np.sin(0.6 * turns), 55 * np.sin(0.8 * turns + 2))
 
 
 ACTIVITIES: dict[str, Callable[..., None]] = {
