@@ -132,3 +132,9 @@ def test_no_value_in_the_file_is_missing(body):
     value = infer_mesh([lonely], **options(PROJECT)).as_json()
     json.dumps(value, allow_nan=False)
     assert value["predictors"]["never"] == ()
+
+
+def test_neighbours_as_places_in_a_recording(body, pooled):
+    names = body[0][::-1]
+    for marker, near in zip(names, pooled.neighbour_indices(names), strict=True):
+        assert tuple(names[place] for place in near) == pooled.neighbours[marker]

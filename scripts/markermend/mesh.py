@@ -10,6 +10,8 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from markermend import storage
 from markermend.recording import BadRecording
 
@@ -55,6 +57,11 @@ class Mesh:
     def segment_of(self, marker: str) -> int | None:
         """Index of the segment that holds a marker, None if none does."""
         return next((s for s, segment in enumerate(self.segments) if marker in segment.markers), None)
+
+    def neighbour_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
+        """For each of a recording's markers the places of its neighbours among them, nearest first."""
+        place = {marker: m for m, marker in enumerate(markers)}
+        return [np.array([place[name] for name in self.neighbours[marker]], int) for marker in markers]
 
     def without(self, markers: Collection[str]) -> Mesh:
         """Give the mesh of a recording that lacks some markers; lists of predictors are refilled with the next nearest.
