@@ -4,8 +4,8 @@ import c3d as second_reader
 import ezc3d
 import numpy as np
 import pytest
-from c3d_files import STORAGES, UNLABELLED, section_of, set_word4, trajectories, write
 
+from c3d_files import STORAGES, UNLABELLED, section_of, set_word4, trajectories, write
 from markermend.formats import c3d
 from markermend.formats.c3d_layout import locate
 from markermend.formats.c3d_points import decode, decode_word4, map_points
@@ -172,7 +172,7 @@ def test_patch_changes_only_the_changed_samples(tmp_path, storage, unit):
     }
     before, after = (np.frombuffer(p.read_bytes(), np.uint8) for p in (path, target))
     differing = np.flatnonzero(before != after)
-    assert len(before) == len(after) and 0 < differing.size and set(differing.tolist()) <= allowed
+    assert len(before) == len(after) and differing.size > 0 and set(differing.tolist()) <= allowed
     reading = read(target)
     scale = 1000 if unit == "m" else 1
     tolerance = 1e-4 if layout.real else layout.scale * scale / 2 * 1.0001

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from c3d_files import STORAGES, trajectories, write
 from fuzz_c3d import fuzz
 

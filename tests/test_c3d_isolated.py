@@ -5,8 +5,8 @@ import time
 
 import numpy as np
 import pytest
-from c3d_files import write
 
+from c3d_files import write
 from markermend.formats import c3d_isolated
 from markermend.formats.c3d_isolated import strings_by_ezc3d
 

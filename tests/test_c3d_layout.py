@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from c3d_files import UNLABELLED, section_of, set_header, set_parameter, trajectories, write
 
+from c3d_files import UNLABELLED, section_of, set_header, set_parameter, trajectories, write
 from markermend.formats import c3d, c3d_parameters
 from markermend.formats.c3d_layout import locate
 from markermend.recording import BadRecording

@@ -79,12 +79,12 @@ def kind_of(
             return "static", f"Its name, {name}, matches {pattern}."
     motion = motion_mm(recording)
     if motion < static_motion_mm:
-        return "static", f"Nine markers in ten move less than {motion:.1f} mm; under {static_motion_mm:g} mm is static."
-    return "dynamic", f"One marker in ten moves {motion:.0f} mm or more; {static_motion_mm:g} mm is dynamic."
+        return "static", f"Nine markers in ten move {motion:.1f} mm or less; under {static_motion_mm:g} mm is static."
+    return "dynamic", f"Nine markers in ten move up to {motion:.0f} mm; under {static_motion_mm:g} mm is static."
 
 
 def motion_mm(recording: Recording) -> float:
-    """The range of motion (mm) that nine markers in ten stay below.
+    """The range of motion (mm) that nine markers in ten do not exceed.
 
     A marker's range is the distance between the 5th and the 95th percentiles of its coordinates over the frames in
     which it was seen. At least one marker must have been seen.
@@ -92,7 +92,7 @@ def motion_mm(recording: Recording) -> float:
     positions = recording.positions[:: max(1, recording.frames // ENOUGH_FRAMES)]
     seen = ~np.isnan(positions[..., 0]).all(axis=0)
     low, high = np.nanpercentile(positions[:, seen], [5, 95], axis=0)
-    return float(np.percentile(np.linalg.norm(high - low, axis=1), 90)) if seen.any() else math.inf
+    return float(np.percentile(np.linalg.norm(high - low, axis=1), 90, method="lower"))
 
 
 def _why_empty(reading: Reading) -> str:

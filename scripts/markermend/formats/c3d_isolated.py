@@ -5,6 +5,7 @@ ezc3d crashes, hangs or exhausts memory on some damaged files; here that costs o
 
 from __future__ import annotations
 
+import faulthandler
 import json
 import os
 import resource
@@ -60,6 +61,7 @@ def _answer(path: str, send: int) -> None:
 
 def _limit() -> None:
     """Bound time and memory of this process, and let it crash without a trace."""
+    faulthandler.disable()
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     signal.alarm(SECONDS)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
