@@ -87,9 +87,8 @@ def _positions(
 ) -> tuple[np.ndarray, dict[str, int], list[str]]:
     """Positions (frames, columns, 3) in the file's unit, NaN where missing; missing samples per clause; warnings."""
     stored = c3d_points.map_points(path, layout, section.coding)
-    values = c3d_points.decode(stored[:, np.asarray(columns, int)], layout, section.coding)
-    missing, believed = c3d_points.missing_clauses(values, layout)
-    positions = np.ascontiguousarray(values[..., :3])
+    positions, word4 = c3d_points.decode(stored[:, np.asarray(columns, int)], layout, section.coding)
+    missing, believed = c3d_points.missing_clauses(positions, word4)
     for caught in missing.values():
         positions[caught] = np.nan
     counts = {clause: int(caught.sum()) for clause, caught in missing.items()}

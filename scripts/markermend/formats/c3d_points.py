@@ -25,13 +25,11 @@ def map_points(path: Path, layout: Layout, coding: Coding, *, writable: bool = F
     return np.ndarray(shape, stored, buffer=data, offset=layout.start, strides=strides)
 
 
-def decode(stored: np.ndarray, layout: Layout, coding: Coding) -> np.ndarray:
-    """Stored numbers (frames, points, 4) as float64: coordinates in the file's unit, and word 4 as stored."""
+def decode(stored: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarray, np.ndarray]:
+    """Stored numbers (frames, points, 4) as coordinates (frames, points, 3) in the file's unit, and word 4 as stored."""
     if layout.real:
-        return coding.decode_floats(stored)
-    values = stored.astype(np.float64)
-    values[..., :3] *= layout.scale
-    return values
+        return coding.decode_floats(stored[..., :3]), coding.decode_floats(stored[..., 3])
+    return stored[..., :3] * layout.scale, stored[..., 3].astype(np.float64)
 
 
 def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
@@ -47,18 +45,18 @@ def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarra
     return np.where(finite, residual, np.nan), np.where(missing, 0, (whole >> 8) & 0x7F).astype(np.uint8)
 
 
-def missing_clauses(values: np.ndarray, layout: Layout) -> tuple[dict[str, np.ndarray], bool]:
+def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str, np.ndarray], bool]:
     """Why samples are missing, as one mask (frames, points) per clause, disjoint, and whether word 4 was believed.
 
-    values: (frames, points, 4) as decoded. A sample counts for the first clause that catches it: `residual` (word 4 is
-    negative), `zero` (exactly 0, 0, 0), `not finite`, `out of range`. Where word 4 calls every real sample missing, it
-    is not believed.
+    positions, word4: as decoded. A sample counts for the first clause that catches it: `residual` (word 4 is negative),
+    `zero` (exactly 0, 0, 0), `not finite`, `out of range`. Where word 4 calls every real sample missing, it is not
+    believed.
     """
-    residual, _ = decode_word4(values[..., 3], layout.scale)
+    residual, _ = decode_word4(word4, 1.0)
     negative = residual < 0
-    zero = (values[..., :3] == 0).all(axis=2)
-    unusable = ~np.isfinite(values).all(axis=2)
-    far = (np.abs(values[..., :3]) >= FARTHEST).any(axis=2)
+    zero = (positions == 0).all(axis=2)
+    unusable = ~(np.isfinite(positions).all(axis=2) & np.isfinite(word4))
+    far = (np.abs(positions) >= FARTHEST).any(axis=2)
     real = ~(zero | unusable | far)
     believed = not (real.any() and bool(np.all(negative | ~real)))
     negative &= believed
