@@ -143,9 +143,12 @@ def before(stage):
     return [EVENTS[earlier] for earlier in DETECTORS[: DETECTORS.index(stage)]]
 
 
-def options(stage, without=()):
-    """The stage's section of the config as flags; a function, so that braces in values stay what they are."""
-    flags = settings.flags(config[stage], without)
+def options(stage, *shared, without=()):
+    """The stage's section of the config as flags, with the settings that it shares with other stages.
+
+    A function, so that braces in values stay what they are.
+    """
+    flags = settings.flags({**config[stage], **{name: config[name] for name in shared}}, without)
 
     def of_stage(wildcards):
         return flags
