@@ -79,6 +79,13 @@ def test_a_truncated_file_is_read_as_far_as_it_goes(path):
         read(path)
 
 
+def test_a_truncated_file_whose_header_is_wrong_is_read_by_the_parameters(path):
+    set_header(path, 3, 12)
+    layout = locate(section_of(path), path.stat().st_size, path.name)
+    path.write_bytes(path.read_bytes()[: layout.start + 29 * layout.stride])
+    assert_read_whole(path, "neither fits", "29 of the 200", positions=trajectories(200, 4)[:29])
+
+
 def test_a_file_that_ends_in_its_parameters_is_refused(path):
     path.write_bytes(path.read_bytes()[:900])
     with pytest.raises(BadRecording, match=r"walk\.c3d"):

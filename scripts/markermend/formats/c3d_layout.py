@@ -57,19 +57,8 @@ def locate(section: Section, size: int, name: str) -> Layout:
         [value < 0 for value in _options_real(scale, header.scale)],
         _frames(section),
     )
-    start, used, analog, real, frames = _best(choices, size)
-    if (start, used, analog, real, frames) != tuple(options[0] for options in choices):
-        warnings.append(
-            f"Header and parameters disagree; by the file's size it holds {frames} frames of {used} points "
-            f"and {analog} analog samples, {'floating point' if real else 'integer'}."
-        )
-    held = (size - start) // _stride(used, analog, real)
-    if frames in (SATURATED, held % (SATURATED + 1)) and held > SATURATED:
-        warnings.append(f"The frame count {frames} is too small for the file, which holds {held} frames; all are read.")
-        frames = held
-    if held < frames:
-        warnings.append(f"The file is truncated: it holds {held} of the {frames} frames that it declares.")
-        frames = held
+    start, used, analog, real, frames = _best(choices, size, warnings)
+    frames = _frames_held(frames, (size - start) // _stride(used, analog, real), warnings)
     if frames < 1:
         raise BadRecording(f"{name} holds no complete frame (truncated, or its header is wrong): export it again")
     usable = next((value for value in (scale, header.scale) if value and math.isfinite(value)), None)
@@ -84,19 +73,36 @@ def _stride(points: int, analog: int, real: bool) -> int:
     return (4 * points + analog) * (4 if real else 2)
 
 
-def _best(choices: tuple, size: int) -> tuple:
+def _best(choices: tuple, size: int, warnings: list[str]) -> tuple:
     """The combination nearest to the first of each that fits the file's size; the first of each if none does."""
     ranked = sorted(
         itertools.product(*(enumerate(options) for options in choices)),
         key=lambda combination: sum(rank for rank, _ in combination),
     )
-    for combination in ranked:
+    for number, combination in enumerate(ranked):
         start, points, analog, real, frames = chosen = tuple(value for _, value in combination)
-        if points and 0 <= size - start - frames * _stride(points, analog, real) < BLOCK and frames:
+        if points and frames and 0 <= size - start - frames * _stride(points, analog, real) < BLOCK:
+            if number:
+                warnings.append(
+                    f"Header and parameters disagree; by the file's size it holds {frames} frames of {points} points "
+                    f"and {analog} analog samples, {'floating point' if real else 'integer'}."
+                )
             return chosen
-    return tuple(next((value for value in options if value), options[0]) for options in choices[:3]) + tuple(
-        options[0] for options in choices[3:]
+    if len(ranked) > 1:
+        warnings.append("Header and parameters disagree, and neither fits the file's size; the parameters are used.")
+    return tuple(next((value for value in options if value), options[0]) for options in choices[:2]) + tuple(
+        options[0] for options in choices[2:]
     )
+
+
+def _frames_held(frames: int, held: int, warnings: list[str]) -> int:
+    """The frames to read, of those declared, where the file has room for `held`."""
+    if frames in (SATURATED, held % (SATURATED + 1)) and held > SATURATED:
+        warnings.append(f"The frame count {frames} is too small for the file, which holds {held} frames; all are read.")
+        return held
+    if held < frames:
+        warnings.append(f"The file is truncated: it holds {held} of the {frames} frames that it declares.")
+    return min(held, frames)
 
 
 def _options(*values: float | None) -> list[int]:
