@@ -1,0 +1,146 @@
+"""Everything that the stages left behind about one recording, gathered for its summary and its page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from markermend import __version__, quality, report, storage, timeline
+from markermend.events import Event
+from markermend.excerpts import excerpt
+from markermend.findings import Finding, left_open, read_changes
+from markermend.mesh import Mesh, for_recording
+from markermend.methods_text import paragraph
+from markermend.naming import decode
+from markermend.recording import BadRecording, Recording, Restored, SetAside
+
+TICKS = 8
+"""About so many times along the map of what is missing."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One recording before and after, what was found, changed and left in it, and how.
+
+    found: events by detector, for those that ran. changes, left: worst first. stages: the options of every stage.
+    """
+
+    before: Recording
+    after: Restored
+    mesh: Mesh
+    found: dict[str, list[Event]]
+    changes: list[Finding]
+    left: list[Finding]
+    certificate: dict[str, Any]
+    stages: dict[str, dict[str, Any]]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What ingest, the mesh and export warned of."""
+        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
+        if refused := self.certificate["refused"]:
+            warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
+        return warnings
+
+
+def read(call: Any) -> Evidence:
+    """Read what the stages wrote; call: a namespace with the paths that qc reads.
+
+    Raises SetAside where a stage set the recording aside.
+    """
+    before, after = storage.read_recording(call.markers), storage.read_recording(call.filled)
+    if not isinstance(after, Restored):
+        raise BadRecording(f"{call.filled.name} does not say where its samples come from: run the fill stage again")
+    certificate = storage.read_json(call.certificate)
+    if "untouched" in certificate:
+        raise SetAside(**certificate["untouched"])
+    meshes = storage.read_json(call.mesh)
+    told = [storage.read_facts(path) for path in call.events]
+    found = {facts["stage"]: storage.read_events(path) for facts, path in zip(told, call.events, strict=True)}
+    changes = read_changes(call.changes.read_bytes().decode(), after)
+    steps = [before.facts, meshes.get("facts", {}), *told, storage.read_facts(call.repaired), after.facts]
+    return Evidence(
+        before=before,
+        after=after,
+        mesh=for_recording(meshes, before.facts["recording"]),
+        found=found,
+        changes=changes,
+        left=left_open(after, found, changes),
+        certificate=certificate,
+        stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
+    )
+
+
+def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:
+    """Sum up the recording: see quality.summarize."""
+    summary = quality.summarize(
+        before=seen.before,
+        after=seen.after,
+        found=seen.found,
+        changes=seen.changes,
+        left=seen.left,
+        warnings=seen.warnings,
+        weights=weights,
+    )
+    return {**summary, "methods": paragraph(seen.stages, summary["kind"], __version__)}
+
+
+def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:
+    """Sum up a recording that was set aside, from what ingest wrote, if anything, and the names of its folders."""
+    try:
+        facts = storage.read_facts(markers)
+    except SetAside:
+        facts = {}
+    recording, subject = name_of(page.absolute().parent), name_of(page.absolute().parent.parent)
+    return {
+        **quality.set_aside({"recording": recording, "subject": subject, **facts}, note.stage, note.reason),
+        **place(page),
+    }
+
+
+def name_of(folder: Path) -> str:
+    """The name behind a folder's name, or that one where it was cut."""
+    try:
+        return decode(folder.name)
+    except ValueError:
+        return folder.name
+
+
+def place(page: Path) -> dict[str, str]:
+    """Where a page lies, relative to the results."""
+    return {"page": "/".join(page.absolute().parts[-3:])}
+
+
+def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any]) -> str:
+    """Write the recording's page. options: `plots`, `context_s`, `plot_frames`, see the qc stage."""
+    artifacts = [finding for finding in seen.left if finding.kind != "gap"]
+    chosen = [*seen.changes[: options["plots"]], *artifacts[: options["plots"]]]
+    drawn = {
+        finding: (f"finding-{number}", cut(seen, finding, options))
+        for number, finding in enumerate(dict.fromkeys(chosen))
+    }
+    rows = quality.per_marker(seen.before, seen.after)
+    marks = timeline.lines(seen.before, seen.after)
+    busy = [{**row, **mark} for row, mark in zip(rows, marks, strict=True) if any(mark.values())]
+    return report.page(
+        summary=summary,
+        facts=seen.before.facts,
+        lines=sorted(busy, key=lambda row: (-row["missing_share_after"], -row["missing_share_before"], row["marker"])),
+        complete=[row["marker"] for row, mark in zip(rows, marks, strict=True) if not any(mark.values())],
+        ticks=timeline.ticks(seen.before, TICKS),
+        changes=seen.changes,
+        left=seen.left,
+        drawn=drawn,
+        mesh=seen.mesh,
+        certificate=seen.certificate,
+        methods=summary["methods"],
+        stages=seen.stages,
+    )
+
+
+def cut(seen: Evidence, finding: Finding, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Cut out what a finding's plot shows."""
+    context_s, frames = options["context_s"], options["plot_frames"]
+    return excerpt(finding, seen.before, seen.after, context_s=context_s, frames=frames)
