@@ -51,6 +51,10 @@ try:
 except (dataset.BadDataSet, OSError) as error:
     raise WorkflowError(str(error))
 
+SUBJECTS = {subject: [] for subject, _ in RECORDINGS}
+for subject, recording in RECORDINGS:
+    SUBJECTS[subject].append(recording)
+
 DETECTORS = [stage for stage in CLASSES if stage in config["detect"]]
 FAILURES = settings.failures(RESULTS)
 
@@ -122,8 +126,8 @@ def rate(wildcards):
 
 def of_subject(wildcards):
     """01 of each of the subject's recordings."""
-    pairs = [pair for pair in RECORDINGS if pair[0] == wildcards.subject]
-    return [MARKERS.format(subject=subject, recording=recording) for subject, recording in pairs]
+    subject = wildcards.subject
+    return [MARKERS.format(subject=subject, recording=recording) for recording in SUBJECTS[subject]]
 
 
 def with_suffix(suffix):
@@ -134,7 +138,8 @@ def with_suffix(suffix):
 
 def mesh_files(wildcards):
     """Mesh files that the user supplies for the subject: the table's, else the config's."""
-    supplied = {item.mesh for (subject, _), item in RECORDINGS.items() if subject == wildcards.subject and item.mesh}
+    subject = wildcards.subject
+    supplied = {RECORDINGS[subject, recording].mesh for recording in SUBJECTS[subject]} - {None}
     return sorted(supplied) or [os.path.abspath(path) for path in config["mesh"]["files"]]
 
 
