@@ -88,7 +88,7 @@ def set_aside(path: Path, stage: str, reason: str) -> None:
     """Write, in place of a Parquet or JSON file, the note that `stage` set the recording aside."""
     note = {"set_aside": {"stage": stage, "reason": reason}}
     if path.suffix == ".parquet":
-        write_table(path, pa.table({}), note)
+        write_table(path, pa.Table.from_arrays([], []), note)
     else:
         write_json(path, note)
 
@@ -101,12 +101,12 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
     columns: dict[str, pa.Array] = {}
     for m, marker in enumerate(recording.markers):
         for a, axis in enumerate("xyz"):
-            columns[f"{marker}.{axis}"] = pa.array(np.ascontiguousarray(recording.positions[:, m, a]))
+            columns[f"{marker}.{axis}"] = _column(recording.positions[:, m, a], np.float64)
         if isinstance(recording, Restored):
-            codes = pa.array(np.ascontiguousarray(recording.origin[:, m]).astype(np.int8))
+            codes = _column(recording.origin[:, m], np.int8)
             columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, pa.array(ORIGINS))
-            columns[f"{marker}.error"] = pa.array(np.ascontiguousarray(recording.error[:, m]))
-            columns[f"{marker}.error95"] = pa.array(np.ascontiguousarray(recording.error95[:, m]))
+            columns[f"{marker}.error"] = _column(recording.error[:, m], np.float64)
+            columns[f"{marker}.error95"] = _column(recording.error95[:, m], np.float64)
     own = {
         "markers": list(recording.markers),
         "rate": recording.rate,
@@ -114,7 +114,20 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
         "frames": recording.frames,
         "unit": "mm",
     }
-    write_table(path, pa.table(columns), {**recording.facts, **facts, **own})
+    write_table(path, pa.Table.from_arrays(list(columns.values()), list(columns)), {**recording.facts, **facts, **own})
+
+
+def _read_table(path: Path) -> pa.Table:
+    """The table in a Parquet file; by ParquetFile, because pq.read_table imports pandas."""
+    with pq.ParquetFile(path) as file:
+        return file.read(use_threads=False)
+
+
+def _column(values: np.ndarray, kind: type) -> pa.Array:
+    """A vector as an Arrow array; from its buffer, because pa.array(ndarray) imports pandas."""
+    contiguous = np.ascontiguousarray(values, kind)
+    arrow = pa.from_numpy_dtype(contiguous.dtype)
+    return pa.Array.from_buffers(arrow, len(contiguous), [None, pa.py_buffer(contiguous)])
 
 
 def read_recording(path: Path) -> Recording:
@@ -123,7 +136,7 @@ def read_recording(path: Path) -> Recording:
     Raises SetAside where an earlier stage set the recording aside.
     """
     facts = read_facts(path)
-    table = pq.read_table(path, use_threads=False)
+    table = _read_table(path)
     markers = tuple(facts["markers"])
     frames = facts["frames"]
     positions = np.full((frames, len(markers), 3), np.nan)
@@ -154,4 +167,4 @@ def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> 
 def read_events(path: Path) -> list[Event]:
     """Read events; raises SetAside where an earlier stage set the recording aside."""
     read_facts(path)
-    return [Event(**row) for row in pq.read_table(path, use_threads=False).to_pylist()]
+    return [Event(**row) for row in _read_table(path).to_pylist()]
