@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from numpy.typing import DTypeLike
 
 from markermend.events import Event
 from markermend.recording import ORIGINS, Recording, Restored, SetAside
@@ -123,9 +124,14 @@ def _read_table(path: Path) -> pa.Table:
         return file.read(use_threads=False)
 
 
-def _column(values: np.ndarray, kind: type) -> pa.Array:
+def _vector(array: pa.Array) -> np.ndarray:
+    """An Arrow array without nulls as a vector; by DLPack, because Array.to_numpy imports pandas."""
+    return np.from_dlpack(array)
+
+
+def _column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
     """A vector as an Arrow array; from its buffer, because pa.array(ndarray) imports pandas."""
-    contiguous = np.ascontiguousarray(values, kind)
+    contiguous: np.ndarray = np.ascontiguousarray(values, kind)
     arrow = pa.from_numpy_dtype(contiguous.dtype)
     return pa.Array.from_buffers(arrow, len(contiguous), [None, pa.py_buffer(contiguous)])
 
@@ -142,7 +148,7 @@ def read_recording(path: Path) -> Recording:
     positions = np.full((frames, len(markers), 3), np.nan)
     for m, marker in enumerate(markers):
         for a, axis in enumerate("xyz"):
-            positions[:, m, a] = table[f"{marker}.{axis}"].to_numpy()
+            positions[:, m, a] = _vector(table[f"{marker}.{axis}"].combine_chunks())
     common = (markers, positions, facts["rate"], facts["first_frame"], facts)
     if not any(name.endswith(".origin") for name in table.column_names):
         return Recording(*common)
@@ -152,9 +158,9 @@ def read_recording(path: Path) -> Recording:
     for m, marker in enumerate(markers):
         stored = table[f"{marker}.origin"].combine_chunks()
         translate = np.array([codes[name] for name in stored.dictionary.to_pylist()], np.uint8)
-        origin[:, m] = translate[stored.indices.to_numpy()]
-        error[:, m] = table[f"{marker}.error"].to_numpy()
-        error95[:, m] = table[f"{marker}.error95"].to_numpy()
+        origin[:, m] = translate[_vector(stored.indices)]
+        error[:, m] = _vector(table[f"{marker}.error"].combine_chunks())
+        error95[:, m] = _vector(table[f"{marker}.error95"].combine_chunks())
     return Restored(*common, origin, error, error95)
 
 
