@@ -12,7 +12,7 @@ demo: .venv/ready
 	@echo "$(CURDIR)/demo/results/report/index.html"
 
 test: lint
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 -m "not slow"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow"
 
 lint: .venv/ready
 	$(BIN)/ruff check .
@@ -24,7 +24,7 @@ lint: .venv/ready
 lock: .venv/ready
 	$(PYTHON) -m venv .venv-lock
 	.venv-lock/bin/pip install --quiet uv
-	.venv-lock/bin/uv pip compile --quiet --universal --generate-hashes --no-emit-index-url --no-emit-find-links \
+	.venv-lock/bin/uv pip compile --quiet --universal --fork-strategy fewest --generate-hashes --no-emit-index-url --no-emit-find-links \
 		--python-version 3.11 --upgrade --custom-compile-command "make lock" requirements.in --output-file requirements.lock
 	rm -r .venv-lock
 
