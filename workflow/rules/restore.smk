@@ -26,7 +26,7 @@ rule repair:
         runtime=30,
     params:
         *code("repair"),
-        options=options("repair"),
+        options=options("repair", "local_ridge", "interpolation", "protect"),
         failures=failures("repair"),
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"
@@ -55,7 +55,7 @@ rule fill:
         runtime=60,
     params:
         *code("fill"),
-        options=options("fill"),
+        options=options("fill", "local_ridge", "interpolation", "protect"),
         failures=failures("fill"),
     message:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"

@@ -1,0 +1,58 @@
+"""Fill the gaps that may be filled, with several predictors that are weighted by how good each is; say why the rest stays.
+
+Reads: 06_repaired.parquet, mesh.json.
+Writes: 07_filled.parquet.
+"""
+
+from markermend import mesh, storage
+from markermend.ensemble import WEIGHTS, Ensemble, EnsembleOptions
+from markermend.fill import FillOptions, fill_gaps
+from markermend.predictors.registry import FAMILIES, members
+from markermend.stage import Stage, boolean, mapping, optional
+
+STAGE = Stage("fill", __doc__)
+STAGE.reads("repaired", "trajectories after repair")
+STAGE.reads("mesh", "functional body mesh of the subject")
+STAGE.writes("filled", "trajectories after filling")
+STAGE.option("max_gap_s", optional(float), "longest gap filled, s; a longer one stays whole")
+STAGE.option("max_gap_s_of", mapping, "longest gap of single markers, s, by name pattern with * and ?")
+STAGE.option("ends", boolean, "whether gaps at the recording's start and end are filled")
+STAGE.option("protect", str, "markers never filled, as name patterns with * and ?", many=True)
+STAGE.option("seen_share", float, "markers seen in a smaller share of the frames are left alone")
+STAGE.option("border_s", float, "time for which a marker must be seen without a break on either side, s")
+STAGE.option("max_error_mm", optional(float), "gaps whose expected error exceeds this stay open, mm")
+STAGE.option("max_altered_share", float, "share of a recording's samples; if more were altered, nothing is filled")
+STAGE.option("reuse", boolean, "whether filled markers are references for those filled later")
+STAGE.option("similar_length", float, "gaps of a marker that differ less than by this factor share their pseudo-gaps")
+STAGE.option("members", str, "predictors that fill together, and variants of local_ridge", many=True)
+STAGE.option("weights", str, "how members are weighted", choices=WEIGHTS)
+STAGE.option("ensemble", mapping, "settings of the averaging, its constraints and the expected error")
+STAGE.option("variants", mapping, "members that are local_ridge with other settings: name to settings")
+STAGE.option("linear_regression", mapping, "settings of the predictor linear_regression")
+STAGE.option("reference_frame", mapping, "settings of local_interpolation, local_quadratic and local_grnn")
+STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
+STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
+
+
+def work(call):
+    restored = storage.read_recording(call.repaired)
+    body = mesh.read(call.mesh, restored.facts["recording"])
+    settings = {name: call.options[name] for name in FAMILIES}
+    own = {name: value for name, value in call.options.items() if name not in settings}
+    names, weights, ensemble = (own.pop(name) for name in ("members", "weights", "ensemble"))
+    filled = fill_gaps(
+        restored,
+        body.neighbour_indices(restored.markers),
+        ensemble=Ensemble(members(names, settings), weights=weights, options=EnsembleOptions(**ensemble)),
+        options=FillOptions(**own),
+    )
+    storage.write_recording(call.filled, filled, call.facts)
+    return f"{len(filled.facts['fills'])} gaps filled, {len(filled.facts['gaps_left'])} left"
+
+
+def main(argv=None):
+    STAGE.run(work, argv)
+
+
+if __name__ == "__main__":
+    main()

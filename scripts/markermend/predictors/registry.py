@@ -1,0 +1,52 @@
+"""The predictors by name: how a config's list of members becomes objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from markermend.predictors import Predictor
+from markermend.predictors.interpolation import KINDS, Interpolation
+from markermend.predictors.linear import GlobalRegression, LinearOptions
+from markermend.predictors.local import LocalRidge, RidgeOptions
+from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
+
+FAMILIES = ("local_ridge", "variants", "interpolation", "linear_regression", "reference_frame")
+"""The families that have settings; `variants` maps the name of a member to what it changes in local_ridge."""
+
+Settings = Mapping[str, Mapping[str, Any]]
+"""Settings by family; those of families that are not asked for may be absent."""
+
+
+def _interpolation(kind: str) -> Callable[[Settings], Predictor]:
+    return lambda settings: Interpolation(kind, **settings["interpolation"])
+
+
+REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
+    **{kind: _interpolation(kind) for kind in KINDS},
+    "linear_regression": lambda settings: GlobalRegression(LinearOptions(**settings["linear_regression"])),
+    "local_interpolation": lambda settings: LocalInterpolation(FrameOptions(**settings["reference_frame"])),
+    "local_quadratic": lambda settings: LocalQuadratic(FrameOptions(**settings["reference_frame"])),
+    "local_grnn": lambda settings: LocalGRNN(FrameOptions(**settings["reference_frame"])),
+    "local_ridge": lambda settings: LocalRidge(RidgeOptions(**settings["local_ridge"])),
+}
+"""How to make each predictor from the settings."""
+
+
+def members(names: Sequence[str], settings: Settings) -> list[Predictor]:
+    """Make the named predictors. Raises ValueError for a name that is neither known nor a variant, or named twice."""
+    variants = settings.get("variants", {})
+    unknown = [name for name in names if name not in REGISTRY and name not in variants]
+    if unknown:
+        raise ValueError(f"unknown member {', '.join(unknown)}: known are {', '.join([*REGISTRY, *variants])}")
+    if len(set(names)) < len(names):
+        raise ValueError(f"a member is named twice: {', '.join(names)}")
+    made: list[Predictor] = []
+    for name in names:
+        if name in variants:
+            ridge = LocalRidge(RidgeOptions(**{**settings["local_ridge"], **variants[name]}))
+            ridge.name = name
+            made.append(ridge)
+        else:
+            made.append(REGISTRY[name](settings))
+    return made

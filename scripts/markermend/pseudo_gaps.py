@@ -1,0 +1,46 @@
+"""Pseudo-gaps: stretches of a marker, hidden for trial, on which a method's error can be measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from markermend.predictors import Scene
+
+
+@dataclass(frozen=True)
+class PseudoGap:
+    """A trial: the scene without the marker over [start, stop), and the truth (n, 3), mm."""
+
+    scene: Scene
+    start: int
+    stop: int
+    truth: np.ndarray
+
+
+def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int) -> list[PseudoGap]:
+    """Hide stretches as long as the gap [start, stop), spread evenly over where the marker is seen with both borders.
+
+    A gap at an end of the recording has but one border: on the other side its trials hide as much again, at least 1 s.
+    What neighbours miss during the real gap they miss at the same offsets of the trial. Fewer than `count` stretches,
+    or none, where the marker is not seen that long; the real gap itself stays hidden in all.
+    """
+    length = stop - start
+    seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
+    begins = np.arange(1, len(scene.positions) - length)
+    begins = begins[seen[begins + length + 1] - seen[begins - 1] == length + 2]
+    if len(begins) == 0 or count == 0:
+        return []
+    chosen = begins[np.unique(np.linspace(0, len(begins) - 1, count + 2).astype(int)[1:-1])]
+    absent = ~scene.present[start:stop]
+    beyond = max(length, round(scene.rate))
+    before, after = beyond * (start == 0), beyond * (stop == len(scene.positions))
+    trials = []
+    for begin in chosen.tolist():
+        positions = scene.positions.copy()
+        truth = positions[begin : begin + length, marker].copy()
+        positions[begin : begin + length][absent] = np.nan
+        positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
+        trials.append(PseudoGap(replace(scene, positions=positions), begin, begin + length, truth))
+    return trials
