@@ -74,3 +74,9 @@ def mask(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.nda
     for event in events:
         covered[event.start : event.stop, index[event.marker]] = True
     return covered
+
+
+def carrying(vectors: np.ndarray) -> str:
+    """The axes that carry a finding (n, 3): those whose largest component is at least half of the largest of all."""
+    size = np.abs(vectors).max(axis=0)
+    return "".join(axis for axis, part in zip("xyz", size, strict=True) if part >= 0.5 * size.max())

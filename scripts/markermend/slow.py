@@ -1,0 +1,199 @@
+"""Slow changes: a marker drifts away from where its neighbours say it should be, and comes back (skurowski2022 3.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from scipy import ndimage
+
+from markermend import blame, coordinates, detection, events, robust
+from markermend.blame import ResidualSource
+from markermend.events import Event
+from markermend.predictors import Scene
+from markermend.recording import runs
+
+
+@dataclass(frozen=True)
+class CoordinateSlow:
+    """Settings of the detector of one coordinate of the residual (config slow.paper).
+
+    scale: `mad` or `std`, of the residual. sigmas: upper threshold, in its standard deviations. lower: lower threshold,
+    likewise. top_s: shortest stretch beyond the upper threshold. shortest_s: shortest stretch beyond the lower one.
+    """
+
+    scale: str
+    sigmas: float
+    lower: float
+    top_s: float
+    shortest_s: float
+
+
+@dataclass(frozen=True)
+class NeighbourSlow:
+    """Settings of the detector on all coordinates together (config slow.default).
+
+    smooth_s: of the moving median that clears the residual of what is not slow. baseline_s: of the one that follows
+    lasting misfit, which is not counted. activity_s, activity_ratio, activity_neighbours: the usual level follows the
+    marker's own over this time, but not beyond this ratio to its nearest neighbours'; see sudden.SuddenSettings.
+    company_neighbours: where the body as a whole fits badly, so many neighbours tell. sigmas: upper threshold in units
+    of the usual level. floor_mm: and at least so much. lower: lower threshold, as a part of the upper one. top_s: shortest stretch
+    beyond the upper threshold. shortest_s, longest_s: of the stretch beyond the lower one. rounds, rivals: see blame.find.
+    """
+
+    smooth_s: float
+    baseline_s: float
+    activity_s: float
+    activity_ratio: float
+    activity_neighbours: int
+    company_neighbours: int
+    sigmas: float
+    floor_mm: float
+    lower: float
+    top_s: float
+    shortest_s: float
+    longest_s: float
+    rounds: int
+    rivals: int
+
+
+def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]]:
+    """Hysteresis with re-growing: stretches of a level above `lower` that exceed 1 for `top` samples in a row at least.
+
+    level: (frames,), NaN = missing, at which a stretch ends.
+    """
+    tops = np.array([start for start, stop in runs(np.nan_to_num(level) > 1) if stop - start >= top], int)
+    grown = list(runs(np.nan_to_num(level) > lower))
+    return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
+
+
+def find_slow(residual: np.ndarray, *, rate: float, settings: CoordinateSlow) -> tuple[np.ndarray, np.ndarray]:
+    """Find the hills and valleys of one coordinate of the residual (skurowski2022 3.5, steps 1-4).
+
+    residual: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
+    """
+    finite = residual[np.isfinite(residual)]
+    centre = float(np.median(finite)) if finite.size else 0.0
+    sigma = robust.threshold(residual, scale=settings.scale, sigmas=1.0, floor_mm=1e-9)
+    level = (residual - centre) / (settings.sigmas * sigma)
+    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
+    top, shortest = robust.samples(settings.top_s, rate), robust.samples(settings.shortest_s, rate)
+    for sign in (1, -1):
+        for start, stop in regrow(sign * level, lower=settings.lower / settings.sigmas, top=top):
+            if stop - start >= shortest:
+                mask[start:stop] = True
+                score[start:stop] = (sign * level[start:stop]).max()
+    return mask, score
+
+
+@dataclass(frozen=True)
+class Levels:
+    """How far off each marker is.
+
+    vector: (frames, markers, 3), mm, residual less what is not slow and what lasts; NaN = missing. score: (frames,
+    markers), its size in units of the threshold.
+    """
+
+    vector: np.ndarray
+    score: np.ndarray
+
+
+def measure(
+    scene: Scene,
+    residual: np.ndarray,
+    only: Sequence[int] | None = None,
+    was: Levels | None = None,
+    *,
+    settings: NeighbourSlow,
+) -> Levels:
+    """Measure how far off the markers of a scene are from their residuals; with `was`, anew for the markers `only`."""
+    smooth = robust.samples(settings.smooth_s, scene.rate, odd=True)
+    baseline = robust.samples(settings.baseline_s, scene.rate, odd=True)
+    vector = np.full(residual.shape, np.nan) if was is None else was.vector.copy()
+    for m in range(residual.shape[1]) if only is None else only:
+        vector[:, m] = np.nan
+        for start, stop in runs(~np.isnan(residual[:, m, 0])):
+            vector[start:stop, m] = ndimage.median_filter(residual[start:stop, m], (smooth, 1), mode="nearest")
+        for axis in range(3):
+            vector[:, m, axis] -= robust.moving_median_across(residual[:, m, axis], baseline)
+    size = np.linalg.norm(vector, axis=2)
+    usual = robust.usual_size(
+        size,
+        scene.neighbours,
+        window=robust.samples(settings.activity_s, scene.rate, odd=True),
+        near=settings.activity_neighbours,
+        ratio=settings.activity_ratio,
+    )
+    together = np.maximum(usual, company(size, scene.neighbours, near=settings.company_neighbours))
+    return Levels(vector, size / np.maximum(settings.sigmas * together, settings.floor_mm))
+
+
+def company(size: np.ndarray, neighbours: Sequence[np.ndarray], *, near: int) -> np.ndarray:
+    """What a marker's level would be if it were as unusual as its nearest neighbours are at that moment, mm.
+
+    size: (frames, markers), mm, NaN = missing. The median of the neighbours, each in units of its own median level.
+    """
+    middle = np.array([np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else 1.0 for own in size.T])
+    unusual = np.nan_to_num(size / np.maximum(middle, 1e-3))
+    out = np.zeros(size.shape)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            out[:, m] = np.median(unusual[:, np.asarray(around, int)[:near]], axis=1) * middle[m]
+    return out
+
+
+def judge_slow(levels: Levels, marker: int, *, name: str, rate: float, settings: NeighbourSlow) -> list[Event]:
+    """Find the slow changes of one marker: they begin and end near rest, so not at the end of a valid run."""
+    score, vector = levels.score[:, marker], levels.vector[:, marker]
+    top = robust.samples(settings.top_s, rate)
+    shortest, longest = robust.samples(settings.shortest_s, rate), robust.samples(settings.longest_s, rate)
+    seen = np.concatenate([[False], ~np.isnan(score), [False]])
+    found = []
+    for start, stop in regrow(score, lower=settings.lower, top=top):
+        if shortest <= stop - start <= longest and seen[start] and seen[stop + 1]:
+            axes = events.carrying(vector[start:stop])
+            found.append(Event(name, start, stop, float(score[start:stop].max()), axes))
+    return found
+
+
+def settings(options: Mapping[str, Any]) -> CoordinateSlow | NeighbourSlow:
+    """The settings of the preset that the config section `slow` asks for; raises ValueError for an unknown one."""
+    return detection.preset(options, {"default": NeighbourSlow, "paper": CoordinateSlow})
+
+
+def detect_slow(
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: CoordinateSlow | NeighbourSlow,
+    predictor: ResidualSource,
+) -> list[Event]:
+    """Find the slow changes of a recording.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
+    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
+    for either.
+    """
+    rest = detection.without(scene, earlier)
+    if isinstance(settings, CoordinateSlow):
+        return coordinates.merge(
+            predictor.residuals(rest),
+            lambda residual, _: find_slow(residual, rate=scene.rate, settings=settings),
+            markers=markers,
+            earlier=earlier,
+            reach=1,
+        )
+    found, _ = blame.find(
+        rest,
+        measure=partial(measure, settings=settings),
+        judge=lambda levels, m: judge_slow(levels, m, name=markers[m], rate=scene.rate, settings=settings),
+        markers=markers,
+        predictor=predictor,
+        rounds=settings.rounds,
+        reach=settings.rivals,
+    )
+    return events.tidy(found)

@@ -1,0 +1,190 @@
+"""Steps: a marker jumps elsewhere, stays, and jumps back (skurowski2022 3.4.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from markermend import coordinates, detection, events, robust, sudden
+from markermend.blame import ResidualSource
+from markermend.events import Event
+from markermend.noise import difference_high_pass
+from markermend.predictors import Scene
+from markermend.sudden import Changes, SuddenSettings
+
+
+@dataclass(frozen=True)
+class OpenStep:
+    """A jump without a counterpart: the frame that it leads to, and its size in mm."""
+
+    marker: str
+    frame: int
+    size_mm: float
+
+
+@dataclass(frozen=True)
+class CoordinateSteps:
+    """Settings of the detector of one coordinate (config steps.coordinates and steps.paper).
+
+    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
+    robust.threshold. shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part
+    of the other. bridge_s: slopes on either side of what
+    earlier detectors claimed are taken over this time.
+    """
+
+    window_s: float
+    order: int
+    scale: str
+    sigmas: float
+    floor_mm: float
+    shortest_s: float
+    longest_s: float
+    ratio: float
+    bridge_s: float
+
+
+def find_steps(
+    signal: np.ndarray, *, rate: float, settings: CoordinateSteps
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find the steps of one coordinate (skurowski2022 3.4.4): intervals between opposite jumps.
+
+    signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask, a score, both (frames,), and the
+    frames of jumps without a counterpart (open steps).
+    """
+    change = difference_high_pass(signal, window_s=settings.window_s, order=settings.order, rate=rate)
+    level = robust.threshold(change, scale=settings.scale, sigmas=settings.sigmas, floor_mm=settings.floor_mm)
+    window = max(robust.samples(settings.window_s, rate, odd=True), 2 * settings.order + 1)
+    at = robust.edges(change, level, window // 2)
+    pairs, alone = robust.derivative_pairs(
+        change,
+        at,
+        shortest=robust.samples(settings.shortest_s, rate),
+        longest=robust.samples(settings.longest_s, rate),
+        ratio=settings.ratio,
+    )
+    mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
+    for start, stop in pairs:
+        mask[start:stop] = True
+        score[start:stop] = min(abs(change[start]), abs(change[stop])) / max(level, 1e-9)
+    return mask, score, alone
+
+
+@dataclass(frozen=True)
+class NeighbourSteps(SuddenSettings):
+    """Settings of the detector against the neighbours (config steps.default), beside those of sudden changes.
+
+    shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
+    cosine: of the angle between one jump and the reverse of the other, at least. border_s: what stands beside a step.
+    displaced: the step lies off it by at least this part of the jump.
+    """
+
+    shortest_s: float
+    longest_s: float
+    ratio: float
+    cosine: float
+    border_s: float
+    displaced: float
+
+
+def jumps(changes: Changes, marker: int, *, rate: float, settings: NeighbourSteps) -> tuple[np.ndarray, np.ndarray]:
+    """Frames of a marker's sudden changes, neighbouring frames taken together, and their vectors (n, 3), mm."""
+    score, vector = changes.score[:, marker], changes.vector[:, marker]
+    groups = sudden.clusters(np.flatnonzero(score > 1), 1)
+    frames = np.array([group[np.argmax(score[group])] for group in groups], int)
+    return frames, np.array([vector[group].sum(axis=0) for group in groups]).reshape(-1, 3)
+
+
+def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
+    """Find the steps of one marker: nearest opposite jumps with the marker displaced in between."""
+    frames, vector = jumps(changes, marker, rate=rate, settings=settings)
+    residual = changes.residual[:, marker]
+    shortest, longest = robust.samples(settings.shortest_s, rate), robust.samples(settings.longest_s, rate)
+    border = robust.samples(settings.border_s, rate)
+    size = np.linalg.norm(vector, axis=1)
+    gone = np.cumsum(np.isnan(residual[:, 0]))
+    candidates = []
+    for k, n1 in enumerate(frames):
+        for j in range(k + 1, np.searchsorted(frames, n1 + longest, side="right")):
+            n2 = frames[j]
+            opposite = -vector[k] @ vector[j] >= settings.cosine * size[k] * size[j]
+            balanced = settings.ratio <= size[k] / size[j] <= 1 / settings.ratio
+            if n2 - n1 < shortest or not opposite or not balanced or gone[n1] != gone[n2]:
+                continue
+            inside = np.median(residual[n1:n2], axis=0)
+            beside = np.concatenate([residual[max(0, n1 - border) : n1], residual[n2 : n2 + border]])
+            offset = (inside - np.nanmedian(beside, axis=0)) @ (vector[k] - vector[j]) / (size[k] + size[j])
+            if offset >= settings.displaced * (size[k] + size[j]) / 2:
+                candidates.append((n2 - n1, k, j))
+    found, used = [], np.zeros(len(frames), bool)
+    for _, k, j in sorted(candidates):
+        if not used[k : j + 1].any():
+            used[k : j + 1] = True
+            best = float(min(changes.score[frames[k], marker], changes.score[frames[j], marker]))
+            found.append(Event(name, int(frames[k]), int(frames[j]), max(1.0, best), events.carrying(vector[[k, j]])))
+    return found
+
+
+def open_steps(
+    changes: Changes, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: NeighbourSteps
+) -> list[OpenStep]:
+    """List the jumps that no event begins or ends with, by marker and frame."""
+    used = {(event.marker, frame) for event in found for frame in range(event.start, event.stop + 1)}
+    left = []
+    for m, marker in enumerate(markers):
+        frames, vector = jumps(changes, m, rate=rate, settings=settings)
+        size = np.linalg.norm(vector, axis=1)
+        left += [
+            OpenStep(marker, int(n), float(s)) for n, s in zip(frames, size, strict=True) if (marker, n) not in used
+        ]
+    return left
+
+
+def settings(options: Mapping[str, Any]) -> CoordinateSteps | NeighbourSteps:
+    """The settings of the preset that the config section `steps` asks for; raises ValueError for an unknown one."""
+    kinds = {"default": NeighbourSteps, "coordinates": CoordinateSteps, "paper": CoordinateSteps}
+    return detection.preset(options, kinds)
+
+
+def detect_steps(
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: CoordinateSteps | NeighbourSteps,
+    predictor: ResidualSource,
+) -> tuple[list[Event], list[OpenStep]]:
+    """Find the steps of a recording, and the jumps that remain without a counterpart.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
+    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
+    used by the detector against the neighbours alone.
+    """
+    if isinstance(settings, CoordinateSteps):
+        alone: dict[tuple[str, int], float] = {}
+
+        def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+            mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
+            for frame in left.tolist():
+                size = abs(signal[frame] - signal[frame - 1])
+                alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), size))
+            return mask, score
+
+        reach = robust.samples(settings.bridge_s, scene.rate)
+        found = coordinates.merge(scene.positions, find, markers=markers, earlier=earlier, reach=reach)
+        within = events.mask(found, len(scene.positions), markers)
+        return found, [
+            OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]
+        ]
+    judge = partial(judge_steps, rate=scene.rate, settings=settings)
+    found, changes = sudden.find(
+        detection.without(scene, earlier),
+        judge=lambda changes, m: judge(changes, m, name=markers[m]),
+        markers=markers,
+        predictor=predictor,
+        settings=settings,
+    )
+    return events.tidy(found), open_steps(changes, found, markers=markers, rate=scene.rate, settings=settings)
