@@ -17,6 +17,7 @@ import report as report_script
 import report_files
 from markermend import report, storage
 from markermend.events import Event
+from markermend.methods_text import paragraph
 from markermend.naming import encode
 from markermend.recording import Recording
 from report_files import Results
@@ -269,6 +270,29 @@ def test_methods_are_told_once_for_equal_steps(made):
     texts = report.methods([base, static, base])
     assert [text["recordings"] for text in texts] == [2, 1]
     assert "isolated peaks" in texts[0]["text"] and "at most 2 s" in texts[0]["text"]
+
+
+def test_the_methods_text_follows_the_steps():
+    ran = {
+        "mesh": {},
+        "steps": {"preset": "paper"},
+        "repair": {"max_error_mm": 20},
+        "fill": {"weights": "pma", "max_gap_s": None},
+    }
+    whole = paragraph(ran, "dynamic", "1.0")
+    assert "steps and label swaps [2], in each coordinate by itself, as published." in whole["text"]
+    assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
+    assert "Gaps were filled by averaging predictors, weighted by the likelihood" in whole["text"]
+    assert whole["references"] == ["mesh", "artifacts", "averaging"]
+    only_filled = paragraph({"fill": {}}, "dynamic", "1.0")
+    assert "Artifacts" not in only_filled["text"] and only_filled["references"] == ["averaging"]
+    static = paragraph(ran, "static", "1.0")
+    assert "checked only" in static["text"] and static["references"] == []
+
+
+def test_a_linked_finding_has_its_data_under_the_same_name(made):
+    page = Page(made.page)
+    assert {b["data-finding"] for b in page.all("button") if "data-finding" in b} == set(page.data)
 
 
 def test_many_recordings_are_fast(made):

@@ -19,56 +19,85 @@ DETECTORS = {"peaks": "isolated peaks", "noise": "heavy noise", "steps": "steps 
 """What each detector looks for."""
 
 
+PRESETS = {
+    "default": "in the residual of each marker against a prediction from its neighbours on the body",
+    "coordinates": "in each coordinate by itself",
+    "paper": "in each coordinate by itself, as published",
+}
+"""Where the detectors look, by their option `preset`."""
+
+WEIGHTS = {
+    "error": "weighted by their errors on gaps of the same length made elsewhere on the same marker",
+    "pma": "weighted by the likelihood of the distances between markers that they lead to",
+    "both": "weighted by their errors on gaps of the same length made elsewhere on the same marker, and by the likelihood "
+    "of the distances between markers that they lead to",
+    "equal": "all weighted alike",
+}
+"""How the predictors are weighted, by the fill stage's option `weights`."""
+
+LIMITS = {
+    "max_gap_s": "of at most {:g} s",
+    "max_repair_s": "in stretches of at most {:g} s",
+    "max_error_mm": "with an expected error of at most {:g} mm",
+}
+"""Options that say how far a stage may go."""
+
+
 def paragraph(stages: Mapping[str, Mapping[str, Any]], kind: str | None, version: str) -> dict[str, Any]:
     """Write what was done to a recording.
 
     stages: the options of each stage that ran, by its name. kind: "static" recordings are only checked. Returns `text`
     and `references`, the keys of REFERENCES in the order of citation; equal steps give equal text.
     """
+    cited: list[str] = []
+
+    def cite(key: str) -> str:
+        cited.append(key)
+        return f"[{len(cited)}]"
+
     told = [
         f"Marker trajectories were processed with markermend {version}. Samples that the capture program marked as "
         "invalid were taken as missing; unlabelled trajectories, model outputs and analog data were left alone."
     ]
-    cited: list[str] = []
     if kind == "static":
         told.append("Static recordings were checked only: nothing in them was repaired or filled.")
         return {"text": " ".join(told), "references": cited}
     if "mesh" in stages:
-        cited.append("mesh")
         told.append(
-            f"A functional body mesh, rigid segments of markers in a tree, was inferred from each subject's recordings "
-            f"[{len(cited)}]."
+            "A functional body mesh, rigid segments of markers in a tree, was inferred from each subject's recordings "
+            f"{cite('mesh')}."
         )
-    if detectors := [DETECTORS[name] for name in DETECTORS if name in stages]:
-        cited.append("artifacts")
-        told.append(
-            f"Artifacts were sought in the order {', '.join(detectors)} [{len(cited)}], in the residual of each marker "
-            "against a prediction from its neighbours on the body."
-        )
-    if "repair" in stages and detectors:
-        told.append(
-            f"What was found was repaired by class{_limits(stages['repair'])}; what no repair could be trusted with was set to missing."
-        )
+    if detectors := [name for name in DETECTORS if name in stages]:
+        sought = ", ".join(DETECTORS[name] for name in detectors)
+        places = dict.fromkeys(PRESETS.get(stages[name].get("preset", ""), "") for name in detectors)
+        where = " or ".join(place for place in places if place)
+        told.append(f"Artifacts were sought in the order {sought} {cite('artifacts')}{', ' if where else ''}{where}.")
+        if "repair" in stages:
+            told.append(
+                f"They were repaired by class{limits(stages['repair'])}; samples for which no repair could be trusted "
+                "were set to missing."
+            )
     if "fill" in stages:
-        cited.append("averaging")
-        told.append(
-            f"Gaps{_limits(stages['fill'])} were filled by averaging predictors, weighted by their errors on gaps of the "
-            f"same length made elsewhere on the same marker [{len(cited)}]; these errors also give the expected error of "
-            "each filled sample."
-        )
-    if "export" in stages:
-        told.append(
-            "Only the changed samples were overwritten in a copy of each file; the copy was compared with the original byte by byte."
-        )
+        told.append(_filling(stages["fill"], cite("averaging")))
+    told.append(
+        "Changed samples, and only those, were overwritten in a copy of each file, which was then compared with the "
+        "original byte by byte."
+    )
     return {"text": " ".join(told), "references": cited}
 
 
-def _limits(options: Mapping[str, Any]) -> str:
-    """Name the limits among a stage's options that say how far it may go."""
-    phrases = {
-        "max_gap_s": "of at most {:g} s",
-        "max_repair_s": "in stretches of at most {:g} s",
-        "max_error_mm": "with an expected error of at most {:g} mm",
-    }
-    told = [phrase.format(options[key]) for key, phrase in phrases.items() if isinstance(options.get(key), int | float)]
+def _filling(options: Mapping[str, Any], citation: str) -> str:
+    """Tell how gaps were filled."""
+    members = [name.replace("_", " ") for name in options.get("members", ())]
+    named = f" ({', '.join(members)})" if members else ""
+    weights = WEIGHTS.get(options.get("weights", ""), "")
+    return (
+        f"Gaps{limits(options)} were filled by averaging predictors{named}{', ' if weights else ''}{weights} {citation}; "
+        "the expected error of each filled sample was calibrated on such gaps."
+    )
+
+
+def limits(options: Mapping[str, Any]) -> str:
+    """Name the limits among a stage's options, with a leading space; nothing where there are none."""
+    told = [phrase.format(options[key]) for key, phrase in LIMITS.items() if isinstance(options.get(key), int | float)]
     return f" {' and '.join(told)}" if told else ""

@@ -146,4 +146,7 @@ async function toggle(button) {
   } catch (error) { place.className = "note bad"; place.textContent = error.message; }
 }
 document.querySelectorAll("button.see").forEach((button) => button.addEventListener("click", () => toggle(button)));
-document.querySelector("button.see")?.click();
+// A link to page.html#finding-12 opens that plot; otherwise the worst change is open.
+const asked = [...document.querySelectorAll("button.see")].find((button) => "#" + button.dataset.finding === location.hash);
+if (asked) asked.scrollIntoView();
+(asked ?? document.querySelector("button.see"))?.click();
