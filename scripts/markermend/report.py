@@ -151,7 +151,7 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters.update(embed=embed, figure=figure, short=short, percent=percent, tojson_text=compact)
+    made.filters.update(embed=embed, figure=figure, short=short, count=count, percent=percent, tojson_text=compact)
     return made
 
 
@@ -176,6 +176,11 @@ def figure(value: float | None, digits: int) -> str:
 def short(value: float | None) -> str:
     """Write a number with the decimals that it needs; an en dash where there is none."""
     return "–" if value is None else f"{value:.10g}"
+
+
+def count(value: int) -> str:
+    """Write a whole number with thin spaces between its thousands."""
+    return f"{value:,}".replace(",", "\u202f")
 
 
 def percent(share: float) -> str:
