@@ -5,7 +5,7 @@ Writes: 07_filled.parquet.
 """
 
 from markermend import mesh, storage
-from markermend.ensemble import WEIGHTS, Ensemble, EnsembleOptions
+from markermend.ensemble import Ensemble, EnsembleOptions
 from markermend.fill import FillOptions, fill_gaps
 from markermend.predictors.registry import FAMILIES, members
 from markermend.stage import Stage, boolean, mapping, optional
@@ -25,8 +25,10 @@ STAGE.option("max_altered_share", float, "share of a recording's samples; if mor
 STAGE.option("reuse", boolean, "whether filled markers are references for those filled later")
 STAGE.option("similar_length", float, "gaps of a marker that differ less than by this factor share their pseudo-gaps")
 STAGE.option("members", str, "predictors that fill together, and variants of local_ridge", many=True)
-STAGE.option("weights", str, "how members are weighted", choices=WEIGHTS)
-STAGE.option("ensemble", mapping, "settings of the averaging, its constraints and the expected error")
+STAGE.option("trial_frames", int, "most training frames of local_ridge and its variants on pseudo-gaps")
+STAGE.option(
+    "ensemble", mapping, "settings of the averaging (weights error, pma, both or equal), constraints and expected error"
+)
 STAGE.option("variants", mapping, "members that are local_ridge with other settings: name to settings")
 STAGE.option("linear_regression", mapping, "settings of the predictor linear_regression")
 STAGE.option("reference_frame", mapping, "settings of local_interpolation, local_quadratic and local_grnn")
@@ -39,11 +41,12 @@ def work(call):
     body = mesh.read(call.mesh, restored.facts["recording"])
     settings = {name: call.options[name] for name in FAMILIES}
     own = {name: value for name, value in call.options.items() if name not in settings}
-    names, weights, ensemble = (own.pop(name) for name in ("members", "weights", "ensemble"))
+    names, most, averaging = (own.pop(name) for name in ("members", "trial_frames", "ensemble"))
+    full, brief = members(names, settings), members(names, settings, most_frames=most)
     filled = fill_gaps(
         restored,
         body.neighbour_indices(restored.markers),
-        ensemble=Ensemble(members(names, settings), weights=weights, options=EnsembleOptions(**ensemble)),
+        ensemble=Ensemble(full, brief, EnsembleOptions(**averaging)),
         options=FillOptions(**own),
     )
     storage.write_recording(call.filled, filled, call.facts)

@@ -25,14 +25,11 @@ def predictor(name):
     return members([name], settings())[0]
 
 
-def ensemble(names=None, weights=None, **changed):
-    """The default ensemble, with some settings changed."""
-    options = EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed})
-    return Ensemble(
-        members(names or CONFIG["fill"]["members"], settings()),
-        weights=weights or CONFIG["fill"]["weights"],
-        options=options,
-    )
+def ensemble(names=None, **changed):
+    """The default ensemble, with other members or some settings changed."""
+    names = names or CONFIG["fill"]["members"]
+    brief = members(names, settings(), most_frames=CONFIG["fill"]["trial_frames"])
+    return Ensemble(members(names, settings()), brief, EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed}))
 
 
 def fill_options(**changed):

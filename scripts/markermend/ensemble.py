@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from markermend.averaging import pma_likelihood, weighted_mean
 from markermend.constraints import constrain_spacing, constrain_time
 from markermend.density import Density, kernel_density
 from markermend.predictors import Predictor, Scene
@@ -19,14 +20,14 @@ from markermend.predictors.references import references, thinned
 from markermend.pseudo_gaps import PseudoGap, pseudo_gaps
 
 WEIGHTS = ("error", "pma", "both", "equal")
-"""By the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by their product; or all alike."""
+"""Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all alike."""
 
 
 @dataclass(frozen=True)
 class EnsembleOptions:
     """Settings of the averaging (config section `fill`, key `ensemble`).
 
-    longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried. worst: members whose error exceeds
+    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried. worst: members whose error exceeds
     the best member's by this factor are left out. references: distances to so many are judged. minimum_frames: joint
     frames that make a reference. frames: most frames and samples used to learn distances. smoothing_s: moving average
     over the likelihoods. floor: least likelihood. spacing_references, spacing_low, spacing_high, spacing_rounds: see
@@ -35,6 +36,7 @@ class EnsembleOptions:
     units of the calibrated standard deviation per axis (Gaussian: 1.872 and 2.795).
     """
 
+    weights: str
     longest_s: Mapping[str, float]
     power: float
     pseudo_gaps: int
@@ -52,6 +54,10 @@ class EnsembleOptions:
     prior: float
     radius68: float
     radius95: float
+
+    def __post_init__(self) -> None:
+        if self.weights not in WEIGHTS:
+            raise ValueError(f"unknown weights {self.weights!r}: one of {', '.join(WEIGHTS)}")
 
 
 @dataclass(frozen=True)
@@ -92,19 +98,20 @@ class _Candidates:
 class Ensemble:
     """Predictors that fill gaps together."""
 
-    def __init__(self, members: Sequence[Predictor], *, weights: str, options: EnsembleOptions) -> None:
-        """weights: one of WEIGHTS."""
-        if weights not in WEIGHTS:
-            raise ValueError(f"unknown weights {weights!r}: one of {', '.join(WEIGHTS)}")
-        self.members = tuple(members)
-        self.weights = weights
+    def __init__(
+        self, members: Sequence[Predictor], trial_members: Sequence[Predictor], options: EnsembleOptions
+    ) -> None:
+        """trial_members: what stands for each member on pseudo-gaps, such as the same with less training."""
+        if [member.name for member in members] != [member.name for member in trial_members]:
+            raise ValueError("trial members differ from the members")
+        self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
 
     def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
         trials = pseudo_gaps(hidden, marker, start, stop, count=self.options.pseudo_gaps)
-        tried = [self._candidates(trial.scene, marker, trial.start, trial.stop) for trial in trials]
+        tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
         typical = _typical_errors(trials, tried, len(self.members))
         untested = Trust(typical, self._shares(typical), 1.0)
         judges = self._judges(hidden, marker)
@@ -120,22 +127,24 @@ class Ensemble:
     def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
         """Fill one gap. The marker's samples in [start, stop) are not looked at."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
-        candidates = self._candidates(hidden, marker, start, stop)
+        candidates = self._candidates(self.members, hidden, marker, start, stop)
         judges = self._judges(hidden, marker)
         positions, stated, shares = self._average(hidden, judges, start, candidates, trust)
         sigma = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
         named = {member.name: float(share) for member, share in zip(self.members, shares, strict=True) if share > 0}
         return Filling(positions, self.options.radius68 * sigma, self.options.radius95 * sigma, named)
 
-    def _candidates(self, scene: Scene, marker: int, start: int, stop: int) -> _Candidates:
+    def _candidates(
+        self, members: Sequence[Predictor], scene: Scene, marker: int, start: int, stop: int
+    ) -> _Candidates:
         """Ask every member."""
-        positions = np.full((len(self.members), stop - start, 3), np.nan)
-        errors = np.full((len(self.members), stop - start), np.nan)
+        positions = np.full((len(members), stop - start, 3), np.nan)
+        errors = np.full((len(members), stop - start), np.nan)
         borders = np.full((2, 3), np.nan)
         for side, frame in enumerate((start - 1, stop)):
             if 0 <= frame < len(scene.positions):
                 borders[side] = scene.positions[frame, marker]
-        for k, member in enumerate(self.members):
+        for k, member in enumerate(members):
             if stop - start > self.options.longest_s.get(member.name, np.inf) * scene.rate:
                 continue
             predicted = member.predict(scene, marker, start, stop)
@@ -146,7 +155,7 @@ class Ensemble:
     def _shares(self, typical: np.ndarray) -> np.ndarray:
         """Weights (members,) from the errors on pseudo-gaps (members,), mm; all alike where nothing could be tried."""
         known = np.isfinite(typical)
-        if self.weights in ("pma", "equal") or not known.any():
+        if self.options.weights in ("pma", "equal") or not known.any():
             return np.ones(len(typical))
         floored = np.maximum(np.where(known, typical, np.inf), self.options.error_mm)
         shares = (floored.min() / floored) ** self.options.power
@@ -178,7 +187,7 @@ class Ensemble:
         stop = start + candidates.positions.shape[1]
         near = scene.positions[start:stop, chosen]
         weights = np.broadcast_to(trust.shares[:, None], candidates.errors.shape)
-        if self.weights in ("pma", "both") and densities:
+        if self.options.weights in ("pma", "both") and densities:
             first = options.references
             likelihood = pma_likelihood(
                 candidates.positions,
@@ -192,6 +201,9 @@ class Ensemble:
         errors = np.where(np.isnan(candidates.errors), trust.typical[:, None] / np.sqrt(3), candidates.errors)
         # A member that states nothing and was never tried is taken to be as good as the worst of the others.
         errors = np.maximum(np.where(np.isnan(errors), np.nanmax(errors, initial=0.0), errors), options.error_mm)
+        # The variance of a mixture: what the members state, and how far apart they are.
+        apart = ((np.nan_to_num(candidates.positions) - positions) ** 2).mean(axis=2)
+        variance = (weights * (errors**2 + np.where(weights > 0, apart, 0))).sum(axis=0)
         if options.spacing_rounds and densities:
             most = options.spacing_references
             positions = constrain_spacing(
@@ -202,7 +214,7 @@ class Ensemble:
                 high=options.spacing_high,
                 rounds=options.spacing_rounds,
             )
-        return positions, (weights * errors).sum(axis=0), weights.mean(axis=1)
+        return positions, np.sqrt(variance), weights.mean(axis=1)
 
 
 def _typical_errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: int) -> np.ndarray:
@@ -214,49 +226,3 @@ def _typical_errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], m
         square += np.where(known, distance, 0).sum(axis=1)
         count += known.sum(axis=1)
     return np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
-
-
-def pma_likelihood(
-    positions: np.ndarray, references: np.ndarray, densities: Sequence[Density], *, window: int, floor: float
-) -> np.ndarray:
-    """Likelihood (members, n) of positions by their distances to references; source: tits2018 eq 20-23.
-
-    positions: (members, n, 3), mm. references: (n, k, 3), NaN = not seen, then it does not count. window: frames of the
-    moving average. floor: least value. Positions that are NaN get the floor.
-    """
-    distance = np.linalg.norm(positions[:, :, None] - references, axis=3)
-    logarithm = np.zeros(positions.shape[:2])
-    for r, density in enumerate(densities):
-        seen = ~np.isnan(references[:, r]).any(axis=1)
-        logarithm[:, seen] += density.logarithm(distance[:, seen, r])
-    likelihood = np.maximum(np.exp(np.nan_to_num(logarithm, nan=-np.inf)), floor)
-    return _moving_average(likelihood, window)
-
-
-def _moving_average(values: np.ndarray, window: int) -> np.ndarray:
-    """Centred moving average along the second axis; at the ends over what there is."""
-    if window <= 1:
-        return values
-    kernel = np.ones(window)
-    full = np.stack([np.convolve(row, kernel) for row in values])
-    count = np.convolve(np.ones(values.shape[1]), kernel)
-    offset = (window - 1) // 2
-    return (full / count)[:, offset : offset + values.shape[1]]
-
-
-def weighted_mean(positions: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Average positions (members, n, 3) by weights (members, n); source: tits2018 eq 24.
-
-    NaN positions do not count; where all weights vanish, all members that tell something count alike. Members that tell
-    all frames silence those that do not, so that no jump stands where one of them falls out. Also returns the weights
-    scaled to the sum one; NaN where no member tells anything.
-    """
-    known = ~np.isnan(positions).any(axis=2)
-    known &= known.all(axis=1)[:, None] | ~known.all(axis=1).any()
-    usable = np.where(known, weights, 0.0)
-    usable = np.where(usable.sum(axis=0) > 0, usable, known)
-    total = usable.sum(axis=0)
-    with np.errstate(invalid="ignore"):
-        scaled = usable / total
-    mean = np.where(known[..., None], positions, 0) * scaled[..., None]
-    return mean.sum(axis=0), np.where(total > 0, scaled, 0.0)

@@ -157,7 +157,8 @@ class _Filler:
         filling = self.ensemble.fill(self.scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
         if np.isnan(filling.positions).any() or np.isnan(filling.error95).any():
             near = self.scene.present[gap.start : gap.stop, self.scene.neighbours[gap.marker]]
-            return f"no method could fill it: {near.sum(axis=1).min(initial=0)} neighbours seen throughout"
+            fewest = int(near.sum(axis=1).min())
+            return f"no method could fill it; fewest neighbours seen: {fewest}"
         worst = float(filling.error.max())
         if self.options.max_error_mm is not None and worst > self.options.max_error_mm:
             return f"expected error {worst:.0f} mm, at most {self.options.max_error_mm:g} mm wanted"
@@ -172,7 +173,7 @@ class _Filler:
 
     def _trusted(self, gap: Gap) -> Trust:
         """What pseudo-gaps tell for this gap, or told for one of similar length that missed the same markers."""
-        absent = ~self.scene.present[gap.start : gap.stop].all(axis=0)
+        absent: np.ndarray = ~np.all(self.scene.present[gap.start : gap.stop], axis=0)
         size = math.floor(math.log(gap.stop - gap.start, self.options.similar_length))
         ends = gap.start == 0, gap.stop == len(self.scene.positions)
         key = gap.marker, size, ends, absent[self.scene.neighbours[gap.marker]].tobytes()

@@ -7,6 +7,7 @@ so it follows the body and not an artifact: the detectors work on its residual.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -44,8 +45,7 @@ class _Model:
     """A marker's training data in one frame of anchors.
 
     anchors, inputs: marker indices. template: (anchors, 3), mm. centre: (3 k + 3,), the typical local coordinates of
-    the k inputs and the target. local: (training, 3 k + 3), coordinates about it. weights,
-    training: (training,), weight and frame of each.
+    the k inputs and the target. local: (training, 3 k + 3), about it. weights, training: weight and frame of each.
     """
 
     anchors: np.ndarray
@@ -56,26 +56,44 @@ class _Model:
     weights: np.ndarray
     training: np.ndarray
 
-    def coefficients(self, used: np.ndarray, ridge: float, without: slice | None = None) -> np.ndarray:
-        """Coefficients (1 + 3 u, 3) on the inputs marked in `used` (k,), optionally leaving training rows out."""
+    def coefficients(self, used: np.ndarray, ridge: float) -> np.ndarray:
+        """Coefficients (1 + 3 u, 3) on the inputs marked in `used` (k,)."""
         columns = np.flatnonzero(np.repeat(used, 3))
-        design, target, weights = self.local[:, columns], self.local[:, -3:], self.weights
-        if without is not None:
-            kept = np.ones(len(weights), bool)
-            kept[without] = False
-            design, target, weights = design[kept], target[kept], weights[kept]
-        return _ridge(design, target, weights, ridge)
+        return _ridge(self.local[:, columns], self.local[:, -3:], self.weights, ridge)
+
+    def left_out(self, used: np.ndarray, ridge: float, block: np.ndarray) -> np.ndarray:
+        """Residual (training, 3) of each training frame under the model trained without its block.
+
+        block: (training,), ascending. One block alone leaves nothing to train on: then all are NaN.
+        """
+        columns = np.flatnonzero(np.repeat(used, 3))
+        full = np.concatenate([np.ones((len(self.local), 1)), self.local[:, columns]], axis=1)
+        target = self.local[:, -3:]
+        weighted = full * self.weights[:, None]
+        starts = np.flatnonzero(np.diff(block, prepend=block[0] - 1))
+        parts = [slice(*edges) for edges in itertools.pairwise([*starts.tolist(), len(block)])]
+        if len(parts) < 2:
+            return np.full(target.shape, np.nan)
+        # Sums over all blocks less those over one are the sums without it.
+        gram = np.stack([weighted[part].T @ full[part] for part in parts])
+        cross = np.stack([weighted[part].T @ target[part] for part in parts])
+        total = np.array([self.weights[part].sum() for part in parts])
+        beta = _solve(gram.sum(axis=0) - gram, cross.sum(axis=0) - cross, total.sum() - total, ridge)
+        return np.concatenate([target[part] - full[part] @ own for part, own in zip(parts, beta, strict=True)])
 
 
 def _ridge(design: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
     """Weighted ridge regression with an unpenalised intercept: coefficients (1 + columns, targets)."""
     full = np.concatenate([np.ones((len(design), 1)), design], axis=1)
     weighted = full * weights[:, None]
-    gram = weighted.T @ full
-    penalty = np.full(gram.shape[0], ridge * weights.sum())
-    penalty[0] = 1e-9 * weights.sum()
-    gram[np.diag_indices_from(gram)] += penalty
-    return np.linalg.solve(gram, weighted.T @ target)
+    return _solve(weighted.T @ full, weighted.T @ target, weights.sum(), ridge)
+
+
+def _solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, ridge: float) -> np.ndarray:
+    """Coefficients from weighted sums (..., columns, columns) and (..., columns, targets) of total weight (...)."""
+    penalty = np.full(gram.shape[-1], ridge)
+    penalty[0] = 1e-9
+    return np.linalg.solve(gram + np.eye(len(penalty)) * penalty * np.asarray(total)[..., None, None], cross)
 
 
 class LocalRidge:
@@ -229,16 +247,9 @@ class LocalRidge:
         span = len(scene.positions)
         blocks = int(np.clip(span // max(length, 1), 2, 12))
         block = model.training * blocks // span
-        columns = np.flatnonzero(np.repeat(used, 3))
         residual = np.full((span, 3), np.nan)
-        for b in np.unique(block):
-            rows = np.flatnonzero(block == b)
-            if len(rows) == len(block):
-                continue
-            beta = model.coefficients(used, self.options.ridge_mm2, slice(rows[0], rows[-1] + 1))
-            full = np.concatenate([np.ones((len(rows), 1)), model.local[np.ix_(rows, columns)]], axis=1)
-            left = model.local[rows, -3:] - full @ beta
-            residual[model.training[rows]] = np.where(model.weights[rows, None] > 0.5, left, np.nan)
+        left = model.left_out(used, self.options.ridge_mm2, block)
+        residual[model.training] = np.where(model.weights[:, None] > 0.5, left, np.nan)
         return fit_covariance(
             residual,
             rate=scene.rate,

@@ -83,7 +83,7 @@ class _FrameModel:
             left = frames[np.isnan(positions[frames - (start - 1), 0])]
             if len(left) == 0:
                 break
-            seen = hidden.present[:, triple].all(axis=1)
+            seen: np.ndarray = np.all(hidden.present[:, triple], axis=1)
             rows = left[seen[left]]
             if len(rows):
                 positions[rows - (start - 1)] = self._recover(hidden, marker, triple, seen, rows, start, stop)

@@ -33,8 +33,14 @@ REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
 """How to make each predictor from the settings."""
 
 
-def members(names: Sequence[str], settings: Settings) -> list[Predictor]:
-    """Make the named predictors. Raises ValueError for a name that is neither known nor a variant, or named twice."""
+def members(names: Sequence[str], settings: Settings, *, most_frames: int | None = None) -> list[Predictor]:
+    """Make the named predictors; local_ridge and its variants train on at most so many frames.
+
+    Raises ValueError for a name that is neither known nor a variant, or named twice.
+    """
+    if most_frames is not None:
+        ridge = settings["local_ridge"]
+        settings = {**settings, "local_ridge": {**ridge, "frames": min(ridge["frames"], most_frames)}}
     variants = settings.get("variants", {})
     unknown = [name for name in names if name not in REGISTRY and name not in variants]
     if unknown:
@@ -44,9 +50,9 @@ def members(names: Sequence[str], settings: Settings) -> list[Predictor]:
     made: list[Predictor] = []
     for name in names:
         if name in variants:
-            ridge = LocalRidge(RidgeOptions(**{**settings["local_ridge"], **variants[name]}))
-            ridge.name = name
-            made.append(ridge)
+            variant = LocalRidge(RidgeOptions(**{**settings["local_ridge"], **variants[name]}))
+            variant.name = name
+            made.append(variant)
         else:
             made.append(REGISTRY[name](settings))
     return made
