@@ -9,9 +9,10 @@ import re
 import sys
 from pathlib import Path
 
+import jsonschema
+import yaml
 from snakemake.exceptions import WorkflowError
 from snakemake.io import contains_wildcard
-from snakemake.utils import validate
 
 PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
@@ -25,6 +26,15 @@ from markermend.events import CLASSES
 PYTHON = "python" if workflow.deployment_settings.deployment_method else sys.executable
 
 
+def check(value, schema, where):
+    """Hold a value against a schema; the error is one line per problem, with the key that it is about."""
+    schema = yaml.safe_load((PROJECT / "workflow/schemas" / schema).read_text(encoding="utf-8"))
+    problems = sorted(jsonschema.Draft202012Validator(schema).iter_errors(value), key=lambda problem: problem.json_path)
+    if problems:
+        lines = [f"  {problem.json_path[2:] or 'top level'}: {problem.message}" for problem in problems]
+        raise WorkflowError("\n".join([f"{where} cannot be used (config/README.md says what the keys mean)", *lines]))
+
+
 def recordings(name, results):
     """The data set's recordings, by the folder names of subject and recording."""
     path = os.path.abspath(os.path.expanduser(name))
@@ -32,7 +42,7 @@ def recordings(name, results):
         entries = dataset.find(path, results)
     elif os.path.isfile(path):
         rows = dataset.read_rows(path)
-        validate({"recordings": rows}, str(PROJECT / "workflow/schemas/recordings.schema.yaml"))
+        check({"recordings": rows}, "recordings.schema.yaml", path)
         entries = dataset.from_rows(rows, path)
     else:
         raise dataset.BadDataSet(
@@ -45,7 +55,7 @@ def recordings(name, results):
 
 try:
     settings.prepare(config)
-    validate(config, str(PROJECT / "workflow/schemas/config.schema.yaml"))
+    check(config, "config.schema.yaml", "The config")
     RESULTS = settings.folder(config["results"])
     RECORDINGS = recordings(config["recordings"], RESULTS)
 except (dataset.BadDataSet, OSError) as error:
