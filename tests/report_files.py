@@ -14,7 +14,7 @@ from markermend import export, mesh, storage
 from markermend.events import Event
 from markermend.mesh import Mesh, Segment
 from markermend.naming import encode
-from markermend.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, gaps
+from markermend.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
 from markermend.settings import flags
 
 ORIGIN = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
@@ -124,7 +124,7 @@ def write(
     body = Mesh((name,), order, segments, nobody, nobody, **mesh_parts)
     mesh.write(folder.parent / "mesh.json", [body], {"stage": "mesh", "options": {"cut_mm": 12.0}})
     storage.write_text(folder / "changes.tsv", export.changes_table(export.list_changes(before, after)))
-    count = int(export.changed_samples(before, after).sum())
+    count = int(changed(before, after).sum())
     certificate = {
         "original_sha256": "ab" * 32, "cleaned_sha256": "cd" * 32, "changed_samples": count,
         "changed_bytes": 12 * count, "other_bytes_equal": True, "refused": [],

@@ -9,7 +9,7 @@ import pytest
 from markermend import export, storage
 from markermend.formats import comparison, files
 from markermend.formats.c3d_new import write_new
-from markermend.recording import FILLED, MISSING, ORIGINS, BadRecording, Recording, Restored
+from markermend.recording import FILLED, MISSING, ORIGINS, BadRecording, Recording, Restored, changed
 
 STORAGES = ("pc_int", "pc_real", "dec_int", "dec_real", "sgi_int", "sgi_real")
 
@@ -72,7 +72,7 @@ def test_only_changed_samples_differ_in_every_storage(tmp_path, name):
     assert 0 < (before != after).sum() == certificate["changed_bytes"] <= 11 * width
     again = files.read(tmp_path / "cleaned.c3d", unlabelled=[r"\*\d+"], rate=None).recording
     np.testing.assert_allclose(again.positions, result.positions, atol=0.06, equal_nan=True)
-    same = ~export.changed_samples(measured, result)
+    same = ~changed(measured, result)
     assert np.array_equal(again.positions[same], measured.positions[same], equal_nan=True)
 
 
@@ -135,7 +135,7 @@ def test_an_original_that_changed_since_ingest_is_refused(tmp_path):
 def test_a_foreign_byte_is_noticed(tmp_path):
     measured = original(tmp_path / "walk.c3d")
     result = restored(measured)
-    columns, changed = measured.facts["source"]["columns"], export.changed_samples(measured, result)
+    columns, differs = measured.facts["source"]["columns"], changed(measured, result)
     export.write_cleaned(tmp_path / "walk.c3d", tmp_path / "cleaned.c3d", measured, result)
     content = bytearray((tmp_path / "cleaned.c3d").read_bytes())
     for place in (600, len(content) - 600):
@@ -143,7 +143,7 @@ def test_a_foreign_byte_is_noticed(tmp_path):
         broken[place] ^= 1
         (tmp_path / "broken.c3d").write_bytes(broken)
         found = comparison.compare(
-            tmp_path / "walk.c3d", tmp_path / "broken.c3d", format="c3d", changed=changed, columns=columns
+            tmp_path / "walk.c3d", tmp_path / "broken.c3d", format="c3d", changed=differs, columns=columns
         )
         assert not found.other_bytes_equal
 
@@ -168,8 +168,8 @@ def test_a_text_file_keeps_every_other_cell(tmp_path):
     assert [i for i, (a, b) in enumerate(zip(lines, after, strict=True)) if a != b] == [11]
     assert after[11].startswith("11,11.2") and after[11].endswith(",21.0,31.0,41.0,ok")
     (tmp_path / "broken.csv").write_bytes((tmp_path / "cleaned.csv").read_bytes().replace(b"21.0,31.0", b"21.1,31.0"))
-    changed = export.changed_samples(measured, result)
-    found = comparison.compare(source, tmp_path / "broken.csv", format="csv", changed=changed, columns=[0, 1])
+    differs = changed(measured, result)
+    found = comparison.compare(source, tmp_path / "broken.csv", format="csv", changed=differs, columns=[0, 1])
     assert not found.other_bytes_equal
 
 

@@ -9,7 +9,7 @@ from markermend import export, quality, timeline
 from markermend.events import Event
 from markermend.excerpts import delta, excerpt
 from markermend.findings import UNSTATED, Finding, left_open, open_gaps, read_changes
-from markermend.recording import FILLED, MISSING, ORIGINS, Recording, Restored, runs
+from markermend.recording import FILLED, MISSING, ORIGINS, Recording, Restored, changed, runs
 
 WEIGHTS = {"changed_percent": 2, "missing_percent": 1, "error_mm": 0.5, "open": 3, "warning": 10}
 PEAK = ORIGINS.index("peak")
@@ -64,12 +64,12 @@ def summary_of(before: Recording, after: Restored, changes: list[Finding], **mor
 
 
 def test_a_sample_is_changed_where_its_value_differs(before, after):
-    where = np.argwhere(quality.changed(before, after)).tolist()
+    where = np.argwhere(changed(before, after)).tolist()
     assert where == [[0, 1], [2, 0], [3, 0], [4, 1], [5, 1]]
 
 
 def test_two_missing_samples_are_equal(before):
-    assert not quality.changed(before, before).any()
+    assert not changed(before, before).any()
 
 
 def test_summary(before, after, changes):

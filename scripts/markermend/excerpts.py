@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from markermend.findings import Finding
-from markermend.quality import changed
-from markermend.recording import Recording, Restored, runs
+from markermend.recording import Recording, Restored, changed, runs
 
 UNITS_PER_MM = 100
 """Resolution of a plot; far below what one can see, so no tunable."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from markermend import storage
 from markermend.formats import PatchResult, comparison, files
-from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Recording, Restored, runs
+from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Recording, Restored, changed, runs
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
@@ -22,15 +22,9 @@ COLUMNS = (
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
 
-def changed_samples(measured: Recording, restored: Restored) -> np.ndarray:
-    """Bool (frames, markers): True where the restored position is not the measured one, bit for bit (NaN equals NaN)."""
-    same = (measured.positions == restored.positions) | (np.isnan(measured.positions) & np.isnan(restored.positions))
-    return ~same.all(axis=2)
-
-
 def check_invariant(measured: Recording, restored: Restored) -> None:
     """Raise BadRecording where a sample said to be measured is not the one that was ingested."""
-    wrong = changed_samples(measured, restored) & (restored.origin == MEASURED)
+    wrong = changed(measured, restored) & (restored.origin == MEASURED)
     if wrong.any():
         raise BadRecording(f"{int(wrong.sum())} samples marked as measured differ from the recording: run it again")
 
@@ -41,12 +35,12 @@ def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]
     The facts of the restored recording name the changes (`repairs`, `fills`); what a fill covers of a repair that
     blanked its samples is told by the fill.
     """
-    changed = changed_samples(measured, restored)
+    differs = changed(measured, restored)
     rows = []
     for change, (start, stop) in _named_changes(restored):
         m = restored.markers.index(change["marker"])
         own = np.zeros(restored.frames, bool)
-        own[start:stop] = changed[start:stop, m]
+        own[start:stop] = differs[start:stop, m]
         own &= (restored.origin[:, m] == FILLED) == (change["class"] == "filled")
         for first, last in runs(own) if change["class"] == "filled" else [(start, stop)] * bool(own.any()):
             rows.append(_row(measured, restored, change, m, first, last, own))
@@ -116,26 +110,26 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
     before = storage.sha256(source)
     if before != facts["sha256"]:
         raise BadRecording(f"{source.name} has changed since it was ingested: run the workflow again")
-    changed = changed_samples(measured, restored)
+    differs = changed(measured, restored)
     columns = facts["columns"]
     with storage.replacing(cleaned) as temporary:
-        if changed.any():
+        if differs.any():
             result = files.write_back(
                 source,
                 temporary,
                 format=facts["format"],
                 positions=restored.positions,
-                changed=changed,
+                changed=differs,
                 columns=columns,
             )
         else:
             shutil.copyfile(source, temporary)
             result = PatchResult(0)
-        difference = comparison.compare(source, temporary, format=facts["format"], changed=changed, columns=columns)
+        difference = comparison.compare(source, temporary, format=facts["format"], changed=differs, columns=columns)
         after = storage.sha256(temporary)
         if not difference.other_bytes_equal:
             raise BadRecording(f"writing {cleaned.name} would have changed more than the repaired samples; not written")
-    blanked = changed & (restored.origin == MISSING)
+    blanked = differs & (restored.origin == MISSING)
     return {
         "source": facts["name"],
         "original_sha256": before,

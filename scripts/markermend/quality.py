@@ -15,16 +15,10 @@ import numpy as np
 
 from markermend.events import Event, mask
 from markermend.findings import BLANKED, Finding
-from markermend.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, gaps
+from markermend.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
 
 DIGITS = 6
 """Decimals of shares and times, fixed so that equal recordings give equal bytes."""
-
-
-def changed(before: Recording, after: Recording) -> np.ndarray:
-    """Bool (frames, markers): True where a sample differs; two missing samples are equal."""
-    same = (before.positions == after.positions) | (np.isnan(before.positions) & np.isnan(after.positions))
-    return ~same.all(axis=2)
 
 
 def largest_change(before: Recording, after: Recording) -> float | None:

@@ -83,3 +83,9 @@ def gaps(recording: Recording) -> list[tuple[int, int, int]]:
     """List the gaps of a recording as (marker index, start, stop), half-open, by marker then start."""
     missing = recording.missing
     return [(m, start, stop) for m in range(missing.shape[1]) for start, stop in runs(missing[:, m])]
+
+
+def changed(before: Recording, after: Recording) -> np.ndarray:
+    """Bool (frames, markers): True where the position is not the same, bit for bit; missing equals missing."""
+    same = (before.positions == after.positions) | (np.isnan(before.positions) & np.isnan(after.positions))
+    return ~same.all(axis=2)
