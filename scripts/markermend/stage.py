@@ -52,6 +52,8 @@ def mapping(text: str) -> dict[str, Any]:
 class Stage:
     """One stage as a command: every flag is required, none may be abbreviated.
 
+    `@FILE` stands for the arguments in a file, one a line: a command line has room for about a thousand paths.
+
     The work function gets one argument, a namespace with a path (or list of paths) per file, `options` (a dictionary),
     and `facts` (what to store in the outputs: stage, options, sha256 of the inputs, by their flag).
     """
@@ -62,6 +64,7 @@ class Stage:
             prog=f"{name}.py",
             description=description,
             allow_abbrev=False,
+            fromfile_prefix_chars="@",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         self._reads = self.parser.add_argument_group("reads")
@@ -123,7 +126,7 @@ class Stage:
             failure, result = SetAside(self.name, str(bad)), f"set aside: {bad}"
         except Exception as error:
             log.error("%s", traceback.format_exc())
-            reason = f"{self.name} failed: {type(error).__name__}: {error}"
+            reason = f"{self.name} failed: {type(error).__name__}: {self._without_folders(str(error), arguments)}"
             failure, result = SetAside(self.name, reason), f"set aside: {reason}"
             self._count_failure(call, failure)
         if failure is not None:
@@ -133,6 +136,14 @@ class Stage:
                 for name in self.outputs:
                     storage.set_aside(getattr(call, name), failure.stage, failure.reason)
         log.info("%s: %s (%.2f s)", self.name, result or "done", time.perf_counter() - started)
+
+    def _without_folders(self, text: str, arguments: dict[str, Any]) -> str:
+        """A message with the stage's files by their names alone: results hold no absolute path."""
+        for name in self.inputs + self.outputs:
+            paths = [arguments[name]] if isinstance(arguments[name], Path) else arguments[name]
+            for path in sorted(paths, key=lambda path: -len(str(path))):
+                text = text.replace(str(path), path.name)
+        return text
 
     def _count_failure(self, call: Any, failure: SetAside) -> None:
         """Append the failure to failures.tsv beside the first output; the workflow reads how many there were."""
