@@ -13,6 +13,7 @@ import numpy as np
 
 from markermend.ensemble import Ensemble, Filling, Trust
 from markermend.predictors import Scene
+from markermend.predictors.interpolation import KINDS
 from markermend.recording import FILLED, MEASURED, MISSING, Restored, runs
 
 log = logging.getLogger("markermend")
@@ -123,8 +124,9 @@ def why_not(restored: Restored, gap: Gap, options: FillOptions) -> str | None:
     if longest is not None and length > longest * restored.rate + 1e-6:
         return f"gap of {length / restored.rate:.2f} s, longest to fill {longest:g} s"
     border = math.ceil(options.border_s * restored.rate)
-    sides = (slice(max(gap.start - border, 0), gap.start), slice(gap.stop, gap.stop + border))
-    if restored.missing[sides[0], gap.marker].any() or restored.missing[sides[1], gap.marker].any():
+    seen_before = gap.start >= border and not restored.missing[gap.start - border : gap.start, gap.marker].any()
+    seen_after = gap.stop + border <= frames and not restored.missing[gap.stop : gap.stop + border, gap.marker].any()
+    if not (seen_before or gap.start == 0) or not (seen_after or gap.stop == frames):
         return f"not seen for {options.border_s:g} s on either side"
     return None
 
@@ -167,7 +169,8 @@ class _Filler:
         self.result.origin[place] = FILLED
         self.result.error[place] = filling.error
         self.result.error95[place] = filling.error95
-        if self.options.reuse:
+        # A course drawn in time alone knows nothing of the body: it is no reference.
+        if self.options.reuse and not set(filling.weights) <= set(KINDS):
             self.scene = replace(self.scene, positions=self.result.positions.copy())
         return filling
 

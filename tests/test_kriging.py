@@ -1,0 +1,115 @@
+"""Kriging against a plain Gaussian process, the autocovariance against loops, and the fit on a known process."""
+
+import numpy as np
+import pytest
+
+from fillings import CONFIG
+from markermend.predictors.kriging import Covariance, autocovariance, fit_covariance, kernels, krige
+
+SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
+
+
+def naive_autocovariance(residual, lags):
+    """Mean product over all pairs of known samples, lag by lag."""
+    out = []
+    for lag in range(lags):
+        products = [
+            (residual[i] * residual[i + lag]).mean()
+            for i in range(len(residual) - lag)
+            if np.isfinite(residual[i]).all() and np.isfinite(residual[i + lag]).all()
+        ]
+        out.append(np.mean(products) if products else 0.0)
+    return np.array(out)
+
+
+def naive_gaussian_process(covariance, known, values, wanted):
+    """Condition sample by sample, with the covariance written out."""
+
+    def kernel(a, b):
+        total = 0.0
+        for k, scale in enumerate(covariance.scales_s):
+            once, twice = np.sqrt(3) * abs(a - b) / scale, np.sqrt(5) * abs(a - b) / scale
+            total += covariance.weights[1 + k] * (1 + once) * np.exp(-once)
+            total += covariance.weights[1 + len(covariance.scales_s) + k] * (1 + twice + twice**2 / 3) * np.exp(-twice)
+        return total
+
+    between = np.array([[kernel(a, b) + covariance.weights[0] * (a == b) for b in known] for a in known])
+    inverse = np.linalg.inv(between)
+    mean, variance = [], []
+    for w in wanted:
+        across = np.array([kernel(w, b) for b in known])
+        mean.append(across @ inverse @ values)
+        variance.append(kernel(w, w) + covariance.weights[0] - across @ inverse @ across)
+    return np.array(mean), np.array(variance)
+
+
+@pytest.fixture
+def covariance():
+    rng = np.random.default_rng(11)
+    return Covariance(np.concatenate([[0.3], rng.uniform(0, 2, 2 * len(SCALES))]), SCALES)
+
+
+def test_autocovariance_equals_loops_with_missing_samples():
+    residual = np.random.default_rng(1).normal(size=(80, 3)).cumsum(axis=0)
+    residual[[3, 4, 30, 77]] = np.nan
+    assert np.allclose(autocovariance(residual, 20), naive_autocovariance(residual, 20))
+
+
+def test_a_lag_without_pairs_gets_nothing():
+    residual = np.full((40, 3), np.nan)
+    residual[::10] = 1.0
+    found = autocovariance(residual, 12)
+    assert found[0] == pytest.approx(1) and found[10] == pytest.approx(1)
+    assert (found[1:10] == 0).all()
+
+
+def test_kriging_equals_the_gaussian_process(covariance):
+    known = np.array([0.0, 0.01, 0.04, 0.5, 0.53])
+    values = np.random.default_rng(2).normal(size=(5, 3))
+    wanted = np.linspace(0.05, 0.45, 9)
+    mean, variance = krige(covariance, known_s=known, values=values, wanted_s=wanted)
+    expected, spread = naive_gaussian_process(covariance, known, values, wanted)
+    # The jitter that keeps the system regular is a hundred-thousandth of the variance.
+    assert np.allclose(mean, expected, atol=1e-3)
+    assert np.allclose(variance, spread, atol=1e-3)
+
+
+def test_without_noise_the_known_are_met(covariance):
+    exact = Covariance(np.concatenate([[0.0], covariance.weights[1:]]), SCALES)
+    known, values = np.array([0.0, 0.3]), np.array([[1.0, -2, 3], [0.5, 0, -1]])
+    mean, variance = krige(exact, known_s=known, values=values, wanted_s=known)
+    assert np.allclose(mean, values, atol=1e-3)
+    assert (variance < 1e-3).all()
+
+
+def test_far_from_everything_known_the_mean_is_zero_and_the_variance_whole(covariance):
+    mean, variance = krige(covariance, known_s=np.zeros(1), values=np.ones((1, 3)), wanted_s=np.array([1e3]))
+    assert np.allclose(mean, 0)
+    assert variance[0] == pytest.approx(covariance.weights.sum())
+    mean, variance = krige(covariance, known_s=np.zeros(0), values=np.zeros((0, 3)), wanted_s=np.zeros(2))
+    assert np.allclose(mean, 0) and np.allclose(variance, covariance.weights.sum())
+
+
+def test_the_fit_finds_the_covariance_of_a_known_process():
+    times = np.arange(1500) / 100.0
+    truth = 4.0 * np.exp(-0.5 * ((times[:, None] - times) / 0.2) ** 2)
+    noise = 0.25
+    rng = np.random.default_rng(3)
+    samples = np.linalg.cholesky(truth + 1e-6 * np.eye(1500)) @ rng.normal(size=(1500, 6))
+    fitted = fit_covariance(
+        samples + rng.normal(0, np.sqrt(noise), samples.shape), rate=100.0, scales_s=SCALES, longest_s=2.0
+    )
+    assert fitted.noise == pytest.approx(noise, abs=0.15)
+    lags = np.array([0.02, 0.1, 0.2, 0.4])
+    assert np.allclose(fitted(lags), 4.0 * np.exp(-0.5 * (lags / 0.2) ** 2), atol=0.8)
+    assert (fitted.weights >= 0).all()
+
+
+def test_kernels_are_one_at_lag_zero():
+    assert np.allclose(kernels(np.zeros(3), SCALES), 1)
+
+
+def test_an_exact_model_leaves_a_covariance_that_can_be_inverted():
+    fitted = fit_covariance(np.zeros((200, 3)), rate=100.0, scales_s=SCALES, longest_s=2.0)
+    mean, variance = krige(fitted, known_s=np.array([0.0, 0.1]), values=np.zeros((2, 3)), wanted_s=np.array([0.05]))
+    assert np.isfinite(mean).all() and np.isfinite(variance).all()
