@@ -31,6 +31,10 @@ rule all:
         rules.report.output,
 
 
+onstart:
+    write_lists()
+
+
 onsuccess:
     atexit.register(close)
 

@@ -20,6 +20,7 @@ sys.path.insert(0, SCRIPTS)
 
 from markermend import dataset, outcome, provenance, settings, storage
 from markermend.events import CLASSES
+from markermend.storage import write_text
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
@@ -80,6 +81,8 @@ CHANGES = f"{HERE}/changes.tsv"
 CERTIFICATE = f"{HERE}/certificate.json"
 QUALITY = f"{HERE}/08_qc.json"
 PAGE = f"{HERE}/page.html"
+MARKERS_LIST = f"{SUBJECT}/logs/recordings.txt"
+QUALITY_LIST = f"{RESULTS}/report/logs/recordings.txt"
 
 
 wildcard_constraints:
@@ -138,6 +141,16 @@ def of_subject(wildcards):
     """01 of each of the subject's recordings."""
     subject = wildcards.subject
     return [MARKERS.format(subject=subject, recording=recording) for recording in SUBJECTS[subject]]
+
+
+def write_lists():
+    """Write which files a subject's mesh and the report are made of: a command line has no room for a thousand paths."""
+    subjects = sorted({subject for subject, _ in RECORDINGS})
+    lists = {MARKERS_LIST.format(subject=subject): (subject, MARKERS) for subject in subjects}
+    for path, (only, pattern) in {**lists, QUALITY_LIST: (None, QUALITY)}.items():
+        pairs = [pair for pair in RECORDINGS if only in (None, pair[0])]
+        lines = [pattern.format(subject=subject, recording=recording) + "\n" for subject, recording in pairs]
+        write_text(Path(path), "".join(lines))
 
 
 def with_suffix(suffix):

@@ -61,8 +61,9 @@ rule mesh:
         *code("mesh"),
         options=options("mesh", without=["files"]),
         failures=failures("mesh"),
+        list=MARKERS_LIST,
     message:
         "Infer the body mesh of {wildcards.subject}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/mesh.py --markers {input.markers:q} --mesh-files {input.files:q}"
+        "{PYTHON:q} {SCRIPTS:q}/mesh.py --markers @{params.list:q} --mesh-files {input.files:q}"
         " --mesh {output.mesh:q} {params.options} 2> {log:q}"

@@ -62,8 +62,9 @@ rule report:
         *code("report", "workflow/report"),
         options=options("report"),
         failures=failures("report"),
+        list=QUALITY_LIST,
     message:
         "Write the report"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/report.py --qc {input.qc:q} --index {output.index:q} --summary {output.summary:q}"
+        "{PYTHON:q} {SCRIPTS:q}/report.py --qc @{params.list:q} --index {output.index:q} --summary {output.summary:q}"
         " --script {output.script:q} {params.options} 2> {log:q}"
