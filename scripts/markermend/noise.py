@@ -96,7 +96,10 @@ def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settin
             enough = max(settings.minimum_changes, settings.density * length)
             if length >= shortest and len(group) >= enough:
                 best = float(score[group].max())
-                found.append(Event(name, int(group[0]), int(group[-1]), best, events.carrying(vector[group])))
+                # Next to a gap the noise has no closing edge: a remainder too short to judge goes with it.
+                first = start if group[0] - start <= link else int(group[0])
+                last = stop if stop - group[-1] <= link else int(group[-1])
+                found.append(Event(name, first, last, best, events.carrying(vector[group])))
     return found
 
 

@@ -81,7 +81,7 @@ class NeighbourPeaks(SuddenSettings):
     """Settings of the detector against the neighbours (config peaks.default), beside those of sudden changes.
 
     longest_s: longest peak. isolation_s: no other sudden change so near. weak: changes above this part of the threshold
-    belong to a peak too. remainder: the changes of a peak sum to at most this part of the largest of them. border_score:
+    belong to a peak too. remainder: the changes of a peak sum to at most this part of their absolute sum. border_score:
     beside a gap, or the end of the recording, one change is enough if it is so many times above the threshold.
     """
 
@@ -106,7 +106,7 @@ def judge_peaks(changes: Changes, marker: int, *, name: str, rate: float, settin
             lonely = np.searchsorted(strong, last + apart, side="right") - np.searchsorted(strong, first - apart)
             if best <= 1 or lonely > (score[group] > 1).sum() or last - first > longest:
                 continue
-            rest = np.linalg.norm(vector[group].sum(axis=0)) / np.linalg.norm(vector[group], axis=1).max()
+            rest = np.linalg.norm(vector[group].sum(axis=0)) / np.linalg.norm(vector[group], axis=1).sum()
             if rest > settings.remainder:
                 if first - start > longest and stop - last > longest:
                     continue

@@ -185,11 +185,16 @@ def bridge(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.ndarray:
 
 
 def moving_median_across(signal: np.ndarray, window: int) -> np.ndarray:
-    """Moving median that joins valid runs as if there were no gaps between: for scales, not for detection."""
+    """Moving median that joins valid runs as if there were no gaps between: for scales, not for detection.
+
+    Within half a window of the ends it stays what it is where the window is whole.
+    """
     out = np.full(len(signal), np.nan)
-    valid = ~np.isnan(signal)
-    if valid.any():
-        out[valid] = ndimage.median_filter(signal[valid], window, mode="nearest")
+    valid = np.flatnonzero(~np.isnan(signal))
+    half = min(window, len(valid)) // 2
+    if len(valid):
+        median = ndimage.median_filter(signal[valid], 2 * half + 1, mode="nearest")
+        out[valid] = median[np.clip(np.arange(len(valid)), half, len(valid) - 1 - half)]
     return out
 
 

@@ -78,8 +78,8 @@ class NeighbourSteps(SuddenSettings):
     """Settings of the detector against the neighbours (config steps.default), beside those of sudden changes.
 
     shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. border_s: what stands beside a step.
-    displaced: the step lies off it by at least this part of the jump.
+    cosine: of the angle between one jump and the reverse of the other, at least. border_s: before and after
+    a jump. displaced: the median over that time changes by at least this part of the jump, at both.
     """
 
     shortest_s: float
@@ -98,6 +98,17 @@ def jumps(changes: Changes, marker: int, *, rate: float, settings: NeighbourStep
     return frames, np.array([vector[group].sum(axis=0) for group in groups]).reshape(-1, 3)
 
 
+def lasting(residual: np.ndarray, at: int, border: int, other: int) -> np.ndarray:
+    """How far the marker is displaced at a jump, (3,), mm: the median after it less the median before, over the border.
+
+    residual: (frames, 3), mm. other: the other jump; the border does not reach beyond it.
+    """
+    before = residual[max(at - border, 0 if other > at else other) : at]
+    after = residual[at : min(at + border, other if other > at else len(residual))]
+    jump: np.ndarray = np.nan_to_num(np.nanmedian(after, axis=0) - np.nanmedian(before, axis=0))
+    return jump
+
+
 def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between."""
     frames, vector = jumps(changes, marker, rate=rate, settings=settings)
@@ -114,10 +125,9 @@ def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settin
             balanced = settings.ratio <= size[k] / size[j] <= 1 / settings.ratio
             if n2 - n1 < shortest or not opposite or not balanced or gone[n1] != gone[n2]:
                 continue
-            inside = np.median(residual[n1:n2], axis=0)
-            beside = np.concatenate([residual[max(0, n1 - border) : n1], residual[n2 : n2 + border]])
-            offset = (inside - np.nanmedian(beside, axis=0)) @ (vector[k] - vector[j]) / (size[k] + size[j])
-            if offset >= settings.displaced * (size[k] + size[j]) / 2:
+            mean = (vector[k] - vector[j]) / 2
+            sides = (lasting(residual, n1, border, n2), -lasting(residual, n2, border, n1))
+            if min(side @ mean for side in sides) >= settings.displaced * (mean @ mean):
                 candidates.append((n2 - n1, k, j))
     found, used = [], np.zeros(len(frames), bool)
     for _, k, j in sorted(candidates):
@@ -168,9 +178,10 @@ def detect_steps(
 
         def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
             mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
+            change = robust.difference(signal)
+            change -= robust.moving_median(change, robust.samples(settings.window_s, scene.rate, odd=True))
             for frame in left.tolist():
-                size = abs(signal[frame] - signal[frame - 1])
-                alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), size))
+                alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
             return mask, score
 
         reach = robust.samples(settings.bridge_s, scene.rate)

@@ -64,10 +64,9 @@ def sharp(values: np.ndarray, window: int) -> np.ndarray:
     """Differences of (frames, 3) less their moving median over each valid run; 0 at a run's first sample and in gaps."""
     out = np.zeros_like(values)
     for start, stop in runs(~np.isnan(values).any(axis=1)):
-        change = np.diff(values[start:stop], axis=0, prepend=values[start : start + 1])
-        change[0] = change[min(1, len(change) - 1)]
-        trend = ndimage.median_filter(change, (window, 1), mode="nearest")
-        out[start + 1 : stop] = (change - trend)[1:]
+        if stop - start > 1:
+            change = np.diff(values[start:stop], axis=0)
+            out[start + 1 : stop] = change - ndimage.median_filter(change, (window, 1), mode="reflect")
     return out
 
 
