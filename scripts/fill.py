@@ -23,7 +23,6 @@ STAGE.option("border_s", float, "time for which a marker must be seen without a 
 STAGE.option("max_error_mm", optional(float), "gaps whose expected error exceeds this stay open, mm")
 STAGE.option("max_altered_share", float, "share of a recording's samples; if more were altered, nothing is filled")
 STAGE.option("reuse", boolean, "whether filled markers are references for those filled later")
-STAGE.option("similar_length", float, "gaps of a marker that differ less than by this factor share their pseudo-gaps")
 STAGE.option("members", str, "predictors that fill together, and variants of local_ridge", many=True)
 STAGE.option("trial_frames", int, "most training frames of local_ridge and its variants on pseudo-gaps")
 STAGE.option(

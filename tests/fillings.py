@@ -34,7 +34,7 @@ def ensemble(names=None, **changed):
 
 def fill_options(**changed):
     """The default rules of what may be filled, with some changed."""
-    own = {name: CONFIG["fill"][name] for name in (*OWN, "reuse", "similar_length")}
+    own = {name: CONFIG["fill"][name] for name in (*OWN, "reuse")}
     return FillOptions(**{"protect": [], **own, **changed})
 
 

@@ -7,7 +7,8 @@ markers that the real gap misses. They also calibrate the error that is stated f
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +28,9 @@ WEIGHTS = ("error", "pma", "both", "equal")
 class EnsembleOptions:
     """Settings of the averaging (config section `fill`, key `ensemble`).
 
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried. worst: members whose error exceeds
+    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried.
+    similar_length, similar_neighbours: gaps of a marker share their pseudo-gaps if their lengths differ by less than this
+    factor and the same of so many nearest neighbours are missing. worst: members whose error exceeds
     the best member's by this factor are left out. references: distances to so many are judged. minimum_frames: joint
     frames that make a reference. frames: most frames and samples used to learn distances. smoothing_s: moving average
     over the likelihoods. floor: least likelihood. spacing_references, spacing_low, spacing_high, spacing_rounds: see
@@ -40,6 +43,8 @@ class EnsembleOptions:
     longest_s: Mapping[str, float]
     power: float
     pseudo_gaps: int
+    similar_length: float
+    similar_neighbours: int
     worst: float
     references: int
     minimum_frames: int
@@ -106,6 +111,13 @@ class Ensemble:
             raise ValueError("trial members differ from the members")
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
+
+    def sort(self, scene: Scene, marker: int, start: int, stop: int) -> tuple[Hashable, ...]:
+        """The sort of gap that this is: what try_out tells of one holds for all of its sort."""
+        near = np.asarray(scene.neighbours[marker], int)[: self.options.similar_neighbours]
+        absent = np.flatnonzero(~scene.present[start:stop, near].all(axis=0))
+        size = math.floor(math.log(stop - start, self.options.similar_length))
+        return marker, size, start == 0, stop == len(scene.positions), tuple(near[absent].tolist())
 
     def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
@@ -28,7 +28,6 @@ class FillOptions:
     fewer of the frames are left alone. border_s: how long the marker must be seen without a break on either side, s.
     max_error_mm: gaps whose expected error (68 %) exceeds it stay open, None = any. max_altered_share: if more of the
     recording's samples were altered, nothing is filled. reuse: filled markers are references for later ones.
-    similar_length: gaps of one marker whose lengths differ by less than this factor share their pseudo-gaps.
     """
 
     max_gap_s: float | None
@@ -40,7 +39,6 @@ class FillOptions:
     max_error_mm: float | None
     max_altered_share: float
     reuse: bool
-    similar_length: float
 
 
 @dataclass(frozen=True)
@@ -152,7 +150,7 @@ class _Filler:
         )
         self.scene = Scene(restored.positions, restored.rate, neighbours)
         self.ensemble, self.options = ensemble, options
-        self._trust: dict[tuple[Any, ...], Trust] = {}
+        self._trust: dict[tuple[Hashable, ...], Trust] = {}
 
     def fill(self, gap: Gap) -> Filling | str:
         """Fill one gap in the result; or tell why not."""
@@ -176,10 +174,7 @@ class _Filler:
 
     def _trusted(self, gap: Gap) -> Trust:
         """What pseudo-gaps tell for this gap, or told for one of similar length that missed the same markers."""
-        absent: np.ndarray = ~np.all(self.scene.present[gap.start : gap.stop], axis=0)
-        size = math.floor(math.log(gap.stop - gap.start, self.options.similar_length))
-        ends = gap.start == 0, gap.stop == len(self.scene.positions)
-        key = gap.marker, size, ends, absent[self.scene.neighbours[gap.marker]].tobytes()
+        key = self.ensemble.sort(self.scene, gap.marker, gap.start, gap.stop)
         if key not in self._trust:
             self._trust[key] = self.ensemble.try_out(self.scene, gap.marker, gap.start, gap.stop)
         return self._trust[key]
