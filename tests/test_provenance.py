@@ -1,12 +1,18 @@
+import json
+import re
 import subprocess
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy
 import pytest
 
+import markermend
 from markermend import provenance
 
-SCRIPTS = Path(__file__).parents[1] / "scripts"
+PROJECT = Path(__file__).parents[1]
+SCRIPTS = PROJECT / "scripts"
 STAGES = sorted(path.stem for path in SCRIPTS.glob("*.py"))
 
 
@@ -55,3 +61,26 @@ def test_no_module_escapes(stage):
     loaded = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     assert loaded
     assert {Path(path).relative_to(SCRIPTS).as_posix() for path in loaded} <= listed
+
+
+def test_the_facts_of_a_run():
+    started = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+    facts = provenance.run_facts(PROJECT, config={"results": "r"}, recordings=3, started=started)
+    assert facts["markermend"] == markermend.__version__
+    assert facts["config"] == {"results": "r"} and facts["recordings"] == 3
+    assert facts["started"] == "2026-01-02T03:04:05+00:00" < facts["finished"]
+    assert facts["packages"]["numpy"] == numpy.__version__
+    assert any(entry.startswith("markermend/storage.py:") for entry in facts["code"]["fill"])
+    json.dumps(facts)
+
+
+def test_the_commit_of_a_checkout(tmp_path):
+    assert provenance.commit(tmp_path) is None
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=n", "-c", "user.email=e@x"]
+    (tmp_path / "a").write_text("1")
+    for command in (["init", "-q"], ["add", "a"], ["commit", "-qm", "first"]):
+        subprocess.run([*git, *command], check=True)
+    clean = provenance.commit(tmp_path)
+    assert re.fullmatch("[0-9a-f]{40}", clean)
+    (tmp_path / "a").write_text("2")
+    assert provenance.commit(tmp_path) == f"{clean}-modified"

@@ -1,12 +1,22 @@
-"""What a stage's result depends on besides its inputs and options: the code that it runs."""
+"""What a result depends on besides its inputs and options: the code of its stage, and the facts of the run."""
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+import platform
+import subprocess
+from collections.abc import Iterable, Mapping
+from datetime import UTC, datetime
 from functools import cache
+from importlib import metadata
 from modulefinder import ModuleFinder
 from pathlib import Path
+from typing import Any
+
+from markermend import __version__
+
+PACKAGES = ("numpy", "scipy", "pyarrow", "ezc3d", "jinja2", "plotly", "snakemake")
+"""The third-party packages that results may depend on."""
 
 
 def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
@@ -36,3 +46,36 @@ def name_of(file: Path, root: Path) -> str:
 def content_hash(file: Path) -> str:
     """The first 16 hex digits of the sha256 of a file's bytes."""
     return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+
+
+def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, started: datetime) -> dict[str, Any]:
+    """What is true of one run and of no result: versions, commit, configuration and times.
+
+    started: an aware time. Kept apart from the results, which hold no clock and no machine, so that they can be compared.
+    """
+    return {
+        "markermend": __version__,
+        "commit": commit(project),
+        "code": {file.stem: code(file) for file in sorted((project / "scripts").glob("*.py"))},
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "packages": {name: metadata.version(name) for name in PACKAGES},
+        "config": dict(config),
+        "recordings": recordings,
+        "started": started.isoformat(timespec="seconds"),
+        "finished": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+def commit(project: Path) -> str | None:
+    """The commit of the project's checkout, with `-modified` where files differ from it; None where it is no checkout."""
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(project), "describe", "--always", "--abbrev=40", "--exclude=*", "--dirty=-modified"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip()

@@ -7,6 +7,7 @@ Writes: nothing.
 import os
 import re
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
 
 import jsonschema
@@ -18,9 +19,9 @@ PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
 sys.path.insert(0, SCRIPTS)
 
-from markermend import dataset, outcome, provenance, settings, storage
+from markermend import dataset, outcome, provenance, settings
 from markermend.events import CLASSES
-from markermend.storage import write_text
+from markermend.storage import sha256, write_json, write_text
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
@@ -66,6 +67,7 @@ SUBJECTS = {subject: [] for subject, _ in RECORDINGS}
 for subject, recording in RECORDINGS:
     SUBJECTS[subject].append(recording)
 
+STARTED = datetime.now(UTC)
 DETECTORS = [stage for stage in CLASSES if stage in config["detect"]]
 FAILURES = settings.failures(RESULTS)
 
@@ -114,7 +116,7 @@ def source(wildcards):
 def source_hash(wildcards):
     """In place of the input: the content of an original whose name cannot be one."""
     path = original(wildcards)
-    return None if nameable(path) else storage.sha256(Path(path))
+    return None if nameable(path) else sha256(Path(path))
 
 
 def subject_name(wildcards):
@@ -199,6 +201,8 @@ def failures(stage):
 
 
 def close():
-    """Print what the run came to."""
+    """Write down the facts of the run, and print what it came to."""
     paths = [QUALITY.format(subject=subject, recording=recording) for subject, recording in RECORDINGS]
+    facts = provenance.run_facts(PROJECT, config=config, recordings=len(RECORDINGS), started=STARTED)
+    write_json(Path(RESULTS, "report", "provenance.json"), facts)
     print(outcome.summary(map(Path, paths), Path(RESULTS, "report", "index.html")), file=sys.stderr)
