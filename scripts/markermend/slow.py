@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from scipy import ndimage
 
-from markermend import blame, coordinates, detection, events, robust
+from markermend import coordinates, detection, events, robust
 from markermend.blame import ResidualSource
 from markermend.events import Event
 from markermend.predictors import Scene
@@ -41,7 +40,8 @@ class NeighbourSlow:
     marker's own over this time, but not beyond this ratio to its nearest neighbours'; see sudden.SuddenSettings.
     company_neighbours: where the body as a whole fits badly, so many neighbours tell. sigmas: upper threshold in units
     of the usual level. floor_mm: and at least so much. lower: lower threshold, as a part of the upper one. top_s: shortest stretch
-    beyond the upper threshold. shortest_s, longest_s: of the stretch beyond the lower one. rounds, rivals: see blame.find.
+    beyond the upper threshold. shortest_s, longest_s: of the stretch beyond the lower one. rivals, suspect: those of so many
+    neighbours that are off by this part of the marker's own level are left out in turn to confirm it.
     """
 
     smooth_s: float
@@ -56,8 +56,8 @@ class NeighbourSlow:
     top_s: float
     shortest_s: float
     longest_s: float
-    rounds: int
     rivals: int
+    suspect: float
 
 
 def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]]:
@@ -159,6 +159,30 @@ def judge_slow(levels: Levels, marker: int, *, name: str, rate: float, settings:
     return found
 
 
+def confirmed(
+    scene: Scene, event: Event, levels: Levels, *, marker: int, settings: NeighbourSlow, predictor: ResidualSource
+) -> bool:
+    """Whether a marker is still off without any one of the neighbours that are off as well, and may have dragged it along.
+
+    A steady marker shows a neighbour's drift more clearly, in units of its own level, than that neighbour does.
+    """
+    during = slice(event.start, event.stop)
+    size = np.nan_to_num(np.linalg.norm(levels.vector[during], axis=2)).max(axis=0)
+    near = np.asarray(scene.neighbours[marker], int)[: settings.rivals]
+    suspects = near[size[near] > settings.suspect * size[marker]]
+    for suspect in suspects:
+        hidden = scene.positions.copy()
+        hidden[:, suspect] = np.nan  # throughout: a looser prediction needs its own scale
+        without = replace(scene, positions=hidden)
+        residual = np.full(levels.vector.shape, np.nan)
+        residual[:, marker] = predictor.residuals(without, np.array([marker]))[:, marker]
+        again = measure(without, residual, [marker], levels, settings=settings)
+        left = judge_slow(again, marker, name=event.marker, rate=scene.rate, settings=settings)
+        if not any(other.start < event.stop and event.start < other.stop for other in left):
+            return False
+    return True
+
+
 def settings(options: Mapping[str, Any]) -> CoordinateSlow | NeighbourSlow:
     """The settings of the preset that the config section `slow` asks for; raises ValueError for an unknown one."""
     return detection.preset(options, {"default": NeighbourSlow, "paper": CoordinateSlow})
@@ -187,13 +211,15 @@ def detect_slow(
             earlier=earlier,
             reach=1,
         )
-    found, _ = blame.find(
-        rest,
-        measure=partial(measure, settings=settings),
-        judge=lambda levels, m: judge_slow(levels, m, name=markers[m], rate=scene.rate, settings=settings),
-        markers=markers,
-        predictor=predictor,
-        rounds=settings.rounds,
-        reach=settings.rivals,
+    levels = measure(rest, predictor.residuals(rest), settings=settings)
+    found = [
+        event
+        for m, name in enumerate(markers)
+        for event in judge_slow(levels, m, name=name, rate=scene.rate, settings=settings)
+    ]
+    place = {name: m for m, name in enumerate(markers)}
+    return events.tidy(
+        event
+        for event in found
+        if confirmed(rest, event, levels, marker=place[event.marker], settings=settings, predictor=predictor)
     )
-    return events.tidy(found)
