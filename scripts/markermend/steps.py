@@ -79,7 +79,8 @@ class NeighbourSteps(SuddenSettings):
 
     shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
     cosine: of the angle between one jump and the reverse of the other, at least. border_s: before and after
-    a jump. displaced: the median over that time changes by at least this part of the jump, at both.
+    a jump. displaced: the median over that time changes by at least this part of the jump, at both. held: the
+    median of all samples in between differs from that of as many outside by at least this part of it.
     """
 
     shortest_s: float
@@ -88,6 +89,7 @@ class NeighbourSteps(SuddenSettings):
     cosine: float
     border_s: float
     displaced: float
+    held: float
 
 
 def jumps(changes: Changes, marker: int, *, rate: float, settings: NeighbourSteps) -> tuple[np.ndarray, np.ndarray]:
@@ -109,6 +111,17 @@ def lasting(residual: np.ndarray, at: int, border: int, other: int) -> np.ndarra
     return jump
 
 
+def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
+    """How far the whole of [start, stop) is displaced along a jump (3,), mm, as a part of it.
+
+    residual: (frames, 3), mm. The median inside is compared with that of as many samples outside, half on either side.
+    """
+    reach = max(1, (stop - start) // 2)
+    outside = np.concatenate([residual[max(start - reach, 0) : start], residual[stop : stop + reach]])
+    moved = np.nanmedian(residual[start:stop], axis=0) - np.nanmedian(outside, axis=0)
+    return float(moved @ jump / (jump @ jump))
+
+
 def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between."""
     frames, vector = jumps(changes, marker, rate=rate, settings=settings)
@@ -127,7 +140,9 @@ def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settin
                 continue
             mean = (vector[k] - vector[j]) / 2
             sides = (lasting(residual, n1, border, n2), -lasting(residual, n2, border, n1))
-            if min(side @ mean for side in sides) >= settings.displaced * (mean @ mean):
+            if min(side @ mean for side in sides) < settings.displaced * (mean @ mean):
+                continue
+            if displacement(residual, n1, n2, mean) >= settings.held:
                 candidates.append((n2 - n1, k, j))
     found, used = [], np.zeros(len(frames), bool)
     for _, k, j in sorted(candidates):
