@@ -30,7 +30,12 @@ def original(path, storage_name="pc_real"):
         analog=rng.normal(0, 1, (50, 2, 3)),
     )
     reading = files.read(path, unlabelled=[r"\*\d+"], rate=None)
-    source = {"name": path.name, "sha256": storage.sha256(path), "format": reading.format, "columns": list(reading.columns)}
+    source = {
+        "name": path.name,
+        "sha256": storage.sha256(path),
+        "format": reading.format,
+        "columns": list(reading.columns),
+    }
     held = reading.recording
     return Recording(held.markers, held.positions, held.rate, held.first_frame, {"recording": "walk", "source": source})
 

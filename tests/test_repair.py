@@ -1,9 +1,9 @@
 """Repair: each class undone on a body whose truth is known, nothing else touched, every refusal with its reason."""
 
-import bodies
 import numpy as np
 import pytest
 
+import bodies
 from markermend.events import Event
 from markermend.predictors.interpolation import Interpolation
 from markermend.predictors.local import LocalRidge, RidgeOptions
@@ -63,7 +63,10 @@ def mend(recording, found, **changes):
         recording,
         found=found,
         neighbours=neighbours_of(recording),
-        predictors={**{kind: Interpolation(kind, knots=10) for kind in ("spline", "linear")}, "local_ridge": LocalRidge(RIDGE)},
+        predictors={
+            **{kind: Interpolation(kind, knots=10) for kind in ("spline", "linear")},
+            "local_ridge": LocalRidge(RIDGE),
+        },
         options=RepairOptions(**{**settings, **changes}),
     )
 
