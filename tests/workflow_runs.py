@@ -82,7 +82,7 @@ class Project:
         return Plan(jobs, set(changed[1].split(", ")) if changed else set(), text)
 
     def outputs(self, results: Path | None = None) -> dict[str, bytes]:
-        """Every result but logs, by its path."""
+        """Every result, by its path; not logs and the facts of the run, which have clocks."""
         top = results or self.results
-        files = (path for path in top.rglob("*") if path.is_file() and "logs" not in path.parts)
+        files = (path for path in top.rglob("*") if path.is_file() and not {"logs", "provenance.json"} & set(path.parts))
         return {path.relative_to(top).as_posix(): path.read_bytes() for path in files}
