@@ -84,5 +84,7 @@ class Project:
     def outputs(self, results: Path | None = None) -> dict[str, bytes]:
         """Every result, by its path; not logs and the facts of the run, which have clocks."""
         top = results or self.results
-        files = (path for path in top.rglob("*") if path.is_file() and not {"logs", "provenance.json"} & set(path.parts))
+        files = (
+            path for path in top.rglob("*") if path.is_file() and not {"logs", "provenance.json"} & set(path.parts)
+        )
         return {path.relative_to(top).as_posix(): path.read_bytes() for path in files}
