@@ -5,32 +5,12 @@ Writes: 03_noise.parquet.
 """
 
 from markermend import detection, noise, storage
-from markermend.predictors.local import LocalRidge, RidgeOptions
-from markermend.stage import Stage, mapping
 
-STAGE = Stage("noise", __doc__)
-STAGE.reads("markers", "trajectories as ingested")
-STAGE.reads("mesh", "who the neighbours are")
-STAGE.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
-STAGE.writes("events", "the heavy noise found")
-STAGE.option("preset", str, "which of the settings below to use", choices=["default", "coordinates", "paper"])
-STAGE.option("default", mapping, "settings of the preset `default`: against the neighbours, all axes together")
-STAGE.option(
-    "coordinates", mapping, "settings of the preset `coordinates`: coordinate by coordinate, with robust thresholds"
-)
-STAGE.option("paper", mapping, "settings of the preset `paper`: as published (skurowski2022)")
-STAGE.option("local_ridge", mapping, "settings of the predictor")
+STAGE = detection.stage("noise", __doc__, finds="heavy noise", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    recording, scene, earlier = detection.read(call.markers, call.mesh, call.earlier)
-    found = noise.detect_noise(
-        scene,
-        markers=recording.markers,
-        earlier=earlier,
-        settings=noise.settings(call.options),
-        predictor=LocalRidge(RidgeOptions(**call.options["local_ridge"])),
-    )
+    found = noise.detect_noise(**detection.arguments(call), settings=noise.settings(call.options))
     storage.write_events(call.events, found, call.facts)
     return detection.result(found)
 

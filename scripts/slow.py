@@ -5,29 +5,12 @@ Writes: 05_slow.parquet.
 """
 
 from markermend import detection, slow, storage
-from markermend.predictors.local import LocalRidge, RidgeOptions
-from markermend.stage import Stage, mapping
 
-STAGE = Stage("slow", __doc__)
-STAGE.reads("markers", "trajectories as ingested")
-STAGE.reads("mesh", "who the neighbours are")
-STAGE.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
-STAGE.writes("events", "the slow changes found")
-STAGE.option("preset", str, "which of the settings below to use", choices=["default", "paper"])
-STAGE.option("default", mapping, "settings of the preset `default`: against the neighbours, all axes together")
-STAGE.option("paper", mapping, "settings of the preset `paper`: as published (skurowski2022)")
-STAGE.option("local_ridge", mapping, "settings of the predictor")
+STAGE = detection.stage("slow", __doc__, finds="slow changes", presets=["default", "paper"])
 
 
 def work(call):
-    recording, scene, earlier = detection.read(call.markers, call.mesh, call.earlier)
-    found = slow.detect_slow(
-        scene,
-        markers=recording.markers,
-        earlier=earlier,
-        settings=slow.settings(call.options),
-        predictor=LocalRidge(RidgeOptions(**call.options["local_ridge"])),
-    )
+    found = slow.detect_slow(**detection.arguments(call), settings=slow.settings(call.options))
     storage.write_events(call.events, found, call.facts)
     return detection.result(found)
 

@@ -1,38 +1,17 @@
 """Detect steps.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
-Writes: 04_steps.parquet.
+Writes: 04_steps.parquet, with the jumps that have no counterpart among its facts.
 """
 
 from markermend import detection, steps, storage
-from markermend.predictors.local import LocalRidge, RidgeOptions
-from markermend.stage import Stage, mapping
 
-STAGE = Stage("steps", __doc__)
-STAGE.reads("markers", "trajectories as ingested")
-STAGE.reads("mesh", "who the neighbours are")
-STAGE.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
-STAGE.writes("events", "the steps found")
-STAGE.option("preset", str, "which of the settings below to use", choices=["default", "coordinates", "paper"])
-STAGE.option("default", mapping, "settings of the preset `default`: against the neighbours, all axes together")
-STAGE.option(
-    "coordinates", mapping, "settings of the preset `coordinates`: coordinate by coordinate, with robust thresholds"
-)
-STAGE.option("paper", mapping, "settings of the preset `paper`: as published (skurowski2022)")
-STAGE.option("local_ridge", mapping, "settings of the predictor")
+STAGE = detection.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    recording, scene, earlier = detection.read(call.markers, call.mesh, call.earlier)
-    found, left = steps.detect_steps(
-        scene,
-        markers=recording.markers,
-        earlier=earlier,
-        settings=steps.settings(call.options),
-        predictor=LocalRidge(RidgeOptions(**call.options["local_ridge"])),
-    )
-    call.facts["open_steps"] = [vars(step) for step in left]
-    storage.write_events(call.events, found, call.facts)
+    found, left = steps.detect_steps(**detection.arguments(call), settings=steps.settings(call.options))
+    storage.write_events(call.events, found, {**call.facts, "open_steps": [vars(step) for step in left]})
     return f"{detection.result(found)}; {len(left)} open steps"
 
 

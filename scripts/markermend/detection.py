@@ -1,8 +1,8 @@
-"""What the four detectors share: their presets, and a scene without what is already explained."""
+"""What the four detectors share: their command, their presets, and a scene without what is already explained."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,9 +11,18 @@ import numpy as np
 
 from markermend import events, mesh, storage
 from markermend.predictors import Scene
+from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.recording import Recording
+from markermend.stage import Stage, mapping
 
 Settings = TypeVar("Settings")
+
+PRESETS = {
+    "default": "against the neighbours, all axes together",
+    "coordinates": "coordinate by coordinate, with robust thresholds",
+    "paper": "as published (skurowski2022)",
+}
+"""The ways of detection, and what they are."""
 
 
 def preset(options: Mapping[str, Any], kinds: Mapping[str, type[Settings]]) -> Settings:
@@ -25,6 +34,27 @@ def preset(options: Mapping[str, Any], kinds: Mapping[str, type[Settings]]) -> S
     if name not in kinds:
         raise ValueError(f"preset {name!r} is none of {', '.join(kinds)}")
     return kinds[name](**options[name])
+
+
+def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) -> Stage:
+    """A detector as a command: its files and its options, the same for each but for the presets it has."""
+    command = Stage(name, description)
+    command.reads("markers", "trajectories as ingested")
+    command.reads("mesh", "who the neighbours are")
+    command.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
+    command.writes("events", f"the {finds} found")
+    command.option("preset", str, "which of the settings below to use", choices=list(presets))
+    for preset in presets:
+        command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
+    command.option("local_ridge", mapping, "settings of the predictor")
+    return command
+
+
+def arguments(call: Any) -> dict[str, Any]:
+    """What every detector is given, from a stage's files and options; raises SetAside where the recording was set aside."""
+    recording, scene, earlier = read(call.markers, call.mesh, call.earlier)
+    predictor = LocalRidge(RidgeOptions(**call.options["local_ridge"]))
+    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}
 
 
 def without(scene: Scene, claimed: np.ndarray) -> Scene:

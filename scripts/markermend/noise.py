@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from markermend import coordinates, detection, events, robust, sudden
+from markermend import detection, events, robust, sudden
 from markermend.blame import ResidualSource
 from markermend.events import Event
 from markermend.predictors import Scene
@@ -123,21 +122,13 @@ def detect_noise(
     samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
     used by the detector against the neighbours alone.
     """
-    if isinstance(settings, CoordinateNoise):
-        reach = robust.samples(settings.bridge_s, scene.rate)
-        return coordinates.merge(
-            scene.positions,
-            lambda signal, _: find_noise(signal, rate=scene.rate, settings=settings),
-            markers=markers,
-            earlier=earlier,
-            reach=reach,
-        )
-    judge = partial(judge_noise, rate=scene.rate, settings=settings)
-    found, _ = sudden.find(
-        detection.without(scene, earlier),
-        judge=lambda changes, m: judge(changes, m, name=markers[m]),
+    found, _ = sudden.detect(
+        scene,
         markers=markers,
-        predictor=predictor,
+        earlier=earlier,
         settings=settings,
+        predictor=predictor,
+        in_coordinate=lambda signal, _, own: find_noise(signal, rate=scene.rate, settings=own),
+        judge=judge_noise,
     )
-    return events.tidy(found)
+    return found

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from markermend import coordinates, detection, events, robust, sudden
+from markermend import detection, events, robust, sudden
 from markermend.blame import ResidualSource
 from markermend.events import Event
 from markermend.noise import difference_high_pass
@@ -188,29 +187,26 @@ def detect_steps(
     samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
     used by the detector against the neighbours alone.
     """
-    if isinstance(settings, CoordinateSteps):
-        alone: dict[tuple[str, int], float] = {}
+    alone: dict[tuple[str, int], float] = {}
 
-        def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-            mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
-            change = robust.difference(signal)
-            change -= robust.moving_median(change, robust.samples(settings.window_s, scene.rate, odd=True))
-            for frame in left.tolist():
-                alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
-            return mask, score
+    def in_coordinate(signal: np.ndarray, marker: str, own: CoordinateSteps) -> tuple[np.ndarray, np.ndarray]:
+        mask, score, left = find_steps(signal, rate=scene.rate, settings=own)
+        change = robust.difference(signal)
+        change -= robust.moving_median(change, robust.samples(own.window_s, scene.rate, odd=True))
+        for frame in left.tolist():
+            alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
+        return mask, score
 
-        reach = robust.samples(settings.bridge_s, scene.rate)
-        found = coordinates.merge(scene.positions, find, markers=markers, earlier=earlier, reach=reach)
-        within = events.mask(found, len(scene.positions), markers)
-        return found, [
-            OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]
-        ]
-    judge = partial(judge_steps, rate=scene.rate, settings=settings)
-    found, changes = sudden.find(
-        detection.without(scene, earlier),
-        judge=lambda changes, m: judge(changes, m, name=markers[m]),
+    found, changes = sudden.detect(
+        scene,
         markers=markers,
-        predictor=predictor,
+        earlier=earlier,
         settings=settings,
+        predictor=predictor,
+        in_coordinate=in_coordinate,
+        judge=judge_steps,
     )
-    return events.tidy(found), open_steps(changes, found, markers=markers, rate=scene.rate, settings=settings)
+    if changes is not None and isinstance(settings, NeighbourSteps):
+        return found, open_steps(changes, found, markers=markers, rate=scene.rate, settings=settings)
+    within = events.mask(found, len(scene.positions), markers)
+    return found, [OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]]

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy import ndimage
 
-from markermend import blame, robust
+from markermend import blame, coordinates, detection, events, robust
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.recording import runs
@@ -120,6 +121,41 @@ def find(
         rounds=settings.rounds,
         reach=settings.rivals,
     )
+
+
+def detect(
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: Any,
+    predictor: blame.ResidualSource,
+    in_coordinate: Callable[[np.ndarray, str, Any], tuple[np.ndarray, np.ndarray]],
+    judge: Callable[..., list[Event]],
+) -> tuple[list[Event], Changes | None]:
+    """Find one class of artifacts in the way that the settings belong to; and the changes, if judged against neighbours.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
+    samples that detectors before claimed. in_coordinate: finds in one coordinate,
+    given with its marker's name and the settings, see coordinates.Find; for settings of that kind. judge:
+    finds among the changes of a marker, given (changes, marker) and its name, the rate and the settings. predictor:
+    source of the residuals, for judging alone.
+    """
+    if not isinstance(settings, SuddenSettings):
+        reach = robust.samples(settings.bridge_s, scene.rate)
+
+        def find_in(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+            return in_coordinate(signal, marker, settings)
+
+        return coordinates.merge(scene.positions, find_in, markers=markers, earlier=earlier, reach=reach), None
+    found, changes = find(
+        detection.without(scene, earlier),
+        judge=lambda changes, m: judge(changes, m, name=markers[m], rate=scene.rate, settings=settings),
+        markers=markers,
+        predictor=predictor,
+        settings=settings,
+    )
+    return events.tidy(found), changes
 
 
 def clusters(frames: np.ndarray, link: int) -> list[np.ndarray]:
