@@ -10,7 +10,8 @@ STAGE = detection.stage("noise", __doc__, finds="heavy noise", presets=["default
 
 
 def work(call):
-    found = noise.detect_noise(**detection.arguments(call), settings=noise.settings(call.options))
+    given, _ = detection.arguments(call)
+    found = noise.detect_noise(**given, settings=noise.settings(call.options))
     storage.write_events(call.events, found, call.facts)
     return detection.result(found)
 

@@ -10,7 +10,8 @@ STAGE = detection.stage("peaks", __doc__, finds="isolated peaks", presets=["defa
 
 
 def work(call):
-    found = peaks.detect_peaks(**detection.arguments(call), settings=peaks.settings(call.options))
+    given, _ = detection.arguments(call)
+    found = peaks.detect_peaks(**given, settings=peaks.settings(call.options))
     storage.write_events(call.events, found, call.facts)
     return detection.result(found)
 

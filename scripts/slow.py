@@ -10,7 +10,8 @@ STAGE = detection.stage("slow", __doc__, finds="slow changes", presets=["default
 
 
 def work(call):
-    found = slow.detect_slow(**detection.arguments(call), settings=slow.settings(call.options))
+    given, _ = detection.arguments(call)
+    found = slow.detect_slow(**given, settings=slow.settings(call.options))
     storage.write_events(call.events, found, call.facts)
     return detection.result(found)
 

@@ -1,18 +1,20 @@
-"""Detect steps.
+"""Detect steps, and swapped labels.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 04_steps.parquet, with the jumps that have no counterpart among its facts.
 """
 
-from markermend import detection, steps, storage
+from markermend import detection, steps, storage, swaps
 
 STAGE = detection.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    found, left = steps.detect_steps(**detection.arguments(call), settings=steps.settings(call.options))
+    given, swapped = detection.arguments(call)
+    found, left = steps.detect_steps(**given, settings=steps.settings(call.options))
+    found = swaps.among(found, swapped)
     storage.write_events(call.events, found, {**call.facts, "open_steps": [vars(step) for step in left]})
-    return f"{detection.result(found)}; {len(left)} open steps"
+    return f"{detection.result(found)}; {len(swapped) // 2} swaps among them; {len(left)} open steps"
 
 
 def main(argv=None):

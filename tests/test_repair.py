@@ -173,6 +173,28 @@ def test_swap_with_a_missing_partner_moves_the_samples(clean):
     assert (result.origin[START:STOP, b] == MISSING).all()
 
 
+def test_a_peak_within_a_swap_is_mended_after_the_swap(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[610:613, a] += 20.0
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(bodies.recording(clean.markers, positions), {"peaks": [Event("2b", 610, 613, 5.0)], "steps": swap})
+    assert error(clean, result).max() < 1
+    assert (result.origin[610:613, a] == ORIGINS.index("peak")).all()
+    others = np.delete(np.arange(len(positions)), slice(610, 613))
+    assert np.array_equal(result.positions[others], clean.positions[others])
+    assert np.array_equal(result.positions[:, b], clean.positions[:, b])
+
+
+@pytest.mark.parametrize("protect", ["2b", "3a"])
+def test_a_swap_with_a_protected_marker_is_left(clean, protect):
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(clean, {"steps": swap}, protect=[protect])
+    assert np.array_equal(result.positions, clean.positions)
+    assert [left["reason"] for left in result.facts["repairs_left"]] == ["protected", "protected"]
+
+
 def test_the_neighbours_artifact_does_not_leak_into_a_repair(clean):
     recording = distorted(distorted(clean, 30.0), 40.0, marker="1a")
     events = [Event(MARKER, START, STOP, 5.0), Event("1a", START, STOP, 5.0)]

@@ -9,11 +9,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from markermend import events, mesh, storage
+from markermend import events, mesh, storage, swaps
 from markermend.predictors import Scene
 from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.recording import Recording
 from markermend.stage import Stage, mapping
+from markermend.swaps import SwapSettings
 
 Settings = TypeVar("Settings")
 
@@ -47,14 +48,25 @@ def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) ->
     for preset in presets:
         command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
     command.option("local_ridge", mapping, "settings of the predictor")
+    command.option(
+        "swaps", mapping, "what counts as swapped labels, which are undone before anything else is looked for"
+    )
     return command
 
 
-def arguments(call: Any) -> dict[str, Any]:
-    """What every detector is given, from a stage's files and options; raises SetAside where the recording was set aside."""
+def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
+    """What every detector is given, from a stage's files and options, and the swaps that were undone for it.
+
+    The preset `paper` knows no swaps. Raises SetAside where the recording was set aside.
+    """
     recording, scene, earlier = read(call.markers, call.mesh, call.earlier)
+    swapped: list[events.Event] = []
+    if call.options["preset"] != "paper":
+        settings = SwapSettings(**call.options["swaps"])
+        swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=settings)
+        scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
     predictor = LocalRidge(RidgeOptions(**call.options["local_ridge"]))
-    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}
+    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}, swapped
 
 
 def without(scene: Scene, claimed: np.ndarray) -> Scene:
@@ -65,7 +77,7 @@ def without(scene: Scene, claimed: np.ndarray) -> Scene:
 
 
 def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording, Scene, np.ndarray]:
-    """Read a recording, its scene, and the mask (frames, markers) of what earlier detectors claimed.
+    """Read a recording, its scene, and the mask (frames, markers) of what earlier detectors claimed, but for swaps.
 
     Raises SetAside where an earlier stage set the recording aside.
     """
@@ -74,7 +86,8 @@ def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording
     scene = Scene(recording.positions, recording.rate, network.neighbour_indices(recording.markers))
     claimed = np.zeros(recording.missing.shape, bool)
     for path in earlier:
-        claimed |= events.mask(storage.read_events(path), recording.frames, recording.markers)
+        artifacts = [event for event in storage.read_events(path) if event.partner is None]
+        claimed |= events.mask(artifacts, recording.frames, recording.markers)
     return recording, scene, claimed
 
 

@@ -1,7 +1,8 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-A repair replaces the samples of its interval and says how and how surely; where none can be trusted, the samples become
-missing and say why. Samples outside the intervals are returned bit for bit.
+Swapped labels are exchanged first; what else was found was found in trajectories without swaps. A repair replaces the
+samples of its interval and says how and how surely; where none can be trusted, the samples become missing and say why.
+Samples outside the intervals are returned bit for bit.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ class RepairOptions:
     """Settings of the repair (config section `repair`).
 
     methods: for each class the methods to try, best first: names of predictors, `savitzky_golay`, `offset` (subtract
-    a step), `swap` (swap back with the partner) or `blank`. protect: marker name patterns never touched.
+    a step), `swap` (swap back with the partner, before all other repairs) or `blank`. protect: marker name patterns never touched.
     max_altered_share: with more than this share of the seen samples found, nothing is repaired. max_repair_s: longer
     findings become missing. max_error_mm: likewise where the expected error (68 %) exceeds it. coherent_share: a step is
     subtracted where what remains of it varies by less than this share of its size. savitzky_golay_order,
@@ -67,8 +68,10 @@ def repair(
     """
     work = _Repairer(recording, found, neighbours, predictors, options)
     refusal = work.refusal()
+    if refusal is None and "swap" in options.methods.get("steps", ()):
+        work.swap_back()
     for marker, start, stop, members in work.findings():
-        reason = refusal or work.protection(marker)
+        reason = refusal or work.protection(marker, *(event.partner for _, event in members if event.partner))
         if reason:
             work.leave(marker, start, stop, members, reason, blank=False)
         elif len(members) > 1:
@@ -89,20 +92,24 @@ class _Repairer:
         predictors: Mapping[str, Predictor],
         options: RepairOptions,
     ) -> None:
-        self.recording, self.predictors, self.options = recording, predictors, options
+        self.neighbours, self.predictors, self.options = neighbours, predictors, options
+        self._look_at(recording, found)
+        self.positions = recording.positions.copy()
+        self.origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
+        self.error = np.where(recording.missing, np.nan, 0.0)
+        self.repairs: list[dict[str, Any]] = []
+        self.left: list[dict[str, Any]] = []
+
+    def _look_at(self, recording: Recording, found: Mapping[str, Sequence[Event]]) -> None:
+        """Take the recording to repair and what was found in it; the scene is all that is not found."""
+        self.recording = recording
         self.found = {kind: list(events) for kind, events in found.items() if events}
         self.flagged = np.zeros((recording.frames, len(recording.markers)), bool)
         for events in self.found.values():
             self.flagged |= finding.mask(events, recording.frames, recording.markers)
         self.flagged &= ~recording.missing
         believed = np.where(self.flagged[..., None], np.nan, recording.positions)
-        self.scene = Scene(believed, recording.rate, neighbours)
-        self.positions = recording.positions.copy()
-        self.origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
-        self.error = np.where(recording.missing, np.nan, 0.0)
-        self.repairs: list[dict[str, Any]] = []
-        self.left: list[dict[str, Any]] = []
-        self.swapped: set[tuple[str, int, int]] = set()
+        self.scene = Scene(believed, recording.rate, self.neighbours)
 
     def refusal(self) -> str | None:
         """Why nothing at all may be repaired, or None."""
@@ -113,9 +120,23 @@ class _Repairer:
             return f"findings cover {share:.1%} of the recording, more than {self.options.max_altered_share:.0%}"
         return None
 
-    def protection(self, marker: str) -> str | None:
-        """Why this marker may not be repaired, or None."""
-        return "protected" if any(fnmatchcase(marker, pattern) for pattern in self.options.protect) else None
+    def protection(self, *markers: str) -> str | None:
+        """Why these markers may not be repaired together, or None."""
+        protect = self.options.protect
+        return "protected" if any(fnmatchcase(marker, pattern) for marker in markers for pattern in protect) else None
+
+    def swap_back(self) -> None:
+        """Exchange the samples of swapped markers that may be touched; all else is judged and repaired after that."""
+        done: set[tuple[str, str, int, int]] = set()
+        rest = []
+        for event in self.found.get("steps", []):
+            partner = str(event.partner)
+            if partner not in self.recording.markers or self.protection(event.marker, partner):
+                rest.append(event)
+            elif (partner, event.marker, event.start, event.stop) not in done:
+                done.add((event.marker, partner, event.start, event.stop))
+                self._swap_back(event)
+        self._look_at(replace(self.recording, positions=self.positions.copy()), {**self.found, "steps": rest})
 
     def findings(self) -> list[tuple[str, int, int, list[tuple[str, Event]]]]:
         """The intervals to work on, by marker and time, each with the findings (class, event) that overlap in it."""
@@ -132,18 +153,13 @@ class _Repairer:
     def mend(self, marker: str, start: int, stop: int, members: list[tuple[str, Event]]) -> None:
         """Repair one finding by the first of its class's methods that can be trusted; blank it if none can."""
         kind, event = members[0]
-        if (marker, start, stop) in self.swapped:
-            return
-        if stop - start > self.options.max_repair_s * self.recording.rate and event.partner is None:
+        if stop - start > self.options.max_repair_s * self.recording.rate:
             limit = f"longer than {self.options.max_repair_s:g} s"
             self.leave(marker, start, stop, members, limit, blank=True)
             return
         reasons = []
         for method in self.options.methods[kind]:
             if method == "swap":
-                if event.partner in self.recording.markers:
-                    self._swap_back(event)
-                    return
                 continue
             proposal = self._propose(method, self.recording.markers.index(marker), start, stop)
             worst = float(np.max(proposal.error)) * BALL68 if proposal else np.nan
@@ -195,7 +211,6 @@ class _Repairer:
         missing = np.isnan(self.positions[span, pair]).any(axis=2)
         self.origin[span, pair] = np.where(missing, MISSING, ORIGINS.index("swap"))
         self.error[span, pair] = np.where(missing, np.nan, 0.0)
-        self.swapped.add((str(event.partner), event.start, event.stop))
         self._note(event, "swap", "swap")
         self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap")
 

@@ -29,7 +29,7 @@ for stage in DETECTORS:
             runtime=10,
         params:
             *code(stage),
-            options=options(stage, "local_ridge"),
+            options=options(stage, "local_ridge", "swaps"),
             failures=failures(stage),
         message:
             "Detect {rule} in {wildcards.subject}/{wildcards.recording}"
