@@ -7,6 +7,7 @@ Writes: 01_markers.parquet.
 from markermend import storage
 from markermend.formats import files
 from markermend.ingest import ingest
+from markermend.naming import printable
 from markermend.stage import Stage, optional
 
 STAGE = Stage("ingest", __doc__)
@@ -24,7 +25,7 @@ STAGE.option("static_motion_mm", float, "a recording is static if nine markers i
 def work(call):
     options = dict(call.options)
     reading = files.read(call.source, unlabelled=options.pop("unlabelled"), rate=options.pop("rate"))
-    recording = ingest(reading, source=call.source.name, **options)
+    recording = ingest(reading, source=printable(call.source.name), **options)
     recording.facts["source"]["sha256"] = call.facts["inputs"]["source"]
     storage.write_recording(call.markers, recording, call.facts)
     gone = recording.missing.mean()

@@ -1,3 +1,5 @@
+import os
+
 import pytest
 
 from markermend import dataset
@@ -140,3 +142,20 @@ def test_every_problem_of_a_table_is_named_at_once(tmp_path):
         f"not a known format (c3d, trc, csv, tsv): {tmp_path}/2.mov",
         "twice: recording walk of subject Bob",
     ]
+
+
+def test_a_broken_link_is_a_recording_and_alike_names_are_refused(tmp_path):
+    (tmp_path / "S").mkdir()
+    (tmp_path / "S" / "gone.c3d").symlink_to(tmp_path / "nowhere.c3d")
+    (entry,) = dataset.find(str(tmp_path), str(tmp_path / "out"))
+    assert entry.recording == "gone"
+    (tmp_path / "S" / os.fsdecode(b"\xff.c3d")).touch()
+    (tmp_path / "S" / r"\xff.c3d").touch()
+    with pytest.raises(BadDataSet, match="told apart"):
+        dataset.find(str(tmp_path), str(tmp_path / "out"))
+
+
+def test_a_repeated_column_is_refused(tmp_path):
+    (tmp_path / "t.tsv").write_text("recording\tsubject\tfile\tsubject\na\tS\ta.c3d\tT\n")
+    with pytest.raises(BadDataSet, match="column subject more than once"):
+        dataset.read_rows(str(tmp_path / "t.tsv"))

@@ -125,7 +125,7 @@ def run_script(arguments):
 
 def flags(source, target, **more):
     options = {"recording": "walk", "subject": "Anna", "kind": "auto", "rate": "none", "static-motion-mm": 15, **more}
-    lists = ["--unlabelled", r"\*\d*", "--static-names", *NAMES]
+    lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]
     named = [f"--{name}={value}" for name, value in options.items()]
     return ["--source", source, "--markers", target, *named, *lists]
 

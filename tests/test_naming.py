@@ -1,8 +1,11 @@
+import os
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from markermend.naming import LONGEST, RESERVED_RECORDINGS, RESERVED_SUBJECTS, decode, encode
+from markermend.naming import LONGEST, RESERVED_RECORDINGS, RESERVED_SUBJECTS, decode, encode, printable
 
 
 @pytest.mark.parametrize("name", ["walk01", "S-01_b.2", "Łukasz", "歩行", "naïve", "nai\u0308ve", "a..b", "-dash"])
@@ -65,3 +68,15 @@ def test_any_name_becomes_one_harmless_folder_name_and_comes_back(name):
     assert len(folder.encode()) <= LONGEST
     if "~" not in folder:
         assert decode(folder) == name
+
+
+@pytest.mark.parametrize("name", ["trial" + "_" * 30, "L" * 236, "ab" * 20, "abcabc" * 10])
+def test_endless_repeats_are_broken(name):
+    folder = encode(name)
+    assert not re.search(r"(.+?)\1{19}$", folder)
+    assert decode(folder) == name
+
+
+def test_bytes_that_are_no_text_are_shown():
+    assert printable(os.fsdecode(b"a\xff.c3d")) == r"a\xff.c3d"
+    assert printable("Kn\u00f6chel") == "Kn\u00f6chel"

@@ -1,9 +1,14 @@
+import re
 import shlex
+from pathlib import Path
 
 import pytest
+import yaml
 
 from markermend import settings
 from markermend.dataset import BadDataSet
+
+PROJECT = Path(__file__).parents[1]
 
 
 def test_flags_carry_every_kind_of_value():
@@ -21,11 +26,8 @@ def test_flags_carry_every_kind_of_value():
         "--cut-mm=12",
         "--deep=true",
         "--limit=none",
-        "--names",
-        "static",
-        "a b",
-        "{x}",
-        "--none",
+        '--names=["static", "a b", "{x}"]',
+        "--none=[]",
         '--prior={"a": [2], "b": 1}',
         "--dash=-x",
     ]
@@ -73,3 +75,29 @@ def test_failures_are_counted_by_subject_recording_and_stage(tmp_path):
         ("S01", "", "mesh"): 1,
         ("report", "", "report"): 1,
     }
+
+
+@pytest.mark.parametrize(
+    ("keys", "value", "words"),
+    [
+        (("fill", "members"), ["spline", "nope"], "fill.members: 'nope'"),
+        (("repair", "methods", "peaks"), ["linear_regression"], "repair.methods.peaks: 'linear_regression'"),
+        (("ingest", "static_names"), ["("], "no regular expression"),
+        (("fill", "max_gap_s"), float("nan"), "fill.max_gap_s: nan"),
+    ],
+)
+def test_names_and_numbers_that_no_schema_can_judge(keys, value, words):
+    config = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    settings.judge(config)
+    place = config
+    for key in keys[:-1]:
+        place = place[key]
+    place[keys[-1]] = value
+    with pytest.raises(BadDataSet, match=re.escape(words)):
+        settings.judge(config)
+
+
+@pytest.mark.parametrize("name", ["a{b}", "a<b>c"])
+def test_results_that_snakemake_takes_for_a_pattern_are_refused(name):
+    with pytest.raises(BadDataSet, match="pattern"):
+        settings.folder(name)

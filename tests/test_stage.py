@@ -31,7 +31,7 @@ def argv(tmp_path):
     (tmp_path / "in.json").write_text("{}\n")
     return [
         *("--markers", str(tmp_path / "in.json"), "--earlier", "--blurred", str(tmp_path / "out.json")),
-        *("--window-s=0.5", "--limit=none", "--deep=true", "--names", "a b", "c", '--table={"x": [1]}'),
+        *("--window-s=0.5", "--limit=none", "--deep=true", '--names=["a b", "@c", "-d"]', '--table={"x": [1]}'),
     ]
 
 
@@ -39,7 +39,7 @@ def test_work_gets_paths_options_and_facts(stage, argv, tmp_path):
     calls = []
     stage.run(lambda call: calls.append(call), argv)
     (call,) = calls
-    options = {"window_s": 0.5, "limit": None, "deep": True, "names": ["a b", "c"], "table": {"x": [1]}}
+    options = {"window_s": 0.5, "limit": None, "deep": True, "names": ["a b", "@c", "-d"], "table": {"x": [1]}}
     assert call.options == options
     assert call.markers == tmp_path / "in.json" and call.earlier == []
     digest = storage.sha256(tmp_path / "in.json")

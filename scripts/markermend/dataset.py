@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from markermend.formats.files import READABLE
-from markermend.naming import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode
+from markermend.naming import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode, printable
 
 FORMATS = tuple(ending[1:] for ending in READABLE)
 """Suffixes of the files that can be read. Of two files with one stem, the first in this order keeps it as its name."""
@@ -60,7 +60,7 @@ def find(folder: str, results: str) -> list[Entry]:
     A folder of results, hidden files and hidden folders are left out. Subject: the folder's name; where several
     share it, their path below `folder`. Recording: the file's stem;
     where two files share it, the first by format (FORMATS) and name, and the others their full names. Raises
-    BadDataSet where there is none, or where results would lie among the recordings.
+    BadDataSet where there is none, where two would have one name, or where results would lie among the recordings.
     """
     top = os.path.abspath(folder)
     inside = os.path.realpath(top) + os.sep
@@ -82,6 +82,10 @@ def find(folder: str, results: str) -> list[Entry]:
             subject = f"{inner}/{inner}"
         names = name_files(files)
         entries += [Entry(printable(subject), printable(names[file]), os.path.join(path, file)) for file in files]
+    named = Counter(entry.folders for entry in entries)
+    alike = [printable(entry.source) for entry in entries if named[entry.folders] > 1]
+    if alike:
+        raise BadDataSet("recordings: these cannot be told apart by name; rename one:\n" + "\n".join(alike))
     return sorted(entries, key=lambda entry: (entry.subject, entry.recording))
 
 
@@ -107,11 +111,6 @@ def name_files(files: list[str]) -> dict[str, str]:
     return names
 
 
-def printable(name: str) -> str:
-    r"""Write bytes of a file name that are not UTF-8 as `\xNN`, so that the name can be stored and shown."""
-    return os.fsencode(name).decode("utf-8", "backslashreplace")
-
-
 def read_rows(path: str) -> list[dict[str, Any]]:
     r"""Read a table of recordings, separated by tabs, commas or semicolons: one dictionary per row, empty cells left out.
 
@@ -126,6 +125,9 @@ def read_rows(path: str) -> list[dict[str, Any]]:
     except (UnicodeDecodeError, csv.Error) as error:
         raise BadDataSet(f"recordings: {path} is not a table in UTF-8 text ({error})") from error
     columns = [cell.strip() for cell in table[0]] if table else []
+    repeated = [name for name, count in Counter(columns).items() if count > 1 and name]
+    if repeated:
+        raise BadDataSet(f"recordings: {path} has column {', '.join(repeated)} more than once")
     absent = [name for name in COLUMNS[:3] if name not in columns]
     if absent:
         raise BadDataSet(f"recordings: {path} has no column {', '.join(absent)}; columns are {', '.join(COLUMNS)}")

@@ -13,6 +13,7 @@ import numpy as np
 
 from markermend import storage
 from markermend.formats import PatchResult, comparison, files
+from markermend.naming import printable
 from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Recording, Restored, changed, runs
 
 COLUMNS = (
@@ -146,13 +147,20 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
 
 
 def pass_through(source: Path, cleaned: Path, stage: str, reason: str) -> dict[str, Any]:
-    """Copy a recording that was set aside, byte for byte, and return a certificate that says so."""
+    """Copy a recording that was set aside, byte for byte, and return a certificate that says so.
+
+    Where the source is gone (a broken link, say) the copy is an empty file, and the certificate has no checksum of it.
+    """
+    gone = not source.is_file()
     with storage.replacing(cleaned) as temporary:
-        shutil.copyfile(source, temporary)
+        if gone:
+            temporary.touch()
+        else:
+            shutil.copyfile(source, temporary)
         after = storage.sha256(temporary)
     return {
-        "source": source.name,
-        "original_sha256": storage.sha256(source),
+        "source": printable(source.name),
+        "original_sha256": None if gone else storage.sha256(source),
         "cleaned_sha256": after,
         "changed_samples": 0,
         "blanked_samples": 0,

@@ -21,8 +21,9 @@ RESERVED_RECORDINGS = frozenset({"mesh.json", "logs", "failures.tsv"})
 def encode(name: str, reserved: Collection[str] = ()) -> str:
     """Turn a name into a folder name.
 
-    Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, and
-    the first character of a reserved name (in any case) become `%XX`, one per byte of UTF-8. A result over 255 bytes is
+    Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, the
+    first character of a reserved name (in any case), and the last one of a name that ends in many repeats (which
+    Snakemake takes for an endless recursion) become `%XX`, one per byte of UTF-8. A result over 255 bytes is
     cut and ends in `~` and 16 hex digits of the full name's sha256. Raises ValueError for an empty name.
     """
     if not name:
@@ -30,6 +31,8 @@ def encode(name: str, reserved: Collection[str] = ()) -> str:
     parts = [character if ordinary(character) else percent(character) for character in name]
     if name[0] == "." or name.casefold() in reserved:
         parts[0] = percent(name[0])
+    if len(name) > 1 and re.search(r"(.+?)\1{9}$", name):
+        parts[-1] = percent(name[-1])
     encoded = "".join(parts)
     if len(encoded.encode()) <= LONGEST:
         return encoded
@@ -48,6 +51,11 @@ def decode(folder: str) -> str:
     if re.search("~[0-9a-f]{16}$", folder):
         raise ValueError(f"{folder} was shortened: the name cannot be read back from it")
     return unquote_to_bytes(folder).decode()
+
+
+def printable(text: str) -> str:
+    r"""Write bytes of a file name that are not UTF-8 as `\xNN`, so that the text can be stored and shown."""
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 def ordinary(character: str) -> bool:

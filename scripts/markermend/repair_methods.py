@@ -7,8 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
+from markermend.predictors.interpolation import KINDS
 from markermend.recording import runs
 from markermend.robust import high_pass
+
+METHODS = ("swap", "offset", "savitzky_golay", "blank", "local_ridge", *KINDS)
+"""The ways of repair by the names that a config may use."""
 
 
 @dataclass(frozen=True)

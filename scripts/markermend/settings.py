@@ -5,12 +5,16 @@ from __future__ import annotations
 import glob
 import json
 import os
+import re
 import shlex
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from math import isfinite
 from typing import Any
 
 from markermend.dataset import BadDataSet
+from markermend.predictors.registry import REGISTRY
+from markermend.repair_methods import METHODS
 
 
 def prepare(config: dict[str, Any]) -> None:
@@ -30,12 +34,48 @@ def prepare(config: dict[str, Any]) -> None:
         config["detect"] = []
 
 
+def judge(config: dict[str, Any]) -> None:
+    """Refuse what the schema cannot see and every recording would fail on; raises BadDataSet naming all of it.
+
+    config: of the schema's shape. Judged are numbers that are not finite, regular expressions, and names of predictors
+    and repairs.
+    """
+    problems = [f"{place}: {value} is not a finite number" for place, value in numbers(config) if not isfinite(value)]
+    for key in ("unlabelled", "static_names"):
+        for pattern in config["ingest"][key]:
+            try:
+                re.compile(pattern)
+            except re.error as error:
+                problems.append(f"ingest.{key}: {pattern!r} is no regular expression ({error})")
+    members = [*REGISTRY, *config["fill"]["variants"]]
+    problems += unknown("fill.members", config["fill"]["members"], members)
+    for kind, methods in config["repair"]["methods"].items():
+        problems += unknown(f"repair.methods.{kind}", methods, METHODS)
+    if problems:
+        raise BadDataSet("\n".join(["The config cannot be used", *problems]))
+
+
+def unknown(place: str, names: Collection[str], known: Collection[str]) -> list[str]:
+    """Say which names are not known."""
+    return [f"{place}: {name!r} is none of {', '.join(known)}" for name in names if name not in known]
+
+
+def numbers(value: Any, place: str = "") -> Iterator[tuple[str, float]]:
+    """Every floating-point number in a config, with the keys that lead to it."""
+    if isinstance(value, float):
+        yield place, value
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in items:
+        yield from numbers(inner, f"{place}.{key}" if place else str(key))
+
+
 def folder(name: str) -> str:
     """The absolute path of a folder to write to. Raises BadDataSet for one that Snakemake takes for a pattern."""
     path = os.path.abspath(os.path.expanduser(name))
-    if "{" in path or "}" in path:
+    if any(mark in path for mark in "{}<>"):
         raise BadDataSet(
-            f"results: {path} has braces in it, which Snakemake takes for a pattern. Choose another folder"
+            f"results: {path} has braces or angle brackets in it, which Snakemake takes for a pattern. "
+            "Choose another folder"
         )
     return path
 
@@ -43,18 +83,11 @@ def folder(name: str) -> str:
 def flags(section: dict[str, Any], without: Collection[str] = ()) -> str:
     """Write a config section as command-line flags, quoted for a shell, in the order of the section.
 
-    Scalars become `--name=value` (so that a leading dash is safe), lists `--name value value`, mappings JSON.
+    All become `--name=value`, so that a leading dash or `@` means nothing; lists and mappings are JSON.
     """
-    words = []
-    for name, value in section.items():
-        if name in without:
-            continue
-        flag = "--" + name.replace("_", "-")
-        if isinstance(value, list):
-            words += [flag, *map(text, value)]
-        else:
-            words.append(f"{flag}={text(value)}")
-    return shlex.join(words)
+    return shlex.join(
+        f"--{name.replace('_', '-')}={text(value)}" for name, value in section.items() if name not in without
+    )
 
 
 def text(value: Any) -> str:
@@ -63,7 +96,7 @@ def text(value: Any) -> str:
         return "none"
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, dict):
+    if isinstance(value, dict | list):
         return json.dumps(value, sort_keys=True, ensure_ascii=False)
     return str(value)
 

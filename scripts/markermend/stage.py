@@ -21,6 +21,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from markermend import storage
+from markermend.naming import printable
 from markermend.recording import BadRecording, SetAside
 
 log = logging.getLogger("markermend")
@@ -39,6 +40,19 @@ def optional(parse: Callable[[str], Any]) -> Callable[[str], Any]:
 
     parse_or_none.__name__ = f"{parse.__name__} or none"
     return parse_or_none
+
+
+def listing(parse: Callable[[str], Any]) -> Callable[[str], list[Any]]:
+    """Make a parser of a JSON list, each of whose values `parse` reads."""
+
+    def parse_list(text: str) -> list[Any]:
+        values = json.loads(text)
+        if not isinstance(values, list):
+            raise ValueError(f"not a JSON list: {text}")
+        return [parse(str(value)) for value in values]
+
+    parse_list.__name__ = f"json list of {parse.__name__}"
+    return parse_list
 
 
 def mapping(text: str) -> dict[str, Any]:
@@ -87,13 +101,12 @@ class Stage:
         self._writes.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
     def option(self, name: str, parse: Callable[[str], Any], help: str, *, many: bool = False, **more: Any) -> None:
-        """Declare an option; its value reaches the work function as `options[name]`."""
+        """Declare an option, or a list of them as JSON; its value reaches the work function as `options[name]`."""
         self.options.append(name)
+        parse = listing(parse) if many else parse
         if "choices" not in more:
             more["metavar"] = parse.__name__.upper().replace(" OR NONE", "|none")
-        self._options.add_argument(
-            flag(name), type=parse, required=True, nargs="*" if many else None, help=help.replace("%", "%%"), **more
-        )
+        self._options.add_argument(flag(name), type=parse, required=True, help=help.replace("%", "%%"), **more)
 
     def run(
         self,
@@ -123,10 +136,11 @@ class Stage:
         except SetAside as note:
             failure, result = note, f"set aside by {note.stage}: {note.reason}"
         except BadRecording as bad:
-            failure, result = SetAside(self.name, str(bad)), f"set aside: {bad}"
+            failure, result = SetAside(self.name, printable(str(bad))), f"set aside: {bad}"
         except Exception as error:
             log.error("%s", traceback.format_exc())
-            reason = f"{self.name} failed: {type(error).__name__}: {self._without_folders(str(error), arguments)}"
+            text = printable(self._without_folders(str(error), arguments))
+            reason = f"{self.name} failed: {type(error).__name__}: {text}"
             failure, result = SetAside(self.name, reason), f"set aside: {reason}"
             self._count_failure(call, failure)
         if failure is not None:
@@ -159,7 +173,10 @@ def flag(name: str) -> str:
 
 
 def hashes(paths: Path | Sequence[Path]) -> str | list[str]:
-    """The sha256 of one file, or of each of several."""
-    if isinstance(paths, Path):
-        return storage.sha256(paths)
-    return [storage.sha256(path) for path in paths]
+    """The sha256 of one file, or of each of several. Raises BadRecording where one is not there."""
+    try:
+        return storage.sha256(paths) if isinstance(paths, Path) else [storage.sha256(path) for path in paths]
+    except FileNotFoundError as error:
+        raise BadRecording(
+            f"{Path(error.filename).name} is not there: is it a broken link, or was it moved?"
+        ) from error

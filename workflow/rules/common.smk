@@ -58,6 +58,7 @@ def recordings(name, results):
 try:
     settings.prepare(config)
     check(config, "config.schema.yaml", "The config")
+    settings.judge(config)
     RESULTS = settings.folder(config["results"])
     RECORDINGS = recordings(config["recordings"], RESULTS)
 except (dataset.BadDataSet, OSError) as error:
@@ -103,8 +104,9 @@ def original(wildcards):
 
 
 def nameable(path):
-    """Whether Snakemake can take a file of this name as an input: without braces, and in UTF-8."""
-    return not contains_wildcard(path) and path == path.encode(errors="replace").decode()
+    """Whether Snakemake can take a file of this name as an input: no braces or angle brackets, in UTF-8, and there."""
+    plain = not contains_wildcard(path) and not set("<>") & set(path)
+    return plain and path == path.encode(errors="replace").decode() and os.path.exists(path)
 
 
 def source(wildcards):
@@ -114,9 +116,11 @@ def source(wildcards):
 
 
 def source_hash(wildcards):
-    """In place of the input: the content of an original whose name cannot be one."""
+    """In place of the input: the content of an original whose name cannot be one, or that it is not there."""
     path = original(wildcards)
-    return None if nameable(path) else sha256(Path(path))
+    if nameable(path):
+        return None
+    return sha256(Path(path)) if os.path.exists(path) else "not there"
 
 
 def subject_name(wildcards):
@@ -165,7 +169,13 @@ def mesh_files(wildcards):
     """Mesh files that the user supplies for the subject: the table's, else the config's."""
     subject = wildcards.subject
     supplied = {RECORDINGS[subject, recording].mesh for recording in SUBJECTS[subject]} - {None}
-    return sorted(supplied) or [os.path.abspath(path) for path in config["mesh"]["files"]]
+    paths = sorted(supplied) or [os.path.abspath(path) for path in config["mesh"]["files"]]
+    for path in paths:
+        if not nameable(path):
+            raise WorkflowError(
+                f"mesh file {path} is not there, or its name is none that Snakemake can take: rename it"
+            )
+    return paths
 
 
 def before(stage):
