@@ -31,6 +31,9 @@ STAGE.option(
 STAGE.option("variants", mapping, "members that are local_ridge with other settings: name to settings")
 STAGE.option("linear_regression", mapping, "settings of the predictor linear_regression")
 STAGE.option("reference_frame", mapping, "settings of local_interpolation, local_quadratic and local_grnn")
+STAGE.option("msvd", mapping, "settings of the predictor msvd")
+STAGE.option("weighted_pca", mapping, "settings of the predictor weighted_pca")
+STAGE.option("kalman", mapping, "settings of the predictor kalman")
 STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
 STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
 

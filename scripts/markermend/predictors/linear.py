@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.predictors import Prediction, Scene
-from markermend.predictors.references import references, thinned
+from markermend.predictors.references import alike, references, thinned
 
 CENTRINGS = ("complete", "available")
 """What is subtracted from every frame: the mean of the markers that are never missing (those seen throughout the gap
@@ -51,12 +51,8 @@ class GlobalRegression:
         ranked, deviation = references(hidden, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         near = ranked[(deviation < options.deviation_mm) | (np.arange(len(ranked)) < options.minimum_inputs)]
         seen = hidden.present[np.ix_(frames, near)]
-        throughout = seen.all(axis=0)
-        if throughout.sum() >= options.minimum_inputs:
-            seen = np.broadcast_to(throughout, seen.shape)
-        patterns, inverse = np.unique(seen, axis=0, return_inverse=True)
-        for pattern, used in enumerate(patterns):
-            rows = frames[inverse.reshape(-1) == pattern]
+        for used, places in alike(seen, options.minimum_inputs):
+            rows = frames[places]
             if used.any():
                 positions[rows - (start - 1)] = self._regress(hidden, marker, near[used], rows)
         return Prediction(positions, np.full(len(positions), np.nan))

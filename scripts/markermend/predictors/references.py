@@ -1,6 +1,8 @@
-"""References of a marker: the markers whose distance to it varies least (tits2018 eq 1)."""
+"""References of a marker: whose distance to it varies least (tits2018 eq 1), and who can be used together."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -36,3 +38,39 @@ def references(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -
     order = np.argsort(deviation, kind="stable")
     order = order[np.isfinite(deviation[order])]
     return near[order], deviation[order]
+
+
+def companions(
+    scene: Scene, marker: int, ranked: np.ndarray, *, share: float, minimum_frames: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Of the ranked markers, in their order, those with which enough joint frames remain to learn from.
+
+    A marker is passed over if with it fewer than `share` of the frames that show `marker`, or fewer than
+    `minimum_frames`, would show all chosen ones. Returns indices (k,) and the joint frames, ascending; both empty where
+    the marker itself is seen too rarely.
+    """
+    joint = scene.present[:, marker].copy()
+    enough = max(minimum_frames, int(np.ceil(share * np.count_nonzero(joint))))
+    if np.count_nonzero(joint) < minimum_frames:
+        return np.zeros(0, int), np.zeros(0, int)
+    chosen = []
+    for other in np.asarray(ranked, int).tolist():
+        together = joint & scene.present[:, other]
+        if np.count_nonzero(together) >= enough:
+            chosen.append(other)
+            joint = together
+    return np.array(chosen, int), np.flatnonzero(joint)
+
+
+def alike(seen: np.ndarray, minimum: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Group frames by the markers that they show: yield a mask (markers,) and the frames (indices) that share it.
+
+    seen: bool (frames, markers). Where at least `minimum` markers are seen in all frames, these alone count and there is
+    one group.
+    """
+    throughout = seen.all(axis=0)
+    if throughout.sum() >= minimum:
+        seen = np.broadcast_to(throughout, seen.shape)
+    patterns, inverse = np.unique(seen, axis=0, return_inverse=True)
+    for number, pattern in enumerate(patterns):
+        yield pattern, np.flatnonzero(inverse.reshape(-1) == number)

@@ -7,11 +7,22 @@ from typing import Any
 
 from markermend.predictors import Predictor
 from markermend.predictors.interpolation import KINDS, Interpolation
+from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
 from markermend.predictors.linear import GlobalRegression, LinearOptions
 from markermend.predictors.local import LocalRidge, RidgeOptions
+from markermend.predictors.lowrank import IteratedSvd, PcaOptions, SvdOptions, WeightedPca
 from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
 
-FAMILIES = ("local_ridge", "variants", "interpolation", "linear_regression", "reference_frame")
+FAMILIES = (
+    "local_ridge",
+    "variants",
+    "interpolation",
+    "linear_regression",
+    "reference_frame",
+    "msvd",
+    "weighted_pca",
+    "kalman",
+)
 """The families that have settings; `variants` maps the name of a member to what it changes in local_ridge."""
 
 Settings = Mapping[str, Mapping[str, Any]]
@@ -28,6 +39,9 @@ REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     "local_interpolation": lambda settings: LocalInterpolation(FrameOptions(**settings["reference_frame"])),
     "local_quadratic": lambda settings: LocalQuadratic(FrameOptions(**settings["reference_frame"])),
     "local_grnn": lambda settings: LocalGRNN(FrameOptions(**settings["reference_frame"])),
+    "msvd": lambda settings: IteratedSvd(SvdOptions(**settings["msvd"])),
+    "weighted_pca": lambda settings: WeightedPca(PcaOptions(**settings["weighted_pca"])),
+    "kalman": lambda settings: KalmanSmoother(KalmanOptions(**settings["kalman"])),
     "local_ridge": lambda settings: LocalRidge(RidgeOptions(**settings["local_ridge"])),
 }
 """How to make each predictor from the settings."""
