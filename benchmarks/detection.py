@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from markermend import events, mesh_inference, mesh_statistics, noise, peaks, slow, steps
+from markermend import events, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
 from markermend.contamination import Contamination, Recipe, integers, normal, one_at_a_time, poisson
 from markermend.events import CLASSES
 from markermend.formats import files
@@ -65,8 +65,11 @@ def damage(clean: Recording, *, amplitude: float, share: float, seed: int) -> Co
 
 
 def detect(recording: Recording, neighbours: list[np.ndarray], config: dict, preset: str) -> dict:
-    """Find the events of each class, each detector after the ones before."""
-    scene = Scene(recording.positions, recording.rate, neighbours)
+    """Find the events of each class as the workflow does: swaps undone, each detector after the ones before."""
+    scene, swapped = Scene(recording.positions, recording.rate, neighbours), []
+    if preset != "paper":
+        swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=swaps.SwapSettings(**config["swaps"]))
+        scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
     claimed, found = np.zeros(recording.missing.shape, bool), {}
     for kind, module in DETECTORS.items():
@@ -75,7 +78,7 @@ def detect(recording: Recording, neighbours: list[np.ndarray], config: dict, pre
         result = getattr(module, f"detect_{kind}")(scene, **arguments)
         found[kind] = result[0] if kind == "steps" else result
         claimed = claimed | events.mask(found[kind], recording.frames, recording.markers)
-    return found
+    return {**found, "steps": swaps.among(found["steps"], swapped)}
 
 
 def mend(recording: Recording, neighbours: list[np.ndarray], found: dict, config: dict) -> tuple[np.ndarray, bool]:
