@@ -110,14 +110,16 @@ def test_changes_are_in_the_capture_programs_frames(tmp_path):
     assert rows[0]["axes"] == "xz" and rows[1]["largest_change_mm"] == ""
 
 
-def test_a_blanked_sample_that_was_filled_is_told_once(tmp_path):
+def test_a_blanked_sample_that_was_filled_is_told_once_with_its_class(tmp_path):
     measured = original(tmp_path / "walk.c3d")
     result = restored(measured)
     result.positions[30:32, 2], result.origin[30:32, 2] = 1.0, FILLED
     result.error[30:32, 2] = 2.0
     result.facts["fills"].append({"marker": "C", "start": 30, "stop": 32, "method": "local_ridge"})
     rows = [row for row in export.list_changes(measured, result) if row["marker"] == "C"]
-    assert [(row["class"], row["method"]) for row in rows] == [("filled", "local_ridge")]
+    (row,) = rows
+    assert (row["class"], row["score"], row["method"], row["samples"]) == ("slow", 2.0, "local_ridge", 2)
+    assert row["largest_change_mm"] > 0
 
 
 def test_an_unnamed_change_is_refused(tmp_path):

@@ -5,6 +5,7 @@ import pytest
 
 import bodies
 from markermend.events import Event
+from markermend.predictors import Prediction
 from markermend.predictors.interpolation import Interpolation
 from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.recording import MEASURED, MISSING, ORIGINS
@@ -29,6 +30,7 @@ METHODS = {
     "slow": ["local_ridge"],
 }
 MARKER, START, STOP = "2b", 600, 640
+PREDICTORS = [Interpolation("spline", knots=10), Interpolation("linear", knots=10), LocalRidge(RIDGE)]
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +49,7 @@ def neighbours_of(recording):
     ]
 
 
-def mend(recording, found, **changes):
+def mend(recording, found, *, extra=None, **changes):
     settings = {
         "methods": METHODS,
         "protect": [],
@@ -63,10 +65,7 @@ def mend(recording, found, **changes):
         recording,
         found=found,
         neighbours=neighbours_of(recording),
-        predictors={
-            **{kind: Interpolation(kind, knots=10) for kind in ("spline", "linear")},
-            "local_ridge": LocalRidge(RIDGE),
-        },
+        predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
         options=RepairOptions(**{**settings, **changes}),
     )
 
@@ -261,3 +260,26 @@ def test_nothing_found_gives_the_recording_back(clean):
     assert np.array_equal(result.positions, clean.positions)
     assert not result.origin.any() and not result.error.any()
     assert result.facts["repairs"] == result.facts["repairs_left"] == []
+
+
+class Vague:
+    """A predictor that says the marker is 12 mm off, give or take 10 mm (standard deviation)."""
+
+    name, continuous = "vague", True
+
+    def __init__(self, recording):
+        self.positions = recording.positions
+
+    def predict(self, scene, marker, start, stop):
+        return Prediction(self.positions[start - 1 : stop + 1, marker] + [12, 0, 0], np.full(stop - start + 2, 10.0))
+
+
+@pytest.mark.parametrize("limit", [5.0, 100.0])
+def test_what_a_repair_would_not_better_stays_as_measured(clean, limit):
+    methods = {**METHODS, "slow": ["vague"]}
+    event = Event(MARKER, START, STOP, 1.1)
+    result = mend(clean, {"slow": [event]}, methods=methods, max_error_mm=limit, extra=Vague(clean))
+    assert np.array_equal(result.positions, clean.positions)
+    (left,) = result.facts["repairs_left"]
+    assert not left["blanked"]
+    assert "vague: expected error 18.7 mm for a change of 12.0 mm" in left["reason"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -33,31 +32,37 @@ def check_invariant(measured: Recording, restored: Restored) -> None:
 def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]]:
     """One row per change (COLUMNS), by marker and frame: repairs and fills, what was blanked, and their figures.
 
-    The facts of the restored recording name the changes (`repairs`, `fills`); what a fill covers of a repair that
-    blanked its samples is told by the fill.
+    The facts of the restored recording name the changes (`repairs`, `repairs_left`, `fills`). Where measured samples
+    were blanked and then filled, the row has the class and evidence of the finding and the method of the fill.
     """
-    differs = changed(measured, restored)
+    differs, facts = changed(measured, restored), restored.facts
+    filled = restored.origin == FILLED
+    blanked = [left for left in facts.get("repairs_left", []) if left.get("blanked")]
     rows = []
-    for change, (start, stop) in _named_changes(restored):
-        m = restored.markers.index(change["marker"])
+    for repair in [*facts.get("repairs", []), *({**left, "method": "blanked"} for left in blanked)]:
+        m, span = restored.markers.index(repair["marker"]), slice(repair["start"], repair["stop"])
         own = np.zeros(restored.frames, bool)
-        own[start:stop] = differs[start:stop, m]
-        own &= (restored.origin[:, m] == FILLED) == (change["class"] == "filled")
-        for first, last in runs(own) if change["class"] == "filled" else [(start, stop)] * bool(own.any()):
-            rows.append(_row(measured, restored, change, m, first, last, own))
+        own[span] = differs[span, m] & ~filled[span, m]
+        if own.any():
+            rows.append(_row(measured, restored, repair, m, repair["start"], repair["stop"], own))
+    for fill in facts.get("fills", []):
+        m = restored.markers.index(fill["marker"])
+        for was_seen in (False, True):
+            own = np.zeros(restored.frames, bool)
+            own[fill["start"] : fill["stop"]] = True
+            own &= differs[:, m] & filled[:, m] & (measured.missing[:, m] != was_seen)
+            for start, stop in runs(own):
+                change = (
+                    {**fill, **_finding(blanked, fill["marker"], start)} if was_seen else {**fill, "class": "filled"}
+                )
+                rows.append(_row(measured, restored, change, m, start, stop, own))
     return sorted(rows, key=lambda row: (row["marker"], row["first_frame"], row["class"]))
 
 
-def _named_changes(restored: Restored) -> Iterator[tuple[dict[str, Any], tuple[int, int]]]:
-    """The changes that the facts name, with their intervals; what repair blanked has the method `blanked`."""
-    facts = restored.facts
-    for repair in facts.get("repairs", []):
-        yield repair, (repair["start"], repair["stop"])
-    for left in facts.get("repairs_left", []):
-        if left.get("blanked"):
-            yield {**left, "method": "blanked"}, (left["start"], left["stop"])
-    for fill in facts.get("fills", []):
-        yield {**fill, "class": "filled"}, (fill["start"], fill["stop"])
+def _finding(blanked: list[dict[str, Any]], marker: str, frame: int) -> dict[str, Any]:
+    """Class and score of the finding for which a measured sample was blanked."""
+    covering = (left for left in blanked if left["marker"] == marker and left["start"] <= frame < left["stop"])
+    return {key: value for key, value in next(covering).items() if key in ("class", "score")}
 
 
 def _row(

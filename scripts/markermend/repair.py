@@ -151,23 +151,33 @@ class _Repairer:
         return together
 
     def mend(self, marker: str, start: int, stop: int, members: list[tuple[str, Event]]) -> None:
-        """Repair one finding by the first of its class's methods that can be trusted; blank it if none can."""
+        """Repair one finding by the first of its class's methods that can be trusted; blank it if none can.
+
+        A repair that is expected to err by more than it changes is none: then the samples stay as measured.
+        """
         kind, event = members[0]
         if stop - start > self.options.max_repair_s * self.recording.rate:
             limit = f"longer than {self.options.max_repair_s:g} s"
             self.leave(marker, start, stop, members, limit, blank=True)
             return
-        reasons = []
+        reasons, m, harmless = [], self.recording.markers.index(marker), False
         for method in self.options.methods[kind]:
             if method == "swap":
                 continue
-            proposal = self._propose(method, self.recording.markers.index(marker), start, stop)
-            worst = float(np.max(proposal.error)) * BALL68 if proposal else np.nan
-            if proposal and worst <= self.options.max_error_mm:
+            proposal = self._propose(method, m, start, stop)
+            if proposal is None:
+                reasons.append(f"{method}: not applicable")
+                continue
+            worst = float(np.max(proposal.error)) * BALL68
+            change = np.linalg.norm(proposal.positions - self.recording.positions[start:stop, m], axis=1)
+            largest = float(np.nanmax(change))
+            if worst <= min(self.options.max_error_mm, largest):
                 self._accept(kind, event, proposal)
                 return
-            reasons.append(f"{method}: " + (f"expected error {worst:.1f} mm" if proposal else "not applicable"))
-        self.leave(marker, start, stop, members, "no repair can be trusted (" + "; ".join(reasons) + ")", blank=True)
+            harmless |= largest < worst
+            reasons.append(f"{method}: expected error {worst:.1f} mm for a change of {largest:.1f} mm")
+        reason = "no repair can be trusted (" + "; ".join(reasons) + ")"
+        self.leave(marker, start, stop, members, reason, blank=not harmless)
 
     def leave(
         self, marker: str, start: int, stop: int, members: list[tuple[str, Event]], reason: str, *, blank: bool
