@@ -19,8 +19,8 @@ def lines(before: Recording, after: Restored) -> list[dict[str, str]]:
     """Draw each marker's line as SVG path data, in units of WIDTH columns: keys `open`, `filled`, `repaired`."""
     states = {
         "open": after.missing,
-        "filled": after.origin == FILLED,
-        "repaired": (after.origin != MEASURED) & (after.origin != FILLED) & (after.origin != MISSING),
+        "filled": (after.origin == FILLED) & before.missing,
+        "repaired": (after.origin != MEASURED) & (after.origin != MISSING) & ~before.missing,
     }
     return [{name: path(where[:, m]) for name, where in states.items()} for m in range(len(before.markers))]
 
