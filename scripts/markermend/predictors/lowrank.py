@@ -97,9 +97,10 @@ def complete(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fill the missing entries of a matrix by its own low-rank approximation, iterated to convergence.
 
-    matrix: (rows, columns), NaN = missing, every column observed somewhere; rows in order of time, gaps start as
-    straight lines. The approximation is the column means plus so many singular vectors as explain the share `explained`
-    of the variance of the complete rows (of all, where fewer rows than columns are complete). shrinkage: damp each
+    matrix: (rows, columns), NaN = missing, every column observed somewhere; rows in order of time. Missing entries
+    start as what the components of the complete rows make of the rest of their row; where there are no more complete
+    rows than columns, as straight lines in time. The approximation is the column means plus so many singular vectors as explain the share `explained`
+    of the variance of the complete rows (or of those lines). shrinkage: damp each
     component by the share of noise in its variance, the noise being what the others leave over (probabilistic principal
     components); otherwise nothing tells components apart that only missing entries would show. Stops when no missing
     entry moves by more than `tolerance`. Returns the filled matrix and, per iteration, the root mean square misfit of
@@ -109,7 +110,10 @@ def complete(
     filled = np.column_stack([_bridged(column) for column in matrix.T])
     holed = missing.any(axis=1)
     whole = filled[~holed]
-    rank = _rank(whole if len(whole) > matrix.shape[1] else filled, explained)
+    trusted = len(whole) > matrix.shape[1]
+    rank = _rank(whole if trusted else filled, explained)
+    if trusted and holed.any():
+        filled[holed] = _expected(whole, matrix[holed], rank)
     absent, some = missing[holed], filled[holed]
     # Only rows with holes change: the others enter by their sums, about a fixed point near the mean.
     origin = filled.mean(axis=0)
@@ -138,6 +142,24 @@ def _bridged(column: np.ndarray) -> np.ndarray:
     """A copy with straight lines over what is missing."""
     known = np.flatnonzero(~np.isnan(column))
     return np.interp(np.arange(len(column)), known, column[known])
+
+
+def _expected(whole: np.ndarray, holed: np.ndarray, rank: int) -> np.ndarray:
+    """Rows with missing entries, filled with their expectation under the complete rows' probabilistic components."""
+    mean = whole.mean(axis=0)
+    sizes, vectors = np.linalg.eigh(np.cov(whole, rowvar=False))
+    basis, kept = vectors[:, len(sizes) - rank :], np.maximum(sizes[len(sizes) - rank :], 0.0)
+    noise = np.maximum(sizes[: len(sizes) - rank], 0.0).mean() if rank < len(sizes) else 0.0
+    # Rounding leaves no component without any noise.
+    penalty = np.diag(np.maximum(noise, 1e-10 * kept[-1]) / np.maximum(kept, 1e-10 * kept[-1]))
+    out = holed.copy()
+    patterns, inverse = np.unique(np.isnan(holed), axis=0, return_inverse=True)
+    for number, absent in enumerate(patterns):
+        rows = np.flatnonzero(inverse.reshape(-1) == number)
+        seen = basis[~absent]
+        scores = np.linalg.solve(seen.T @ seen + penalty, seen.T @ (holed[rows] - mean)[:, ~absent].T)
+        out[np.ix_(rows, np.flatnonzero(absent))] = (mean + (basis @ scores).T)[:, absent]
+    return out
 
 
 def _rank(matrix: np.ndarray, explained: float) -> int:
