@@ -10,6 +10,7 @@ from markermend.averaging import pma_likelihood, weighted_mean
 from markermend.constraints import constrain_spacing, constrain_time
 from markermend.density import kernel_density
 from markermend.ensemble import Ensemble
+from markermend.predictors import REMEMBERED
 from markermend.pseudo_gaps import pseudo_gaps
 
 RNG = np.random.default_rng(8)
@@ -53,7 +54,7 @@ def test_density_equals_scipy(distances):
     expected = gaussian_kde(distances[0], bw_method="silverman")
     points = np.linspace(80, 120, 60)
     assert np.allclose(np.exp(found.logarithm(points)), expected(points))
-    quantiles = found.quantiles(np.array([0.01, 0.5, 0.99]))
+    quantiles = found.quantiles((0.01, 0.5, 0.99))
     for point, share in zip(quantiles, (0.01, 0.5, 0.99), strict=True):
         assert expected.integrate_box_1d(-np.inf, point) == pytest.approx(share, abs=1e-6)
     assert quad(lambda x: np.exp(found.logarithm(np.array(x))), 60, 140)[0] == pytest.approx(1, abs=1e-6)
@@ -132,7 +133,7 @@ def test_at_an_end_of_the_recording_the_offset_is_constant():
 
 def test_spacing_equals_single_projections(distances):
     densities = [kernel_density(sample, most=1000) for sample in distances]
-    shells = [density.quantiles(np.array([0.01, 0.99])) for density in densities]
+    shells = [density.quantiles((0.01, 0.99)) for density in densities]
     references = RNG.normal(0, 5, (40, 3, 3)) + np.diag([100.0, 140.0, 180.0])
     positions = RNG.normal(0, 25, (40, 3))
     before = positions.copy()
@@ -149,7 +150,7 @@ def test_usual_positions_are_left_alone(distances):
     positions[3] = [150.0, 0, 0]
     found = constrain_spacing(positions, references, densities, low=0.05, high=0.95, rounds=1)
     assert np.array_equal(found[[0, 1, 2, 4]], positions[[0, 1, 2, 4]])
-    assert found[3, 0] == pytest.approx(densities[0].quantiles(np.array([0.95]))[0])
+    assert found[3, 0] == pytest.approx(densities[0].quantiles((0.95,))[0])
 
 
 def test_pseudo_gaps_miss_what_the_gap_misses(walker):
@@ -157,7 +158,7 @@ def test_pseudo_gaps_miss_what_the_gap_misses(walker):
     positions[200:240, 7] = np.nan
     positions[210:230, 8] = np.nan
     seen = scene(positions)
-    trials = pseudo_gaps(seen, 7, 200, 240, count=5)
+    trials = pseudo_gaps(seen, 7, 200, 240, count=5, share=0.2)
     assert len(trials) == 5
     for trial in trials:
         assert trial.stop - trial.start == 40
@@ -166,7 +167,47 @@ def test_pseudo_gaps_miss_what_the_gap_misses(walker):
         assert np.isfinite(trial.scene.positions[[trial.start - 1, trial.stop], 7]).all()
         assert np.array_equal(trial.truth, positions[trial.start : trial.stop, 7])
     assert np.isfinite(seen.positions[:200]).all()
-    assert pseudo_gaps(seen, 7, 0, 400, count=5) == []
+    assert pseudo_gaps(seen, 7, 0, 400, count=5, share=0.2) == []
+
+
+def test_trials_share_a_scene_only_while_they_leave_enough_to_learn_from(walker):
+    seen = scene(walker.recording.positions[:500])
+    for share, scenes in ((0.9, 2), (0.2, 3), (0.0, 6)):
+        trials = pseudo_gaps(seen, 7, 200, 240, count=6, share=share)
+        shared = {id(trial.scene): trial.scene for trial in trials}
+        assert len(shared) == scenes
+        assert [trial.start for trial in trials] == sorted(trial.start for trial in trials)
+        for each in shared.values():
+            own = [trial for trial in trials if trial.scene is each]
+            assert np.count_nonzero(~each.present[:, 7]) == 40 * len(own)
+            assert share == 0 or 40 * len(own) <= share * 500
+
+
+def test_sharing_what_is_learned_changes_nothing(walker):
+    positions = walker.recording.positions[:600].copy()
+    gaps = [(200, 240), (300, 320), (420, 460)]
+    for start, stop in gaps:
+        positions[start:stop, 7] = np.nan
+    positions[305:500, [8, 9]] = np.nan
+    shared = scene(positions)
+    for name in ("local_ridge", "local_ridge_wide", "linear_regression", "local_grnn", "local_interpolation"):
+        member = predictor(name)
+        for start, stop in gaps:
+            found, alone = (
+                member.predict(shared, 7, start, stop),
+                predictor(name).predict(scene(positions), 7, start, stop),
+            )
+            assert np.array_equal(found.positions, alone.positions, equal_nan=True)
+            assert np.array_equal(found.error, alone.error, equal_nan=True)
+            assert np.isfinite(found.positions).all()
+
+
+def test_a_scene_learns_once_and_forgets_the_oldest():
+    seen = scene(np.zeros((5, 2, 3)))
+    calls = []
+    for key in [*range(REMEMBERED), 0, REMEMBERED, 0, 2]:
+        assert seen.remember(key, lambda key=key: calls.append(key) or key) == key
+    assert calls == [*range(REMEMBERED + 1), 0]
 
 
 def test_the_better_member_gets_the_weight(walker):

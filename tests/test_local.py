@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fillings import predictor, rigid_body, scene
-from markermend.predictors.local import LocalRidge, _Model, _ridge
+from markermend.predictors.local import LocalRidge
+from markermend.predictors.ridge_model import RidgeModel, ridge_regression
 
 
 @pytest.fixture(scope="module")
@@ -63,11 +64,11 @@ def test_residuals_left_out_equal_training_again_without_the_block():
     local = rng.normal(size=(90, 9))
     block = np.sort(rng.integers(0, 5, 90))
     weights = rng.uniform(0.2, 1, 90)
-    model = _Model(np.arange(3), np.arange(2), np.zeros((3, 3)), np.zeros(9), local, weights, np.arange(90))
+    model = RidgeModel(np.arange(3), np.arange(2), np.zeros((3, 3)), np.zeros(9), local, weights, np.arange(90))
     found = model.left_out(np.array([True, True]), 0.1, block)
     for b in range(5):
         kept, rows = block != b, block == b
-        beta = _ridge(local[kept, :6], local[kept, 6:], weights[kept], 0.1)
+        beta = ridge_regression(local[kept, :6], local[kept, 6:], weights[kept], 0.1)
         expected = local[rows, 6:] - np.concatenate([np.ones((rows.sum(), 1)), local[rows, :6]], axis=1) @ beta
         assert np.allclose(found[rows], expected)
 

@@ -40,7 +40,7 @@ def constrain_spacing(
     most `rounds` times, until every distance is usual.
     """
     placed = positions.copy()
-    shells = [density.quantiles(np.array([low, high])) for density in densities]
+    shells = [density.quantiles((low, high)) for density in densities]
     for _ in range(rounds):
         moved = False
         for r, (inner, outer) in enumerate(shells):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,11 +23,22 @@ class Density:
         total = np.log(np.exp(deviation - largest[..., None]).sum(axis=-1)) + largest
         return total - np.log(len(self.samples) * self.bandwidth * np.sqrt(2 * np.pi))
 
-    def quantiles(self, probabilities: np.ndarray) -> np.ndarray:
+    def quantiles(self, probabilities: Sequence[float]) -> np.ndarray:
         """Points (q,) under which the given shares of the density lie, to a millionth of the samples' range."""
+        key = tuple(probabilities)
+        if key not in self._found:
+            self._found[key] = self._quantiles(np.array(key))
+        return self._found[key]
+
+    @cached_property
+    def _found(self) -> dict[tuple[float, ...], np.ndarray]:
+        """Quantiles by their probabilities: the same are asked for by gap after gap."""
+        return {}
+
+    def _quantiles(self, wanted: np.ndarray) -> np.ndarray:
+        """Bisection of the distribution function."""
         from scipy.special import ndtr
 
-        wanted = np.asarray(probabilities, float)
         low = np.full(wanted.shape, self.samples.min() - 10 * self.bandwidth)
         high = np.full(wanted.shape, self.samples.max() + 10 * self.bandwidth)
         for _ in range(30):

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -28,7 +29,8 @@ WEIGHTS = ("error", "pma", "both", "equal")
 class EnsembleOptions:
     """Settings of the averaging (config section `fill`, key `ensemble`).
 
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried.
+    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried. hidden_share: share of
+    a marker's samples that are hidden at once for trials, which then share what is learned without them.
     similar_length, similar_neighbours: gaps of a marker share their pseudo-gaps if their lengths differ by less than this
     factor and the same of so many nearest neighbours are missing. worst: members whose error exceeds
     the best member's by this factor are left out. references: distances to so many are judged. minimum_frames: joint
@@ -43,6 +45,7 @@ class EnsembleOptions:
     longest_s: Mapping[str, float]
     power: float
     pseudo_gaps: int
+    hidden_share: float
     similar_length: float
     similar_neighbours: int
     worst: float
@@ -122,7 +125,8 @@ class Ensemble:
     def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
-        trials = pseudo_gaps(hidden, marker, start, stop, count=self.options.pseudo_gaps)
+        options = self.options
+        trials = pseudo_gaps(hidden, marker, start, stop, count=options.pseudo_gaps, share=options.hidden_share)
         tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
         typical = _typical_errors(trials, tried, len(self.members))
         untested = Trust(typical, self._shares(typical), 1.0)
@@ -175,6 +179,10 @@ class Ensemble:
 
     def _judges(self, scene: Scene, marker: int) -> tuple[np.ndarray, list[Density]]:
         """The marker's first references and the densities of their distances."""
+        return scene.remember((self, "judges", marker), partial(self._judge, scene, marker))
+
+    def _judge(self, scene: Scene, marker: int) -> tuple[np.ndarray, list[Density]]:
+        """See _judges."""
         options = self.options
         ranked, _ = references(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         chosen = ranked[: max(options.references, options.spacing_references)]

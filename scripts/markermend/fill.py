@@ -58,14 +58,15 @@ def fill_gaps(
     neighbours: as in Scene. Only missing samples are written, a gap as a whole or not at all. Static recordings are
     left as they are. Markers that are seen most come first (tits2018).
     """
-    found = list(_gaps(restored.missing))
-    left = {gap: reason for gap in found if (reason := why_not(restored, gap, options))}
+    missing = restored.missing
+    found = list(_gaps(missing))
+    left = {gap: reason for gap in found if (reason := why_not(restored, missing, gap, options))}
     planned = sorted(
         (gap for gap in found if gap not in left),
-        key=lambda gap: (np.count_nonzero(restored.missing[:, gap.marker]), gap.marker, gap.start),
+        key=lambda gap: (np.count_nonzero(missing[:, gap.marker]), gap.marker, gap.start),
     )
     altered = np.count_nonzero((restored.origin != MEASURED) & (restored.origin != MISSING))
-    share = (altered + sum(gap.stop - gap.start for gap in planned)) / max(restored.missing.size, 1)
+    share = (altered + sum(gap.stop - gap.start for gap in planned)) / max(missing.size, 1)
     if planned and share > options.max_altered_share:
         reason = f"nothing filled: {share:.0%} of the recording would be altered, the limit is {options.max_altered_share:.0%}"
         left |= dict.fromkeys(planned, reason)
@@ -104,12 +105,12 @@ def _method(filling: Filling) -> dict[str, Any]:
     return {"method": next(iter(weights)) if len(weights) == 1 else "ensemble", "weights": weights}
 
 
-def why_not(restored: Restored, gap: Gap, options: FillOptions) -> str | None:
-    """The reason for which a gap is not to be filled, None where it may be tried."""
+def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOptions) -> str | None:
+    """The reason for which a gap is not to be filled, None where it may be tried. missing: that of the recording."""
     name, frames, length = restored.markers[gap.marker], restored.frames, gap.stop - gap.start
     if restored.facts.get("kind") == "static":
         return "static recording"
-    seen = 1 - np.count_nonzero(restored.missing[:, gap.marker]) / frames
+    seen = 1 - np.count_nonzero(missing[:, gap.marker]) / frames
     if seen == 0:
         return "never seen"
     if any(fnmatchcase(name, pattern) for pattern in options.protect):
@@ -122,8 +123,8 @@ def why_not(restored: Restored, gap: Gap, options: FillOptions) -> str | None:
     if longest is not None and length > longest * restored.rate + 1e-6:
         return f"gap of {length / restored.rate:.2f} s, longest to fill {longest:g} s"
     border = math.ceil(options.border_s * restored.rate)
-    seen_before = gap.start >= border and not restored.missing[gap.start - border : gap.start, gap.marker].any()
-    seen_after = gap.stop + border <= frames and not restored.missing[gap.stop : gap.stop + border, gap.marker].any()
+    seen_before = gap.start >= border and not missing[gap.start - border : gap.start, gap.marker].any()
+    seen_after = gap.stop + border <= frames and not missing[gap.stop : gap.stop + border, gap.marker].any()
     if not (seen_before or gap.start == 0) or not (seen_after or gap.stop == frames):
         return f"not seen for {options.border_s:g} s on either side"
     return None
@@ -148,12 +149,20 @@ class _Filler:
             error=restored.error.copy(),
             error95=restored.error95.copy(),
         )
+        self._references = restored.positions.copy()
         self.scene = Scene(restored.positions, restored.rate, neighbours)
         self.ensemble, self.options = ensemble, options
         self._trust: dict[tuple[Hashable, ...], Trust] = {}
+        self._marker: int | None = None
 
     def fill(self, gap: Gap) -> Filling | str:
-        """Fill one gap in the result; or tell why not."""
+        """Fill one gap in the result; or tell why not.
+
+        All gaps of a marker see the same scene, in which none of them is filled: so they share what is learned from it,
+        and no marker learns from what was made up for it.
+        """
+        if gap.marker != self._marker:
+            self.scene, self._marker = replace(self.scene, positions=self._references.copy()), gap.marker
         filling = self.ensemble.fill(self.scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
         if np.isnan(filling.positions).any() or np.isnan(filling.error95).any():
             near = self.scene.present[gap.start : gap.stop, self.scene.neighbours[gap.marker]]
@@ -169,7 +178,7 @@ class _Filler:
         self.result.error95[place] = filling.error95
         # A course drawn in time alone knows nothing of the body: it is no reference.
         if self.options.reuse and not set(filling.weights) <= set(KINDS):
-            self.scene = replace(self.scene, positions=self.result.positions.copy())
+            self._references[place] = filling.positions
         return filling
 
     def _trusted(self, gap: Gap) -> Trust:

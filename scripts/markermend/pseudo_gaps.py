@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,12 +20,15 @@ class PseudoGap:
     truth: np.ndarray
 
 
-def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int) -> list[PseudoGap]:
+def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int, share: float) -> list[PseudoGap]:
     """Hide stretches as long as the gap [start, stop), spread evenly over where the marker is seen with both borders.
 
     A gap at an end of the recording has but one border: on the other side its trials hide as much again, at least 1 s.
     What neighbours miss during the real gap they miss at the same offsets of the trial. Fewer than `count` stretches,
     or none, where the marker is not seen that long; the real gap itself stays hidden in all.
+
+    Trials share a scene, in which all of them are hidden, so that what is learned from it serves all: as many as hide at
+    most `share` of the samples of the marker and are at least as far apart as each is long.
     """
     length = stop - start
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
@@ -36,11 +40,24 @@ def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int)
     absent = ~scene.present[start:stop]
     beyond = max(length, round(scene.rate))
     before, after = beyond * (start == 0), beyond * (stop == len(scene.positions))
-    trials = []
-    for begin in chosen.tolist():
+    hidden = before + length + after
+    every = _scenes(chosen, room=2 * hidden, most=int(share * seen[-1] / hidden))
+    trials: dict[int, PseudoGap] = {}
+    for first in range(every):
         positions = scene.positions.copy()
-        truth = positions[begin : begin + length, marker].copy()
-        positions[begin : begin + length][absent] = np.nan
-        positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
-        trials.append(PseudoGap(replace(scene, positions=positions), begin, begin + length, truth))
-    return trials
+        for begin in chosen[first::every].tolist():
+            positions[begin : begin + length][absent] = np.nan
+            positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
+        shared = replace(scene, positions=positions)
+        for begin in chosen[first::every].tolist():
+            trials[begin] = PseudoGap(shared, begin, begin + length, scene.positions[begin : begin + length, marker])
+    return [trials[begin] for begin in chosen.tolist()]
+
+
+def _scenes(begins: np.ndarray, *, room: int, most: int) -> int:
+    """The least number of scenes: in each at most `most` of the trials, every so-manieth, `room` frames apart."""
+    for every in range(1, len(begins)):
+        near = (begins[every:] - begins[:-every]).min() < room
+        if not near and math.ceil(len(begins) / every) <= most:
+            return every
+    return len(begins)

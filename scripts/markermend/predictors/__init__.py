@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
+
+REMEMBERED = 60
+"""Results that a scene keeps for its predictors: enough for the members and missing neighbours of one marker."""
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,19 @@ class Scene:
     def present(self) -> np.ndarray:
         """Bool (frames, markers): True where the marker is observed."""
         return ~np.isnan(self.positions).any(axis=2)
+
+    @cached_property
+    def _memory(self) -> dict[Hashable, object]:
+        """What predictors learned from this scene, oldest first."""
+        return {}
+
+    def remember(self, key: Hashable, learn: Callable[[], Result]) -> Result:
+        """What `learn` returns; learned once for gaps that share a scene. The key must hold all that it depends on."""
+        if key not in self._memory:
+            while len(self._memory) >= REMEMBERED:
+                del self._memory[next(iter(self._memory))]
+            self._memory[key] = learn()
+        return self._memory[key]  # type: ignore[return-value]
 
     def hiding(self, marker: int, start: int, stop: int) -> Scene:
         """The same scene without one marker's samples over [start, stop)."""

@@ -7,15 +7,16 @@ so it follows the body and not an artifact: the detectors work on its residual.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from markermend.predictors import Prediction, Scene
 from markermend.predictors.frames import align, mean_shape, width
 from markermend.predictors.kriging import Covariance, fit_covariance, krige
+from markermend.predictors.ridge_model import RidgeModel, evaluate, robust_weights
 
 
 @dataclass(frozen=True)
@@ -40,62 +41,6 @@ class RidgeOptions:
     border_s: float
 
 
-@dataclass(frozen=True)
-class _Model:
-    """A marker's training data in one frame of anchors.
-
-    anchors, inputs: marker indices. template: (anchors, 3), mm. centre: (3 k + 3,), the typical local coordinates of
-    the k inputs and the target. local: (training, 3 k + 3), about it. weights, training: weight and frame of each.
-    """
-
-    anchors: np.ndarray
-    inputs: np.ndarray
-    template: np.ndarray
-    centre: np.ndarray
-    local: np.ndarray
-    weights: np.ndarray
-    training: np.ndarray
-
-    def coefficients(self, used: np.ndarray, ridge: float) -> np.ndarray:
-        """Coefficients (1 + 3 u, 3) on the inputs marked in `used` (k,)."""
-        columns = np.flatnonzero(np.repeat(used, 3))
-        return _ridge(self.local[:, columns], self.local[:, -3:], self.weights, ridge)
-
-    def left_out(self, used: np.ndarray, ridge: float, block: np.ndarray) -> np.ndarray:
-        """Residual (training, 3) of each training frame under the model trained without its block.
-
-        block: (training,), ascending. One block alone leaves nothing to train on: then all are NaN.
-        """
-        columns = np.flatnonzero(np.repeat(used, 3))
-        full = np.concatenate([np.ones((len(self.local), 1)), self.local[:, columns]], axis=1)
-        target = self.local[:, -3:]
-        weighted = full * self.weights[:, None]
-        starts = np.flatnonzero(np.diff(block, prepend=block[0] - 1))
-        parts = [slice(*edges) for edges in itertools.pairwise([*starts.tolist(), len(block)])]
-        if len(parts) < 2:
-            return np.full(target.shape, np.nan)
-        # Sums over all blocks less those over one are the sums without it.
-        gram = np.stack([weighted[part].T @ full[part] for part in parts])
-        cross = np.stack([weighted[part].T @ target[part] for part in parts])
-        total = np.array([self.weights[part].sum() for part in parts])
-        beta = _solve(gram.sum(axis=0) - gram, cross.sum(axis=0) - cross, total.sum() - total, ridge)
-        return np.concatenate([target[part] - full[part] @ own for part, own in zip(parts, beta, strict=True)])
-
-
-def _ridge(design: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
-    """Weighted ridge regression with an unpenalised intercept: coefficients (1 + columns, targets)."""
-    full = np.concatenate([np.ones((len(design), 1)), design], axis=1)
-    weighted = full * weights[:, None]
-    return _solve(weighted.T @ full, weighted.T @ target, weights.sum(), ridge)
-
-
-def _solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, ridge: float) -> np.ndarray:
-    """Coefficients from weighted sums (..., columns, columns) and (..., columns, targets) of total weight (...)."""
-    penalty = np.full(gram.shape[-1], ridge)
-    penalty[0] = 1e-9
-    return np.linalg.solve(gram + np.eye(len(penalty)) * penalty * np.asarray(total)[..., None, None], cross)
-
-
 class LocalRidge:
     """The local ridge as a predictor; `residuals` is what the detectors use."""
 
@@ -114,9 +59,9 @@ class LocalRidge:
         error = np.full(stop - start + 2, np.nan)
         first = start - 1
         for model, used, rows in self._models(hidden, marker, frames):
-            beta = model.coefficients(used, self.options.ridge_mm2)
+            beta = hidden.remember((model, used.tobytes()), partial(model.coefficients, used, self.options.ridge_mm2))
             mean, spread = self._krige(hidden, marker, model, used, beta, rows, stop - start)
-            local, rotation, origin = _evaluate(model, hidden.positions, used, beta, rows)
+            local, rotation, origin = evaluate(model, hidden.positions, used, beta, rows)
             positions[rows - first] = np.einsum("nj,nij->ni", local + mean, rotation) + origin
             error[rows - first] = spread
         return Prediction(positions, error)
@@ -132,12 +77,14 @@ class LocalRidge:
             frames = np.flatnonzero(scene.present[:, marker])
             for model, used, rows in self._models(scene, marker, frames):
                 beta = model.coefficients(used, self.options.ridge_mm2)
-                local, rotation, origin = _evaluate(model, scene.positions, used, beta, rows)
+                local, rotation, origin = evaluate(model, scene.positions, used, beta, rows)
                 predicted = np.einsum("nj,nij->ni", local, rotation) + origin
                 out[rows, marker] = scene.positions[rows, marker] - predicted
         return out
 
-    def _models(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[tuple[_Model, np.ndarray, np.ndarray]]:
+    def _models(
+        self, scene: Scene, marker: int, frames: np.ndarray
+    ) -> Iterator[tuple[RidgeModel, np.ndarray, np.ndarray]]:
         """Yield (model, inputs used, frames) such that each frame that can be predicted appears once."""
         candidates = self._candidates(scene, marker, frames)
         if len(candidates) < 3 or len(frames) == 0:
@@ -148,7 +95,8 @@ class LocalRidge:
         for anchors, rows in _groups(leading):
             if anchors.sum() < 3:
                 continue
-            model = self._fit(scene, marker, candidates, np.flatnonzero(anchors), frames[rows], present[rows])
+            often, ever = present[rows].all(axis=0), present[rows].any(axis=0)
+            model = self._fit(scene, marker, candidates, np.flatnonzero(anchors), often, ever)
             if model is None:
                 continue
             seen = scene.present[np.ix_(frames[rows], model.inputs)]
@@ -170,45 +118,68 @@ class LocalRidge:
         marker: int,
         candidates: np.ndarray,
         anchors: np.ndarray,
-        frames: np.ndarray,
-        present: np.ndarray,
-    ) -> _Model | None:
-        """Train in the frame of `anchors` (positions in candidates); None where they share too few frames."""
-        options = self.options
-        together = scene.present[:, marker] & scene.present[:, candidates[anchors]].all(axis=1)
+        throughout: np.ndarray,
+        ever: np.ndarray,
+    ) -> RidgeModel | None:
+        """Train in the frame of `anchors` (positions in candidates); None where they share too few frames.
+
+        throughout, ever: (candidates,), which are seen in all and in any of the frames to predict.
+        """
         chosen = list(anchors)
-        shape = _shape(scene, together, candidates[chosen], options.minimum_frames)
+        together, shape = self._shape(scene, marker, candidates[chosen])
         if shape is None:
             return None
-        for extra in np.flatnonzero(present.all(axis=0)):
-            if width(shape) >= options.width_mm or len(chosen) >= options.anchors + 3:
+        for extra in np.flatnonzero(throughout):
+            if width(shape) >= self.options.width_mm or len(chosen) >= self.options.anchors + 3:
                 break
             if extra not in chosen:
-                wider = together & scene.present[:, candidates[extra]]
-                grown = _shape(scene, wider, candidates[[*chosen, extra]], options.minimum_frames)
+                wider, grown = self._shape(scene, marker, candidates[[*chosen, extra]])
                 if grown is not None:
                     chosen, together, shape = [*chosen, extra], wider, grown
-        inputs = self._inputs(scene, together, candidates, chosen, present)
+        inputs = self._inputs(scene, together, candidates, chosen, ever)
+        key = self, marker, candidates[chosen].tobytes(), inputs.tobytes()
+        return scene.remember(key, partial(self._train, scene, marker, candidates[chosen], inputs, together, shape))
+
+    def _shape(self, scene: Scene, marker: int, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+        """Frames that show the marker and the anchors, and the anchors' mean shape there; None for too few frames."""
+
+        def learn() -> tuple[np.ndarray, np.ndarray | None]:
+            together = scene.present[:, marker] & scene.present[:, anchors].all(axis=1)
+            return together, _shape(scene, together, anchors, self.options.minimum_frames)
+
+        return scene.remember((self, "shape", marker, anchors.tobytes()), learn)
+
+    def _train(
+        self,
+        scene: Scene,
+        marker: int,
+        anchors: np.ndarray,
+        inputs: np.ndarray,
+        together: np.ndarray,
+        shape: np.ndarray,
+    ) -> RidgeModel:
+        """The training data of a model, from at most `frames` of the frames that show all that it needs."""
+        options = self.options
         joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
         training = joint[np.unique(np.linspace(0, len(joint) - 1, options.frames).astype(int))]
-        rotation, origin = align(scene.positions[np.ix_(training, candidates[chosen])], shape)
+        rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
         points = scene.positions[np.ix_(training, [*inputs, marker])] - origin[:, None]
         local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)
         centre = np.median(local, axis=0)
         local = local - centre
-        weights = _robust_weights(local, options)
-        return _Model(candidates[chosen], inputs, shape, centre, local, weights, training)
+        weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.robust_sigmas)
+        return RidgeModel(anchors, inputs, shape, centre, local, weights, training)
 
     def _inputs(
-        self, scene: Scene, together: np.ndarray, candidates: np.ndarray, anchors: list[int], present: np.ndarray
+        self, scene: Scene, together: np.ndarray, candidates: np.ndarray, anchors: list[int], ever: np.ndarray
     ) -> np.ndarray:
-        """The anchors and the next candidates that are seen in these frames and leave enough joint training frames."""
+        """The anchors and the next candidates that are ever seen in the frames to predict and leave enough joint training frames."""
         inputs = list(candidates[anchors])
         enough = max(self.options.minimum_frames, int(0.6 * together.sum()))
         for c, candidate in enumerate(candidates):
             if len(inputs) >= self.options.inputs:
                 break
-            if c in anchors or not present[:, c].any():
+            if c in anchors or not ever[c]:
                 continue
             joint = together & scene.present[:, candidate]
             if joint.sum() >= enough:
@@ -220,7 +191,7 @@ class LocalRidge:
         self,
         scene: Scene,
         marker: int,
-        model: _Model,
+        model: RidgeModel,
         used: np.ndarray,
         beta: np.ndarray,
         rows: np.ndarray,
@@ -228,7 +199,11 @@ class LocalRidge:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Residual to expect at `rows` in local coordinates (n, 3) and its standard deviation (n,), mm."""
         options = self.options
-        covariance = self._covariance(scene, model, used, length)
+        span = len(scene.positions)
+        blocks = int(np.clip(span // max(length, 1), 2, 12))
+        covariance = scene.remember(
+            (model, used.tobytes(), blocks), partial(self._covariance, scene, model, used, blocks)
+        )
         reach = np.unique(np.round(np.geomspace(1, max(2.0, options.border_s * scene.rate), 12)).astype(int))
         nearby = np.concatenate([rows[0] - reach[::-1], rows, rows[-1] + reach])
         nearby = nearby[(nearby >= 0) & (nearby < len(scene.positions))]
@@ -236,16 +211,15 @@ class LocalRidge:
         nearby = np.unique(nearby[scene.present[np.ix_(nearby, needed)].all(axis=1)])
         values = np.zeros((0, 3))
         if len(nearby):
-            predicted, rotation, origin = _evaluate(model, scene.positions, used, beta, nearby)
+            predicted, rotation, origin = evaluate(model, scene.positions, used, beta, nearby)
             observed = np.einsum("ni,nij->nj", scene.positions[nearby, marker] - origin, rotation)
             values = observed - predicted
         mean, variance = krige(covariance, known_s=nearby / scene.rate, values=values, wanted_s=rows / scene.rate)
         return mean, np.sqrt(variance)
 
-    def _covariance(self, scene: Scene, model: _Model, used: np.ndarray, length: int) -> Covariance:
-        """Covariance of residuals over stretches as long as the gap, each left out of its own training."""
+    def _covariance(self, scene: Scene, model: RidgeModel, used: np.ndarray, blocks: int) -> Covariance:
+        """Covariance of residuals over equal blocks of the recording, each left out of its own training."""
         span = len(scene.positions)
-        blocks = int(np.clip(span // max(length, 1), 2, 12))
         block = model.training * blocks // span
         residual = np.full((span, 3), np.nan)
         left = model.left_out(used, self.options.ridge_mm2, block)
@@ -273,28 +247,3 @@ def _shape(scene: Scene, together: np.ndarray, markers: np.ndarray, minimum: int
         return None
     sample = joint[np.unique(np.linspace(0, len(joint) - 1, 500).astype(int))]
     return mean_shape(scene.positions[np.ix_(sample, markers)])
-
-
-def _robust_weights(local: np.ndarray, options: RidgeOptions) -> np.ndarray:
-    """Weights (training,) that keep artifacts out of the training: 1 inside `robust_sigmas`, falling to 0 beyond."""
-    weights = np.ones(len(local))
-    design = np.concatenate([np.ones((len(local), 1)), local[:, :-3]], axis=1)
-    for _ in range(2):
-        residual = np.linalg.norm(
-            local[:, -3:] - design @ _ridge(local[:, :-3], local[:, -3:], weights, options.ridge_mm2), axis=1
-        )
-        sigma = 1.4826 * np.median(residual) + 1e-9
-        weights = np.minimum(1.0, (options.robust_sigmas * sigma / np.maximum(residual, 1e-9)) ** 2)
-    return weights
-
-
-def _evaluate(
-    model: _Model, positions: np.ndarray, used: np.ndarray, beta: np.ndarray, rows: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
-    rotation, origin = align(positions[np.ix_(rows, model.anchors)], model.template)
-    points = positions[np.ix_(rows, model.inputs[used])] - origin[:, None]
-    columns = np.flatnonzero(np.repeat(used, 3))
-    local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(rows), -1) - model.centre[columns]
-    predicted = np.concatenate([np.ones((len(rows), 1)), local], axis=1) @ beta + model.centre[-3:]
-    return predicted, rotation, origin

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -98,6 +99,11 @@ class _FrameModel:
 
     def _training(self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """Frames to train on; none where the triple is seen too rarely with the marker, or is nearly a line."""
+        key = "training", self.options, marker, triple.tobytes()
+        return scene.remember(key, partial(self._choose, scene, marker, triple, seen))
+
+    def _choose(self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray) -> np.ndarray:
+        """See _training."""
         joint = np.flatnonzero(seen & scene.present[:, marker])
         if len(joint) < self.options.minimum_frames:
             return joint[:0]
@@ -145,15 +151,23 @@ class _FrameRegression(_FrameModel):
         training = self._training(scene, marker, triple, seen)
         if len(training) == 0:
             return np.full((len(rows), 3), np.nan)
-        known = triangle(scene.positions[np.ix_(training, triple)])
+        key = "regression", self.options, marker, triple.tobytes()
+        inputs, target, middle, scale = scene.remember(key, partial(_standardized, scene, marker, triple, training))
         asked = triangle(scene.positions[np.ix_(rows, triple)])
-        middle, scale = known.shape.mean(axis=0), known.shape.std(axis=0)
-        # A rigid triple has no shape to regress on: noise must not be blown up to unit variance.
-        scale = np.maximum(scale, 1e-3)
-        target = known.local(scene.positions[training, marker])
-        good = ~np.isnan(target).any(axis=1)
-        inputs = ((known.shape - middle) / scale)[good]
-        return asked.laboratory(self._model(inputs, target[good], (asked.shape - middle) / scale))
+        return asked.laboratory(self._model(inputs, target, (asked.shape - middle) / scale))
+
+
+def _standardized(
+    scene: Scene, marker: int, triple: np.ndarray, training: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Standardized shapes of the triple (n, 3), local positions of the marker (n, 3), and the shapes' mean and scale."""
+    known = triangle(scene.positions[np.ix_(training, triple)])
+    middle, scale = known.shape.mean(axis=0), known.shape.std(axis=0)
+    # A rigid triple has no shape to regress on: noise must not be blown up to unit variance.
+    scale = np.maximum(scale, 1e-3)
+    target = known.local(scene.positions[training, marker])
+    good = ~np.isnan(target).any(axis=1)
+    return ((known.shape - middle) / scale)[good], target[good], middle, scale
 
 
 class LocalQuadratic(_FrameRegression):

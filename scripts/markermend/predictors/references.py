@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -22,6 +23,12 @@ def references(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -
     Returns indices (k,) and deviations (k,), mm, ascending. At most `frames` frames are looked at; neighbours seen
     together with the marker on fewer than `minimum_frames` of all are left out.
     """
+    key = "references", marker, frames, minimum_frames
+    return scene.remember(key, partial(_ranked, scene, marker, frames, minimum_frames))
+
+
+def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
+    """See references."""
     near = np.asarray(scene.neighbours[marker], int)
     seen = scene.present[:, marker]
     joint = np.count_nonzero(scene.present[:, near] & seen[:, None], axis=0)

@@ -1,0 +1,181 @@
+"""Fill gaps whose truth is known and print our errors beside those of other programs on the very same gaps.
+
+Reads: cases.json and programs.json (made gaps, and what programs made of them), the recordings that they name.
+Writes: tables to stdout.
+
+    .venv/bin/python benchmarks/gaps.py --jobs 2
+
+Settings are those of config/config.yaml, the mesh is inferred from each recording with its gaps. Only the rules of what
+may be filled are lifted: every gap counts. Protocol A (conditions g3_L1: 3 concurrent gaps of 1 s) is judged by the mean
+distance, mm; protocol B (sp2_50: 2 gaps of mean length 50 frames anywhere) by the root mean square per coordinate, mm.
+"""
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections import defaultdict
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+
+import numpy as np
+import yaml
+
+from markermend.ensemble import Ensemble, EnsembleOptions
+from markermend.fill import FillOptions, fill_gaps
+from markermend.formats import files
+from markermend.ingest import ingest
+from markermend.mesh_inference import infer_meshes
+from markermend.mesh_statistics import thin
+from markermend.predictors.registry import FAMILIES, members
+from markermend.recording import MEASURED, MISSING, Restored
+
+PROJECT = Path(__file__).resolve().parents[1]
+CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+MESH = {key: value for key, value in CONFIG["mesh"].items() if key != "files"}
+LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "ends": True, "protect": [], "seen_share": 0.0, "border_s": 0.0}
+LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
+FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
+"""Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
+
+
+@cache
+def load(folder, name):
+    """The recording of a case as the workflow ingests it."""
+    (path,) = Path(folder, "clean").glob(f"{name}*")
+    options = dict(CONFIG["ingest"])
+    reading = files.read(path, unlabelled=options.pop("unlabelled"), rate=None)
+    return ingest(reading, source=path.name, recording=name, subject="benchmark", kind="dynamic", **options)
+
+
+@cache
+def ensemble(names):
+    """The averaging of the config over the named members."""
+    fill = CONFIG["fill"]
+    settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
+    brief = members(names, settings, most_frames=fill["trial_frames"])
+    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
+
+
+def fill_case(folder, case, names):
+    """Fill the gaps of one case; returns seconds (mesh, fill) and for each gap offsets (n, 3), error and error95 (n,)."""
+    whole = load(folder, case["seq"])
+    positions = whole.positions.copy()
+    for marker, start, stop in case["gaps"]:
+        positions[start:stop, marker] = np.nan
+    started = time.perf_counter()
+    gapped = replace(whole, positions=positions)
+    (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
+    inferred = time.perf_counter()
+    missing = gapped.missing
+    none = np.where(missing, np.nan, 0.0)
+    origin = np.where(missing, MISSING, MEASURED).astype(np.uint8)
+    restored = Restored(
+        whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
+    )
+    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
+    filled = fill_gaps(restored, mesh.neighbour_indices(whole.markers), ensemble=ensemble(names), options=options)
+    seconds = inferred - started, time.perf_counter() - inferred
+    gaps = []
+    for marker, start, stop in case["gaps"]:
+        place = slice(start, stop), marker
+        known = ~whole.missing[place]
+        offsets = (filled.positions - whole.positions)[place][known]
+        fitted = case["seq"].startswith("HDM") and whole.markers[marker].split(":")[-1] in FITTED
+        gaps.append((offsets, filled.error[place][known], filled.error95[place][known], fitted))
+    return case, seconds, gaps
+
+
+def score(condition, gaps):
+    """The error of a case, mm, by the measure of its protocol; NaN where a sample stayed open."""
+    offsets = np.concatenate([gap[0] for gap in gaps])
+    if condition.startswith("sp"):
+        return float(np.sqrt((offsets**2).mean()))
+    return float(np.linalg.norm(offsets, axis=1).mean())
+
+
+def print_errors(ours, programs, title):
+    """Per condition: our mean error, and for each program its mean, ours on the cases that it has, and the ratio."""
+    print(
+        f"\n{title}\nmean error, mm; each program: its error (ours on its cases), by how much ours is smaller or larger"
+    )
+    ratios = defaultdict(dict)
+    for condition in sorted({condition for condition, _ in ours.values()}):
+        mine = {key: error for key, (own, error) in ours.items() if own == condition}
+        key = "rmse" if condition.startswith("sp") else "error"
+        print(f"{condition:10} ours {np.mean(list(mine.values())):7.2f} ({len(mine)} cases)")
+        for program, results in programs.items():
+            both = [(mine[case], results[case][key]) for case in mine if results.get(case, {}).get(key) is not None]
+            both = [pair for pair in both if np.isfinite(pair).all()]
+            if not both:
+                continue
+            own, theirs = np.mean(both, axis=0)
+            ratios[program][condition] = own / theirs
+            print(f"    {program:12} {theirs:8.2f} ({own:7.2f}) ratio {own / theirs:6.3f} on {len(both):3} cases")
+    print(f"\n{'program':12} {'mean ratio A':>12} {'mean ratio B':>12} {'worst':>7} condition")
+    for program, own in ratios.items():
+        means = [[own[name] for name in own if name.startswith("sp") == late] for late in (False, True)]
+        worst = max(own, key=own.get)
+        shown = [f"{np.mean(mean):12.3f}" if mean else f"{'':12}" for mean in means]
+        print(f"{program:12} {' '.join(shown)} {own[worst]:7.3f} {worst}")
+
+
+def print_calibration(cases):
+    """Share of the true positions within the stated balls, %, by recording and condition, and over all."""
+    samples = defaultdict(list)
+    for case, _, gaps in cases:
+        for offsets, error, error95, _ in gaps:
+            distance = np.linalg.norm(offsets, axis=1)
+            inside = np.stack([distance <= error, distance <= error95], axis=1)
+            for group in ((case["seq"], case["cond"]), ("every recording", case["cond"]), (case["seq"], "all")):
+                samples[group].append(inside)
+            samples["every recording", "all"].append(inside)
+    print(
+        f"\ntrue positions within error and error95, %\n{'recording':16} {'condition':10} {'68':>6} {'95':>6} {'n':>8}"
+    )
+    for (name, condition), inside in sorted(samples.items()):
+        joined = np.concatenate(inside)
+        low, high = 100 * joined.mean(axis=0)
+        print(f"{name:16} {condition:10} {low:6.1f} {high:6.1f} {len(joined):8}")
+
+
+def main():
+    """Parse the command line, fill, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
+    parser.add_argument("--members", nargs="+", default=CONFIG["fill"]["members"], help="in place of the config's")
+    parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
+    parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
+    parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    arguments = parser.parse_args()
+    path = arguments.cases or arguments.data.parent / "bench/gaps/cases.json"
+    cases = json.loads(path.read_text(encoding="utf-8"))
+    programs = json.loads(path.with_name("programs.json").read_text(encoding="utf-8"))
+    cases = [case for case in cases if not arguments.conditions or case["cond"] in arguments.conditions]
+    cases = [case for case in cases if arguments.iterations is None or case["it"] < arguments.iterations]
+    names = tuple(arguments.members)
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        done = list(pool.map(fill_case, [str(arguments.data)] * len(cases), cases, [names] * len(cases)))
+    for title, kept in (("all markers", False), ("without the rigidly fitted markers of HDM05", True)):
+        ours = {}
+        for case, _, gaps in done:
+            if kept and any(gap[3] for gap in gaps):
+                continue
+            condition = case["cond"]
+            ours[f"{case['seq']}/{condition}_{case['it']}"] = condition, score(condition, gaps)
+        print_errors(ours, programs, title)
+    print_calibration(done)
+    mesh, fill = np.array([seconds for _, seconds, _ in done]).sum(axis=0)
+    gaps = sum(len(own) for _, _, own in done)
+    print(f"\n{len(done)} cases, {gaps} gaps: fill {fill:.0f} s ({fill / gaps:.2f} s per gap), mesh {mesh:.0f} s")
+
+
+if __name__ == "__main__":
+    main()
