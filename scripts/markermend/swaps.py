@@ -24,9 +24,10 @@ from markermend.recording import runs
 class SwapSettings:
     """What counts as a swap (config section `swaps`).
 
-    ratio: what remains of an exchange's jump once it is undone is at most this part of it. jump: the jump is at least
-    so many times the usual change about it, over window_s. floor_mm: and at least so much. near: markers on either side
-    that tell the shape. clear: how clearly shape speaks for the swap inside and against it outside, 0 to 1.
+    ratio: what is left of an exchange's jump once it is undone is at most this part of it. jump: a step from frame to
+    frame departs from the median over window_s by so many times the usual departure. floor_mm: and by at least so much.
+    near: neighbours of either marker that tell the shape. trust: labels are believed as much as a shape of this
+    clearness (0 to 1). clear: how clearly shape and trust together must tell the swapped part from the rest (0 to 1).
     """
 
     ratio: float
