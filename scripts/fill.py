@@ -34,6 +34,7 @@ STAGE.option("reference_frame", mapping, "settings of local_interpolation, local
 STAGE.option("msvd", mapping, "settings of the predictor msvd")
 STAGE.option("weighted_pca", mapping, "settings of the predictor weighted_pca")
 STAGE.option("kalman", mapping, "settings of the predictor kalman")
+STAGE.option("local_gp", mapping, "settings of the predictor local_gp beyond those of local_ridge")
 STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
 STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -59,9 +60,9 @@ class LocalRidge:
         error = np.full(stop - start + 2, np.nan)
         first = start - 1
         for model, used, rows in self._models(hidden, marker, frames):
-            beta = hidden.remember((model, used.tobytes()), partial(model.coefficients, used, self.options.ridge_mm2))
-            mean, spread = self._krige(hidden, marker, model, used, beta, rows, stop - start)
-            local, rotation, origin = evaluate(model, hidden.positions, used, beta, rows)
+            learned = hidden.remember((model, used.tobytes()), partial(self._learn, model, used))
+            mean, spread = self._krige(hidden, marker, model, used, learned, rows, stop - start)
+            local, rotation, origin = self._evaluate(model, hidden.positions, used, learned, rows)
             positions[rows - first] = np.einsum("nj,nij->ni", local + mean, rotation) + origin
             error[rows - first] = spread
         return Prediction(positions, error)
@@ -76,11 +77,25 @@ class LocalRidge:
         for marker in range(scene.positions.shape[1]) if markers is None else markers:
             frames = np.flatnonzero(scene.present[:, marker])
             for model, used, rows in self._models(scene, marker, frames):
-                beta = model.coefficients(used, self.options.ridge_mm2)
-                local, rotation, origin = evaluate(model, scene.positions, used, beta, rows)
+                learned = self._learn(model, used)
+                local, rotation, origin = self._evaluate(model, scene.positions, used, learned, rows)
                 predicted = np.einsum("nj,nij->ni", local, rotation) + origin
                 out[rows, marker] = scene.positions[rows, marker] - predicted
         return out
+
+    def _learn(self, model: RidgeModel, used: np.ndarray) -> Any:
+        """What _evaluate needs to predict from the inputs marked in `used`: here the coefficients."""
+        return model.coefficients(used, self.options.ridge_mm2)
+
+    def _evaluate(
+        self, model: RidgeModel, positions: np.ndarray, used: np.ndarray, learned: Any, rows: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
+        return evaluate(model, positions, used, learned, rows)
+
+    def _left_out(self, model: RidgeModel, used: np.ndarray, learned: Any, block: np.ndarray) -> np.ndarray:
+        """Residual (training, 3) of each training frame, predicted without its block (training,)."""
+        return model.left_out(used, self.options.ridge_mm2, block)
 
     def _models(
         self, scene: Scene, marker: int, frames: np.ndarray
@@ -193,7 +208,7 @@ class LocalRidge:
         marker: int,
         model: RidgeModel,
         used: np.ndarray,
-        beta: np.ndarray,
+        learned: Any,
         rows: np.ndarray,
         length: int,
     ) -> tuple[np.ndarray, np.ndarray]:
@@ -202,7 +217,7 @@ class LocalRidge:
         span = len(scene.positions)
         blocks = int(np.clip(span // max(length, 1), 2, 12))
         covariance = scene.remember(
-            (model, used.tobytes(), blocks), partial(self._covariance, scene, model, used, blocks)
+            (model, used.tobytes(), blocks), partial(self._covariance, scene, model, used, learned, blocks)
         )
         reach = np.unique(np.round(np.geomspace(1, max(2.0, options.border_s * scene.rate), 12)).astype(int))
         nearby = np.concatenate([rows[0] - reach[::-1], rows, rows[-1] + reach])
@@ -211,18 +226,18 @@ class LocalRidge:
         nearby = np.unique(nearby[scene.present[np.ix_(nearby, needed)].all(axis=1)])
         values = np.zeros((0, 3))
         if len(nearby):
-            predicted, rotation, origin = evaluate(model, scene.positions, used, beta, nearby)
+            predicted, rotation, origin = self._evaluate(model, scene.positions, used, learned, nearby)
             observed = np.einsum("ni,nij->nj", scene.positions[nearby, marker] - origin, rotation)
             values = observed - predicted
         mean, variance = krige(covariance, known_s=nearby / scene.rate, values=values, wanted_s=rows / scene.rate)
         return mean, np.sqrt(variance)
 
-    def _covariance(self, scene: Scene, model: RidgeModel, used: np.ndarray, blocks: int) -> Covariance:
+    def _covariance(self, scene: Scene, model: RidgeModel, used: np.ndarray, learned: Any, blocks: int) -> Covariance:
         """Covariance of residuals over equal blocks of the recording, each left out of its own training."""
         span = len(scene.positions)
         block = model.training * blocks // span
         residual = np.full((span, 3), np.nan)
-        left = model.left_out(used, self.options.ridge_mm2, block)
+        left = self._left_out(model, used, learned, block)
         residual[model.training] = np.where(model.weights[:, None] > 0.5, left, np.nan)
         return fit_covariance(
             residual,
@@ -234,6 +249,9 @@ class LocalRidge:
 
 def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield each distinct row of a bool matrix with the indices of the rows that equal it."""
+    if (rows == rows[:1]).all():
+        yield rows[0], np.arange(len(rows))
+        return
     distinct, inverse = np.unique(rows, axis=0, return_inverse=True)
     inverse = inverse.reshape(-1)
     order = np.argsort(inverse, kind="stable")

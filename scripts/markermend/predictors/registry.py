@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from markermend.predictors import Predictor
+from markermend.predictors.gaussian import GaussianOptions, LocalGaussian
 from markermend.predictors.interpolation import KINDS, Interpolation
 from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
 from markermend.predictors.linear import GlobalRegression, LinearOptions
@@ -22,6 +23,7 @@ FAMILIES = (
     "msvd",
     "weighted_pca",
     "kalman",
+    "local_gp",
 )
 """The families that have settings; `variants` maps the name of a member to what it changes in local_ridge."""
 
@@ -42,6 +44,9 @@ REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     "msvd": lambda settings: IteratedSvd(SvdOptions(**settings["msvd"])),
     "weighted_pca": lambda settings: WeightedPca(PcaOptions(**settings["weighted_pca"])),
     "kalman": lambda settings: KalmanSmoother(KalmanOptions(**settings["kalman"])),
+    "local_gp": lambda settings: LocalGaussian(
+        RidgeOptions(**settings["local_ridge"]), GaussianOptions(**settings["local_gp"])
+    ),
     "local_ridge": lambda settings: LocalRidge(RidgeOptions(**settings["local_ridge"])),
 }
 """How to make each predictor from the settings."""

@@ -79,13 +79,21 @@ def robust_weights(local: np.ndarray, *, ridge: float, sigmas: float) -> np.ndar
     return weights
 
 
-def evaluate(
-    model: RidgeModel, positions: np.ndarray, used: np.ndarray, beta: np.ndarray, rows: np.ndarray
+def inputs_at(
+    model: RidgeModel, positions: np.ndarray, used: np.ndarray, rows: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
+    """Local inputs (n, 3 u) at rows, about their centre, with the rotation and origin that lead to the laboratory."""
     rotation, origin = align(positions[np.ix_(rows, model.anchors)], model.template)
     points = positions[np.ix_(rows, model.inputs[used])] - origin[:, None]
     columns = np.flatnonzero(np.repeat(used, 3))
     local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(rows), -1) - model.centre[columns]
+    return local, rotation, origin
+
+
+def evaluate(
+    model: RidgeModel, positions: np.ndarray, used: np.ndarray, beta: np.ndarray, rows: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
+    local, rotation, origin = inputs_at(model, positions, used, rows)
     predicted = np.concatenate([np.ones((len(rows), 1)), local], axis=1) @ beta + model.centre[-3:]
     return predicted, rotation, origin
