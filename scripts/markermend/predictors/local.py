@@ -252,6 +252,9 @@ def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     if (rows == rows[:1]).all():
         yield rows[0], np.arange(len(rows))
         return
+    if len(rows) and (rows == rows[:1]).all():
+        yield rows[0], np.arange(len(rows))
+        return
     distinct, inverse = np.unique(rows, axis=0, return_inverse=True)
     inverse = inverse.reshape(-1)
     order = np.argsort(inverse, kind="stable")
