@@ -88,6 +88,13 @@ def test_a_step_to_where_another_marker_is_is_no_swap(walker):
     assert find(replace(walker.recording, positions=positions)) == []
 
 
+def test_three_markers_that_change_places_in_a_ring_are_left(walker):
+    positions = walker.recording.positions.copy()
+    ring = [walker.recording.markers.index(name) for name in ("LTHI", "LKNE", "LTIB")]
+    positions[600:650, ring] = positions[600:650, [ring[1], ring[2], ring[0]]]
+    assert find(replace(walker.recording, positions=positions)) == []
+
+
 def test_of_a_step_and_a_swap_at_once_the_swap_is_told():
     swap = [Event("A", 5, 9, 2.0, "xyz", "B"), Event("B", 5, 9, 2.0, "xyz", "A")]
     steps = [Event("A", 8, 12, 3.0), Event("A", 9, 12, 3.0), Event("C", 5, 9, 3.0)]

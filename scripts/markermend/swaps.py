@@ -59,13 +59,12 @@ def _usual(change: np.ndarray, window: int) -> np.ndarray:
     return np.nan_to_num(robust.moving_median_across(change, window))
 
 
-def jumping(positions: np.ndarray, *, rate: float, settings: SwapSettings) -> np.ndarray:
+def jumping(positions: np.ndarray, *, window: int, settings: SwapSettings) -> np.ndarray:
     """Bool (frames, markers): True where a marker's velocity breaks as an exchange would make it.
 
     positions: (frames, markers, 3), mm, NaN = missing. The step to this frame differs from the median of the steps about
-    it by more than so many times the usual difference, and more than the floor.
+    it (over the window, frames) by more than so many times the usual difference, and more than the floor.
     """
-    window = max(5, robust.samples(settings.window_s, rate, odd=True))
     step = np.diff(positions, axis=0, prepend=np.nan)
     out = np.zeros(positions.shape[:2], bool)
     for m in range(positions.shape[1]):
@@ -84,7 +83,8 @@ def exchanges(scene: Scene, *, settings: SwapSettings) -> list[Exchange]:
     positions, present = scene.positions, scene.present
     before, now = np.roll(present, 1, axis=0), present
     before[0] = False
-    sudden = jumping(positions, rate=scene.rate, settings=settings)
+    window = max(5, robust.samples(settings.window_s, scene.rate, odd=True))
+    sudden = jumping(positions, window=window, settings=settings)
     found: list[Exchange] = []
     for a in range(positions.shape[1]):
         rows = np.flatnonzero(sudden[:, a])
@@ -92,7 +92,7 @@ def exchanges(scene: Scene, *, settings: SwapSettings) -> list[Exchange]:
             continue
         both = sudden[rows, a + 1 :]
         for k, b in np.argwhere(both):
-            found += _whole(positions, a, a + 1 + int(b), int(rows[k]), settings)
+            found += _whole(positions, a, a + 1 + int(b), int(rows[k]), window, settings)
         # Where the other one has a sample on one side of the jump alone, it is there that this one must come to or from.
         single = before[rows] != now[rows]
         for k, b in np.argwhere(single):
@@ -100,13 +100,20 @@ def exchanges(scene: Scene, *, settings: SwapSettings) -> list[Exchange]:
     return _disjoint(found)
 
 
-def _whole(positions: np.ndarray, a: int, b: int, t: int, settings: SwapSettings) -> list[Exchange]:
-    """The exchange of two markers that are seen on both sides of it, if it is one."""
+def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings: SwapSettings) -> list[Exchange]:
+    """The exchange of two markers that are seen on both sides of it, if it is one and leaves nothing like a jump.
+
+    Where three markers change places in a ring, exchanging two of them would leave a smaller jump.
+    """
+    near = positions[max(t - window // 2, 1) - 1 : t + window // 2 + 1, [a, b]]
+    usual = float(np.nanmedian(_length(np.diff(near[:, 0] - near[:, 1], axis=0))))
     apart = positions[t - 1 : t + 1, a] - positions[t - 1 : t + 1, b]
     middle = (positions[max(t - 2, 0) : t + 1, a] + positions[max(t - 2, 0) : t + 1, b]) / 2
     turned = float(_length(apart[1] - apart[0]))
     left = float(_length(apart[1] + apart[0]))
     drift = 2 * float(np.nanmin([_length(middle[-1] - middle[-2]), _length(middle[-1] - 2 * middle[-2] + middle[0])]))
+    if left > max(settings.jump * usual, settings.floor_mm):
+        return []
     return _accept(a, b, t, turned, max(left, drift), settings)
 
 
