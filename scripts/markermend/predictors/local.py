@@ -249,9 +249,6 @@ class LocalRidge:
 
 def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield each distinct row of a bool matrix with the indices of the rows that equal it."""
-    if (rows == rows[:1]).all():
-        yield rows[0], np.arange(len(rows))
-        return
     if len(rows) and (rows == rows[:1]).all():
         yield rows[0], np.arange(len(rows))
         return
