@@ -6,6 +6,7 @@ the plane of the three. The triangle has three coordinates of its own (eq 11), t
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -65,7 +66,7 @@ def triangle(points: np.ndarray) -> _Triangle:
     return _Triangle(axes, points[:, 0], shape)
 
 
-class _FrameModel:
+class _FrameModel(ABC):
     """What the three models share: the search for references, iterated until the gap is recovered."""
 
     name: str
@@ -111,11 +112,11 @@ class _FrameModel:
         height = np.abs(triangle(scene.positions[np.ix_(training, triple)]).shape[:, 2])
         return training if np.median(height) >= self.options.height_mm else training[:0]
 
+    @abstractmethod
     def _recover(
         self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray, rows: np.ndarray, start: int, stop: int
     ) -> np.ndarray:
         """Position (n, 3) at rows, where the triple is seen."""
-        raise NotImplementedError
 
 
 class LocalInterpolation(_FrameModel):
