@@ -51,7 +51,7 @@ def listing(parse: Callable[[str], Any]) -> Callable[[str], list[Any]]:
             raise ValueError(f"not a JSON list: {text}")
         return [parse(str(value)) for value in values]
 
-    parse_list.__name__ = f"json list of {parse.__name__}"
+    parse_list.__name__ = "json-list"
     return parse_list
 
 
