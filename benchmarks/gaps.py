@@ -109,7 +109,9 @@ def print_errors(ours, programs, title):
     for condition in sorted({condition for condition, _ in ours.values()}):
         mine = {key: error for key, (own, error) in ours.items() if own == condition}
         key = "rmse" if condition.startswith("sp") else "error"
-        print(f"{condition:10} ours {np.mean(list(mine.values())):7.2f} ({len(mine)} cases)")
+        left = sum(not np.isfinite(error) for error in mine.values())
+        note = f"; {left} of them not filled whole, and left out" if left else ""
+        print(f"{condition:10} ours {np.nanmean(list(mine.values())):7.2f} ({len(mine)} cases{note})")
         for program, results in programs.items():
             both = [(mine[case], results[case][key]) for case in mine if results.get(case, {}).get(key) is not None]
             both = [pair for pair in both if np.isfinite(pair).all()]
