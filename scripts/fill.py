@@ -28,15 +28,8 @@ STAGE.option("trial_frames", int, "most training frames of local_ridge and its v
 STAGE.option(
     "ensemble", mapping, "settings of the averaging (weights error, pma, both or equal), constraints and expected error"
 )
-STAGE.option("variants", mapping, "members that are local_ridge with other settings: name to settings")
-STAGE.option("linear_regression", mapping, "settings of the predictor linear_regression")
-STAGE.option("reference_frame", mapping, "settings of local_interpolation, local_quadratic and local_grnn")
-STAGE.option("msvd", mapping, "settings of the predictor msvd")
-STAGE.option("weighted_pca", mapping, "settings of the predictor weighted_pca")
-STAGE.option("kalman", mapping, "settings of the predictor kalman")
-STAGE.option("local_gp", mapping, "settings of the predictor local_gp beyond those of local_ridge")
-STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
-STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
+for family, whose in FAMILIES.items():
+    STAGE.option(family, mapping, f"settings of {whose}")
 
 
 def work(call):

@@ -14,18 +14,18 @@ from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.predictors.lowrank import IteratedSvd, PcaOptions, SvdOptions, WeightedPca
 from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
 
-FAMILIES = (
-    "local_ridge",
-    "variants",
-    "interpolation",
-    "linear_regression",
-    "reference_frame",
-    "msvd",
-    "weighted_pca",
-    "kalman",
-    "local_gp",
-)
-"""The families that have settings; `variants` maps the name of a member to what it changes in local_ridge."""
+FAMILIES = {
+    "local_ridge": "the predictor local_ridge",
+    "variants": "members that are local_ridge with other settings, by their names",
+    "interpolation": "the predictors linear, spline, pchip and makima",
+    "linear_regression": "the predictor linear_regression",
+    "reference_frame": "local_interpolation, local_quadratic and local_grnn",
+    "msvd": "the predictor msvd",
+    "weighted_pca": "the predictor weighted_pca",
+    "kalman": "the predictor kalman",
+    "local_gp": "the predictor local_gp beyond those of local_ridge",
+}
+"""The families that have settings, and whose settings they are."""
 
 Settings = Mapping[str, Mapping[str, Any]]
 """Settings by family; those of families that are not asked for may be absent."""
