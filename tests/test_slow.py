@@ -1,10 +1,12 @@
 """Slow changes: hysteresis on a known residual, and the synthetic walker."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from markermend import slow
-from signals import RATES, detect, frames, put, settings
+from signals import RATES, detect, frames, neighbours, put, settings
 
 PLACES = [("STRN", 200, 280), ("C7", 500, 600), ("RKNE", 800, 870)]
 
@@ -72,3 +74,13 @@ def test_a_body_that_fits_badly_as_a_whole_sets_the_scale():
 
 def test_nothing_on_the_clean_walker(walker):
     assert detect(walker.recording) == ({"peaks": [], "noise": [], "steps": [], "slow": []}, [])
+
+
+def test_where_a_neighbour_comes_or_goes_nothing_is_found(walker):
+    recording = put(walker.recording, [("STRN", 200, 280)], lambda length: triangle(length)[:, None] * [3, 1, -2])
+    near = neighbours(recording.positions)[recording.markers.index("STRN")]
+    for first, last, expected in ((230, 250, []), (0, 1200, ["STRN"]), (800, 900, ["STRN"])):
+        positions = recording.positions.copy()
+        positions[first:last, near[3]] = np.nan
+        found, _ = detect(replace(recording, positions=positions), only=("slow",))
+        assert [event.marker for event in found["slow"]] == expected

@@ -159,6 +159,18 @@ def judge_slow(levels: Levels, marker: int, *, name: str, rate: float, settings:
     return found
 
 
+def same_company(scene: Scene, event: Event, *, marker: int, settings: NeighbourSlow) -> bool:
+    """Whether each of the nearest neighbours is seen all the while, or never, from just before an event to just after it.
+
+    A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing.
+    """
+    margin = robust.samples(settings.shortest_s, scene.rate)
+    around = slice(max(event.start - margin, 0), event.stop + margin)
+    near = np.asarray(scene.neighbours[marker], int)[: settings.rivals]
+    seen = scene.present[around, near]
+    return bool((seen.all(axis=0) | ~seen.any(axis=0)).all())
+
+
 def confirmed(
     scene: Scene, event: Event, levels: Levels, *, marker: int, settings: NeighbourSlow, predictor: ResidualSource
 ) -> bool:
@@ -221,5 +233,6 @@ def detect_slow(
     return events.tidy(
         event
         for event in found
-        if confirmed(rest, event, levels, marker=place[event.marker], settings=settings, predictor=predictor)
+        if same_company(rest, event, marker=place[event.marker], settings=settings)
+        and confirmed(rest, event, levels, marker=place[event.marker], settings=settings, predictor=predictor)
     )
