@@ -162,13 +162,15 @@ def judge_slow(levels: Levels, marker: int, *, name: str, rate: float, settings:
 def same_company(scene: Scene, event: Event, *, marker: int, settings: NeighbourSlow) -> bool:
     """Whether each of the nearest neighbours is seen all the while, or never, from just before an event to just after it.
 
-    A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing.
+    A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What is
+    briefer than the top of a finding does not count: it makes no slow change.
     """
     margin = robust.samples(settings.shortest_s, scene.rate)
     around = slice(max(event.start - margin, 0), event.stop + margin)
     near = np.asarray(scene.neighbours[marker], int)[: settings.rivals]
-    seen = scene.present[around, near]
-    return bool((seen.all(axis=0) | ~seen.any(axis=0)).all())
+    seen, brief = scene.present[around, near], robust.samples(settings.top_s, scene.rate)
+    count = np.count_nonzero(seen, axis=0)
+    return bool(((count >= len(seen) - brief) | (count <= brief)).all())
 
 
 def confirmed(
