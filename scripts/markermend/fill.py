@@ -162,7 +162,9 @@ class _Filler:
         and no marker learns from what was made up for it.
         """
         if gap.marker != self._marker:
-            self.scene, self._marker = replace(self.scene, positions=self._references.copy()), gap.marker
+            measured = self.scene.measured or self.scene
+            self.scene = replace(self.scene, positions=self._references.copy(), measured=measured)
+            self._marker = gap.marker
         filling = self.ensemble.fill(self.scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
         if np.isnan(filling.positions).any() or np.isnan(filling.error95).any():
             near = self.scene.present[gap.start : gap.stop, self.scene.neighbours[gap.marker]]

@@ -48,7 +48,7 @@ def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int,
         for begin in chosen[first::every].tolist():
             positions[begin : begin + length][absent] = np.nan
             positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
-        shared = replace(scene, positions=positions)
+        shared = replace(scene, positions=positions, measured=None)
         for begin in chosen[first::every].tolist():
             trials[begin] = PseudoGap(shared, begin, begin + length, scene.positions[begin : begin + length, marker])
     return [trials[begin] for begin in chosen.tolist()]

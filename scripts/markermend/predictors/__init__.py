@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -32,12 +32,14 @@ class Scene:
     """What is observed of a recording, as the predictors see it.
 
     positions: float64 (frames, markers, 3), mm, NaN = missing or not to be believed. rate: Hz. neighbours: for each
-    marker the indices of the others of its component, steadiest first (the mesh's ranking).
+    marker the indices of the others of its component, steadiest first (the mesh's ranking). measured: the scene before
+    any gap was filled, where this one holds filled samples; None where nothing was filled.
     """
 
     positions: np.ndarray
     rate: float
     neighbours: Sequence[np.ndarray]
+    measured: Scene | None = None
 
     @cached_property
     def present(self) -> np.ndarray:
@@ -62,7 +64,7 @@ class Scene:
         """The same scene without one marker's samples over [start, stop)."""
         positions = self.positions.copy()
         positions[start:stop, marker] = np.nan
-        return replace(self, positions=positions)
+        return replace(self, positions=positions, measured=None)
 
 
 class Predictor(Protocol):
@@ -80,4 +82,13 @@ class Predictor(Protocol):
 
         The marker's samples in [start, stop) are not looked at. Border frames outside the recording are NaN.
         """
+        ...
+
+
+@runtime_checkable
+class Trainable(Protocol):
+    """A predictor that learns for several markers and scenes at once much faster than one by one."""
+
+    def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
+        """Learn to predict each (scene, marker) from what is measured there; the scenes remember it for `predict`."""
         ...
