@@ -55,3 +55,39 @@ def derivative_pairs(change, at, shortest, longest, ratio):
             used |= set(range(i, j + 1))
             pairs.append((first, first + length))
     return sorted(pairs), [n for k, n in enumerate(at) if k not in used]
+
+
+def scaled_conjugate_gradient(value, gradient, start, *, iterations, rest, probe):
+    """Scaled conjugate gradient for one function, in the steps and the names of Moller 1993."""
+    w = np.array(start, float)
+    r = p = -gradient(w)
+    scale, raised, success, delta = 1e-6, 0.0, True, 0.0
+    for k in range(1, iterations + 1):
+        if np.abs(r).max() <= rest:
+            break
+        square = p @ p
+        if success:
+            sigma = probe / np.sqrt(square)
+            delta = p @ ((gradient(w + sigma * p) - gradient(w)) / sigma)
+        delta += (scale - raised) * square
+        if delta <= 0:
+            raised = 2 * (scale - delta / square)
+            delta = -delta + scale * square
+            scale = raised
+        mu = p @ r
+        alpha = mu / delta
+        comparison = 2 * delta * (value(w) - value(w + alpha * p)) / mu**2
+        if comparison >= 0:
+            w = w + alpha * p
+            new = -gradient(w)
+            raised, success = 0.0, True
+            turned = new + (new @ new - new @ r) / mu * p
+            p = new if k % len(w) == 0 or turned @ new <= 0 else turned
+            r = new
+            if comparison >= 0.75:
+                scale /= 4
+        else:
+            raised, success = scale, False
+        if comparison < 0.25:
+            scale += delta * (1 - comparison) / square
+    return w
