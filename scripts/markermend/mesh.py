@@ -60,8 +60,11 @@ class Mesh:
 
     def neighbour_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
         """For each of a recording's markers the places of its neighbours among them, nearest first."""
-        place = {marker: m for m, marker in enumerate(markers)}
-        return [np.array([place[name] for name in self.neighbours[marker]], int) for marker in markers]
+        return _places(self.neighbours, markers)
+
+    def relative_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
+        """For each of a recording's markers the places among them of its siblings and its parent marker."""
+        return _places(self.predictors, markers)
 
     def without(self, markers: Collection[str]) -> Mesh:
         """Give the mesh of a recording that lacks some markers; lists of predictors are refilled with the next nearest.
@@ -95,6 +98,12 @@ class Mesh:
     def as_json(self) -> dict[str, Any]:
         """Give the mesh as JSON values."""
         return asdict(self)
+
+
+def _places(named: dict[str, tuple[str, ...]], markers: Sequence[str]) -> list[np.ndarray]:
+    """For each of a recording's markers the places among them of those that are named for it."""
+    place = {marker: m for m, marker in enumerate(markers)}
+    return [np.array([place[name] for name in named[marker]], int) for marker in markers]
 
 
 def from_json(entry: dict[str, Any]) -> Mesh:

@@ -33,13 +33,17 @@ class Scene:
 
     positions: float64 (frames, markers, 3), mm, NaN = missing or not to be believed. rate: Hz. neighbours: for each
     marker the indices of the others of its component, steadiest first (the mesh's ranking). measured: the scene before
-    any gap was filled, where this one holds filled samples; None where nothing was filled.
+    any gap was filled, where this one holds filled samples; None where nothing was filled. doubt: (frames, markers), mm,
+    standard deviation per axis of filled samples, 0 elsewhere; None where nothing was filled. relatives: for each marker
+    the indices of its siblings on the segment and of its parent marker; None where no mesh tells.
     """
 
     positions: np.ndarray
     rate: float
     neighbours: Sequence[np.ndarray]
     measured: Scene | None = None
+    doubt: np.ndarray | None = None
+    relatives: Sequence[np.ndarray] | None = None
 
     @cached_property
     def present(self) -> np.ndarray:
@@ -64,7 +68,7 @@ class Scene:
         """The same scene without one marker's samples over [start, stop)."""
         positions = self.positions.copy()
         positions[start:stop, marker] = np.nan
-        return replace(self, positions=positions, measured=None)
+        return replace(self, positions=positions, measured=None, doubt=None)
 
 
 class Predictor(Protocol):
