@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import os
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -112,34 +112,52 @@ def name_files(files: list[str]) -> dict[str, str]:
 
 
 def read_rows(path: str) -> list[dict[str, Any]]:
-    r"""Read a table of recordings, separated by tabs, commas or semicolons: one dictionary per row, empty cells left out.
+    """Read the table of recordings: one dictionary per row, empty cells left out. A rate that is a number becomes one.
 
-    A rate that is a number becomes one. Raises BadDataSet for a table without its required columns or without rows.
+    Raises BadDataSet as read_table does, and for a table without rows.
+    """
+    table = read_table(path, what="recordings", columns=COLUMNS, required=COLUMNS[:3])
+    rows: list[dict[str, Any]] = [row for _, row in table]
+    if not rows:
+        raise BadDataSet(f"recordings: {path} has no rows")
+    return [row | {"rate": number_or_text(row["rate"])} if "rate" in row else row for row in rows]
+
+
+def read_table(
+    path: str, *, what: str, columns: Sequence[str], required: Sequence[str]
+) -> list[tuple[int, dict[str, str]]]:
+    """Read a table separated by tabs, commas or semicolons: line number and filled cells of each row that has any.
+
+    what: the setting that names the table. columns: those that there are. Raises BadDataSet for what is no table, for
+    a column that is not required where it should be, unknown or repeated, and for cells outside of the columns.
     """
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
             header = file.readline()
             separator = next((mark for mark in "\t,;" if mark in header), "\t")
             file.seek(0)
-            table = list(csv.reader(file, delimiter=separator))
+            reader = csv.reader(file, delimiter=separator)
+            table = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise BadDataSet(f"recordings: {path} is not a table in UTF-8 text ({error})") from error
-    columns = [cell.strip() for cell in table[0]] if table else []
-    repeated = [name for name, count in Counter(columns).items() if count > 1 and name]
+        raise BadDataSet(f"{what}: {path} is not a table in UTF-8 text ({error})") from error
+    names = table[0][1] if table else []
+    repeated = [name for name, count in Counter(names).items() if count > 1 and name]
     if repeated:
-        raise BadDataSet(f"recordings: {path} has column {', '.join(repeated)} more than once")
-    absent = [name for name in COLUMNS[:3] if name not in columns]
-    if absent:
-        raise BadDataSet(f"recordings: {path} has no column {', '.join(absent)}; columns are {', '.join(COLUMNS)}")
+        raise BadDataSet(f"{what}: {path} has column {', '.join(repeated)} more than once")
+    known = f"columns are {', '.join(columns)}"
+    if absent := [name for name in required if name not in names]:
+        raise BadDataSet(f"{what}: {path} has no column {', '.join(absent)}; {known}")
+    if strange := [name for name in names if name and name not in columns]:
+        raise BadDataSet(f"{what}: {path} has column {', '.join(strange)}, which means nothing; {known}")
     rows = []
-    for number, cells in enumerate(table[1:], 2):
-        if len(cells) > len(columns):
-            raise BadDataSet(f"recordings: {path} line {number} has {len(cells)} cells for {len(columns)} columns")
-        row: dict[str, Any] = {name: cell.strip() for name, cell in zip(columns, cells, strict=False) if cell.strip()}
+    for number, cells in table[1:]:
+        if len(cells) > len(names):
+            raise BadDataSet(f"{what}: {path} line {number} has {len(cells)} cells for {len(names)} columns")
+        row = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
+        if "" in row:
+            raise BadDataSet(f"{what}: {path} line {number} has {row['']!r} in a column without a name")
         if row:
-            rows.append(row | {"rate": number_or_text(row["rate"])} if "rate" in row else row)
-    if not rows:
-        raise BadDataSet(f"recordings: {path} has no rows")
+            rows.append((number, row))
     return rows
 
 

@@ -9,23 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
-from typing import Any
 
 import numpy as np
 
 from markermend import events as finding
+from markermend.decisions import Decision, Ruling, kind_of, names, protecting, rule
 from markermend.events import Event
+from markermend.judgement import judge
 from markermend.predictors import Predictor, Scene
-from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
-from markermend.repair_methods import Proposal, predicted, smoothed, without_offset
+from markermend.recording import Recording, Restored
+from markermend.repair_methods import METHODS, Proposal, predicted, smoothed, without_offset
+from markermend.restoration import BALL68, Restoration
 from markermend.robust import samples
-
-ORIGIN_OF = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
-"""What a repaired sample is called, by the detector that found it."""
-
-BALL68, BALL95 = 1.8724, 2.7955
-"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
 
 
 @dataclass(frozen=True)
@@ -59,30 +54,28 @@ def repair(
     neighbours: Sequence[np.ndarray],
     predictors: Mapping[str, Predictor],
     options: RepairOptions,
+    decisions: Sequence[Decision] = (),
 ) -> Restored:
     """Repair the findings of each class (in detector order) and return the recording with the story of every sample.
 
-    neighbours: as in Scene. predictors: by name, those that `options.methods` mention. The facts of the result gain
-    `repairs` (marker, start, stop, class, method, score, axes, partner) and `repairs_left` (the same with a reason and
-    whether the samples were blanked). Missing samples stay missing. Static recordings and protected markers are left.
+    neighbours: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
+    a person says, against which no limit holds. The facts of the result gain `repairs` (marker, start, stop, class,
+    method, score, axes, partner), `repairs_left` (the same with a reason and whether the samples were blanked), each
+    with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
     """
-    work = _Repairer(recording, found, neighbours, predictors, options)
-    refusal = work.refusal()
-    if refusal is None and "swap" in options.methods.get("steps", ()):
-        work.swap_back()
+    work = _Repairer(recording, found, neighbours, predictors, options, decisions)
+    work.swap_back()
     for marker, start, stop, members in work.findings():
-        reason = refusal or work.protection(marker, *(event.partner for _, event in members if event.partner))
-        if reason:
-            work.leave(marker, start, stop, members, reason, blank=False)
-        elif len(members) > 1:
-            work.leave(marker, start, stop, members, "several kinds of artifact at once: treated as a gap", blank=True)
-        else:
-            work.mend(marker, start, stop, members)
-    return work.restored()
+        work.treat(marker, start, stop, members)
+    return work.result.finished()
+
+
+Member = tuple[str, Event]
+"""A finding with the detector that found it."""
 
 
 class _Repairer:
-    """The state of one repair: the original, the scene without any finding, and the result as it grows."""
+    """The state of one repair: what the decisions leave to repair, the scene without any finding, and the result."""
 
     def __init__(
         self,
@@ -91,138 +84,120 @@ class _Repairer:
         neighbours: Sequence[np.ndarray],
         predictors: Mapping[str, Predictor],
         options: RepairOptions,
+        decisions: Sequence[Decision],
     ) -> None:
         self.neighbours, self.predictors, self.options = neighbours, predictors, options
-        self._look_at(recording, found)
-        self.positions = recording.positions.copy()
-        self.origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
-        self.error = np.where(recording.missing, np.nan, 0.0)
-        self.repairs: list[dict[str, Any]] = []
-        self.left: list[dict[str, Any]] = []
+        static = recording.facts.get("kind") == "static"
+        self.decisions = [] if static else [*protecting(options.protect), *decisions]
+        judged = judge(recording, found, self.decisions)
+        self._look_at(judged.recording, judged.found)
+        self.result = Restoration(judged.recording, judged.left)
+        self.refusal = "static recording: never repaired" if static else self._too_much()
 
     def _look_at(self, recording: Recording, found: Mapping[str, Sequence[Event]]) -> None:
         """Take the recording to repair and what was found in it; the scene is all that is not found."""
         self.recording = recording
-        self.found = {kind: list(events) for kind, events in found.items() if events}
-        self.flagged = np.zeros((recording.frames, len(recording.markers)), bool)
-        for events in self.found.values():
-            self.flagged |= finding.mask(events, recording.frames, recording.markers)
-        self.flagged &= ~recording.missing
+        self.found = {stage: list(events) for stage, events in found.items() if events}
+        self.flagged = self._covered([event for events in self.found.values() for event in events])
         believed = np.where(self.flagged[..., None], np.nan, recording.positions)
         self.scene = Scene(believed, recording.rate, self.neighbours)
 
-    def refusal(self) -> str | None:
-        """Why nothing at all may be repaired, or None."""
-        if self.recording.facts.get("kind") == "static":
-            return "static recording: never repaired"
-        share = self.flagged.sum() / max(1, int((~self.recording.missing).sum()))
+    def _covered(self, events: Sequence[Event]) -> np.ndarray:
+        """Bool (frames, markers): the seen samples that the findings cover."""
+        return finding.mask(events, self.recording.frames, self.recording.markers) & ~self.recording.missing
+
+    def _too_much(self) -> str | None:
+        """Why nothing may be repaired that no person confirmed, or None."""
+        members = [(stage, event) for stage, events in self.found.items() for event in events]
+        covered = self._covered([event for stage, event in members if not self._ruling([(stage, event)]).confirmed])
+        share = covered.sum() / max(1, int((~self.recording.missing).sum()))
         if share > self.options.max_altered_share:
             return f"findings cover {share:.1%} of the recording, more than {self.options.max_altered_share:.0%}"
         return None
 
-    def protection(self, *markers: str) -> str | None:
-        """Why these markers may not be repaired together, or None."""
-        protect = self.options.protect
-        return "protected" if any(fnmatchcase(marker, pattern) for marker in markers for pattern in protect) else None
+    def _ruling(self, members: Sequence[Member]) -> Ruling:
+        """What the decisions come to for findings that overlap."""
+        kinds = {kind_of(stage, event) for stage, event in members}
+        markers = dict.fromkeys(name for _, event in members for name in names(event))
+        start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
+        return rule(self.decisions, kinds, markers, start, stop)
 
     def swap_back(self) -> None:
         """Exchange the samples of swapped markers that may be touched; all else is judged and repaired after that."""
         done: set[tuple[str, str, int, int]] = set()
         rest = []
+        usual = self.refusal is None and "swap" in self.options.methods.get("steps", ())
         for event in self.found.get("steps", []):
             partner = str(event.partner)
-            if partner not in self.recording.markers or self.protection(event.marker, partner):
+            ruling = self._ruling([("steps", event)])
+            wanted = ruling.method == "swap" if ruling.method else usual or ruling.confirmed
+            if partner not in self.recording.markers or not wanted:
                 rest.append(event)
             elif (partner, event.marker, event.start, event.stop) not in done:
                 done.add((event.marker, partner, event.start, event.stop))
-                self._swap_back(event)
-        self._look_at(replace(self.recording, positions=self.positions.copy()), {**self.found, "steps": rest})
+                self.result.exchange(event, ruling)
+        swapped = replace(self.recording, positions=self.result.positions.copy())
+        self._look_at(swapped, {**self.found, "steps": rest})
 
-    def findings(self) -> list[tuple[str, int, int, list[tuple[str, Event]]]]:
-        """The intervals to work on, by marker and time, each with the findings (class, event) that overlap in it."""
-        together: list[tuple[str, int, int, list[tuple[str, Event]]]] = []
-        everything = [(event, kind) for kind, events in self.found.items() for event in events]
-        for event, kind in sorted(everything, key=lambda pair: pair[0].order):
+    def findings(self) -> list[tuple[str, int, int, list[Member]]]:
+        """The intervals to work on, by marker and time, each with the findings that overlap in it."""
+        together: list[tuple[str, int, int, list[Member]]] = []
+        everything = [(event, stage) for stage, events in self.found.items() for event in events]
+        for event, stage in sorted(everything, key=lambda pair: pair[0].order):
             last = together[-1] if together else None
             if last and last[0] == event.marker and event.start < last[2]:
-                together[-1] = (event.marker, last[1], max(last[2], event.stop), [*last[3], (kind, event)])
+                together[-1] = (event.marker, last[1], max(last[2], event.stop), [*last[3], (stage, event)])
             else:
-                together.append((event.marker, event.start, event.stop, [(kind, event)]))
+                together.append((event.marker, event.start, event.stop, [(stage, event)]))
         return together
 
-    def mend(self, marker: str, start: int, stop: int, members: list[tuple[str, Event]]) -> None:
+    def treat(self, marker: str, start: int, stop: int, members: list[Member]) -> None:
+        """Repair the findings that overlap in an interval, or say why not."""
+        ruling = self._ruling(members)
+        # The strongest finding stands for all where a person says how to repair them together.
+        stage, event = max(members, key=lambda member: member[1].score)
+        event = replace(event, start=start, stop=stop)
+        stages = [stage for stage, _ in members]
+        if self.refusal and not ruling.confirmed:
+            self.result.leave(event, stages, self.refusal, ruling, blank=False)
+        elif ruling.method and ruling.method not in METHODS:
+            self.result.leave(event, stages, f"to be filled by {ruling.method}", ruling, blank=True)
+        elif len(members) > 1 and not ruling.method:
+            reason = "several kinds of artifact at once: treated as a gap"
+            self.result.leave(event, stages, reason, ruling, blank=True)
+        else:
+            self._mend(stage, stages, event, ruling)
+
+    def _mend(self, stage: str, stages: Sequence[str], event: Event, ruling: Ruling) -> None:
         """Repair one finding by the first of its class's methods that can be trusted; blank it if none can.
 
-        A repair that is expected to err by more than it changes is none: then the samples stay as measured.
+        A repair that is expected to err by more than it changes is none: then the samples stay as measured. Where a
+        person confirmed the finding, the best repair is trusted.
         """
-        kind, event = members[0]
-        if stop - start > self.options.max_repair_s * self.recording.rate:
-            limit = f"longer than {self.options.max_repair_s:g} s"
-            self.leave(marker, start, stop, members, limit, blank=True)
+        if event.stop - event.start > self.options.max_repair_s * self.recording.rate and not ruling.confirmed:
+            self.result.leave(event, stages, f"longer than {self.options.max_repair_s:g} s", ruling, blank=True)
             return
-        reasons, m, harmless = [], self.recording.markers.index(marker), False
-        for method in self.options.methods[kind]:
-            if method == "swap":
-                continue
-            proposal = self._propose(method, m, start, stop)
+        m, reasons, harmless = self.recording.markers.index(event.marker), [], False
+        doubtful: list[tuple[float, Proposal]] = []
+        for method in [ruling.method] if ruling.method else self.options.methods[stage]:
+            proposal = None if method == "swap" else self._propose(method, m, event.start, event.stop)
             if proposal is None:
-                reasons.append(f"{method}: not applicable")
+                reasons += [f"{method}: not applicable"] if method != "swap" else []
                 continue
             worst = float(np.max(proposal.error)) * BALL68
-            change = np.linalg.norm(proposal.positions - self.recording.positions[start:stop, m], axis=1)
+            change = np.linalg.norm(proposal.positions - self.recording.positions[event.start : event.stop, m], axis=1)
             largest = float(np.nanmax(change))
             if worst <= min(self.options.max_error_mm, largest):
-                self._accept(kind, event, proposal)
+                self.result.write(stage, event, proposal, ruling)
                 return
+            doubtful.append((worst, proposal))
             harmless |= largest < worst
             reasons.append(f"{method}: expected error {worst:.1f} mm for a change of {largest:.1f} mm")
+        if ruling.confirmed and doubtful:
+            self.result.write(stage, event, min(doubtful, key=lambda pair: pair[0])[1], ruling)
+            return
         reason = "no repair can be trusted (" + "; ".join(reasons) + ")"
-        self.leave(marker, start, stop, members, reason, blank=not harmless)
-
-    def leave(
-        self, marker: str, start: int, stop: int, members: list[tuple[str, Event]], reason: str, *, blank: bool
-    ) -> None:
-        """Note that an interval was not repaired; with `blank`, its samples become missing."""
-        if blank:
-            m = self.recording.markers.index(marker)
-            self.positions[start:stop, m] = np.nan
-            self.origin[start:stop, m] = MISSING
-            self.error[start:stop, m] = np.nan
-        kinds = "+".join(ORIGIN_OF[kind] for kind in ORIGIN_OF if kind in dict(members))
-        score = max(event.score for _, event in members)
-        note = {"marker": marker, "start": start, "stop": stop, "class": kinds, "score": score}
-        self.left.append({**note, "reason": reason, "blanked": blank})
-
-    def restored(self) -> Restored:
-        """The repaired recording."""
-        facts = {**self.recording.facts, "repairs": self.repairs, "repairs_left": self.left}
-        common = (self.recording.markers, self.positions, self.recording.rate, self.recording.first_frame, facts)
-        return Restored(*common, self.origin, self.error * BALL68, self.error * BALL95)
-
-    def _accept(self, kind: str, event: Event, proposal: Proposal) -> None:
-        """Write a proposal where the marker was seen, and note the repair."""
-        m = self.recording.markers.index(event.marker)
-        seen = ~self.recording.missing[event.start : event.stop, m]
-        rows = np.flatnonzero(seen) + event.start
-        self.positions[rows, m] = proposal.positions[seen]
-        self.origin[rows, m] = ORIGINS.index(ORIGIN_OF[kind])
-        self.error[rows, m] = proposal.error[seen]
-        self._note(event, ORIGIN_OF[kind], proposal.method)
-
-    def _note(self, event: Event, origin: str, method: str) -> None:
-        """Note a repair."""
-        self.repairs.append({**vars(event), "class": origin, "method": method})
-
-    def _swap_back(self, event: Event) -> None:
-        """Exchange the original samples of a marker and its partner over the interval."""
-        span = slice(event.start, event.stop)
-        pair = [self.recording.markers.index(name) for name in (event.marker, event.partner)]
-        self.positions[span, pair] = self.recording.positions[span, pair[::-1]]
-        missing = np.isnan(self.positions[span, pair]).any(axis=2)
-        self.origin[span, pair] = np.where(missing, MISSING, ORIGINS.index("swap"))
-        self.error[span, pair] = np.where(missing, np.nan, 0.0)
-        self._note(event, "swap", "swap")
-        self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap")
+        self.result.leave(event, stages, reason, ruling, blank=not harmless)
 
     def _propose(self, method: str, m: int, start: int, stop: int) -> Proposal | None:
         """What a method would write, or None where it cannot tell for every sample."""

@@ -1,0 +1,76 @@
+"""A recording while it is repaired: every sample that is written, and every finding that is left, is noted."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from markermend.decisions import Ruling
+from markermend.events import Event
+from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
+from markermend.repair_methods import Proposal
+
+ORIGIN_OF = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
+"""What a repaired sample is called, by the detector that found it."""
+
+BALL68, BALL95 = 1.8724, 2.7955
+"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
+
+
+class Restoration:
+    """The result of a repair as it grows: positions (frames, markers, 3), mm; what was repaired, and what was left."""
+
+    def __init__(self, recording: Recording, left: Iterable[dict[str, Any]]) -> None:
+        """recording: as it is to be repaired, which is never modified. left: what is known to be left."""
+        self._recording = recording
+        self.positions = recording.positions.copy()
+        self._origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
+        self._error = np.where(recording.missing, np.nan, 0.0)
+        self._repairs: list[dict[str, Any]] = []
+        self._left = list(left)
+
+    def write(self, stage: str, event: Event, proposal: Proposal, ruling: Ruling) -> None:
+        """Write a proposal where the marker was seen, and note the repair."""
+        m = self._recording.markers.index(event.marker)
+        seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
+        rows = np.flatnonzero(seen) + event.start
+        self.positions[rows, m] = proposal.positions[seen]
+        self._origin[rows, m] = ORIGINS.index(ORIGIN_OF[stage])
+        self._error[rows, m] = proposal.error[seen]
+        self._note(event, ORIGIN_OF[stage], proposal.method, ruling)
+
+    def exchange(self, event: Event, ruling: Ruling) -> None:
+        """Exchange the original samples of a marker and its partner over the interval."""
+        span = slice(event.start, event.stop)
+        pair = [self._recording.markers.index(name) for name in (event.marker, event.partner)]
+        self.positions[span, pair] = self._recording.positions[span, pair[::-1]]
+        missing = np.isnan(self.positions[span, pair]).any(axis=2)
+        self._origin[span, pair] = np.where(missing, MISSING, ORIGINS.index("swap"))
+        self._error[span, pair] = np.where(missing, np.nan, 0.0)
+        self._note(event, "swap", "swap", ruling)
+        self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap", ruling)
+
+    def leave(self, event: Event, stages: Collection[str], reason: str, ruling: Ruling, *, blank: bool) -> None:
+        """Note that an interval was not repaired; with `blank`, its samples become missing."""
+        span = slice(event.start, event.stop)
+        if blank:
+            m = self._recording.markers.index(event.marker)
+            self.positions[span, m] = np.nan
+            self._origin[span, m] = MISSING
+            self._error[span, m] = np.nan
+        kinds = "+".join(ORIGIN_OF[stage] for stage in ORIGIN_OF if stage in stages)
+        note = {"marker": event.marker, "start": event.start, "stop": event.stop, "class": kinds, "score": event.score}
+        self._left.append({**note, "reason": reason, "blanked": blank, **ruling.note})
+
+    def finished(self) -> Restored:
+        """The repaired recording."""
+        facts = {**self._recording.facts, "repairs": self._repairs, "repairs_left": self._left}
+        common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame, facts)
+        return Restored(*common, self._origin, self._error * BALL68, self._error * BALL95)
+
+    def _note(self, event: Event, origin: str, method: str, ruling: Ruling) -> None:
+        """Note a repair."""
+        self._repairs.append({**vars(event), "class": origin, "method": method, **ruling.note})
