@@ -16,8 +16,10 @@ OWN = ("max_gap_s", "max_gap_s_of", "ends", "seen_share", "border_s", "max_error
 
 
 def settings():
-    """The default settings of all families of predictors."""
-    return {name: CONFIG["fill"].get(name, CONFIG.get(name)) for name in FAMILIES}
+    """The default settings of all families of predictors, but for small networks that are briefly trained."""
+    default = {name: CONFIG["fill"].get(name, CONFIG.get(name)) for name in FAMILIES}
+    small = {"epochs": 30, "trial_epochs": 10, "recurrent_units": 4, "frames": 150, "stretch_s": 0.1, "context_s": 0.2}
+    return {**default, "networks": {**default["networks"], **small}}
 
 
 def predictor(name):

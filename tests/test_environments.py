@@ -32,12 +32,16 @@ def test_conda_environments_have_the_locked_versions(name):
     assert name != "base" or set(RUNTIME) <= set(pinned)
 
 
-def test_the_code_imports_nothing_else():
-    imported = set()
-    for path in (PROJECT / "scripts").rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.Import):
-                imported |= {alias.name.split(".")[0] for alias in node.names}
-            elif isinstance(node, ast.ImportFrom) and node.module:
-                imported.add(node.module.split(".")[0])
-    assert imported - sys.stdlib_module_names - {"markermend"} <= set(RUNTIME)
+def imports(path):
+    """The packages that a file imports anywhere."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name.split(".")[0] for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module.split(".")[0]
+
+
+def test_the_code_imports_nothing_else_and_torch_where_networks_train():
+    imported = {path.name: set(imports(path)) for path in (PROJECT / "scripts").rglob("*.py")}
+    assert set().union(*imported.values()) - sys.stdlib_module_names - {"markermend", "torch"} <= set(RUNTIME)
+    assert [name for name, packages in imported.items() if "torch" in packages] == ["network_training.py"]

@@ -88,13 +88,13 @@ def test_failures_are_counted_by_subject_recording_and_stage(tmp_path):
 )
 def test_names_and_numbers_that_no_schema_can_judge(keys, value, words):
     config = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
-    settings.judge(config)
+    settings.judge(config, deployed=False)
     place = config
     for key in keys[:-1]:
         place = place[key]
     place[keys[-1]] = value
     with pytest.raises(BadDataSet, match=re.escape(words)):
-        settings.judge(config)
+        settings.judge(config, deployed=False)
 
 
 @pytest.mark.parametrize("name", ["a{b}", "a<b>c"])

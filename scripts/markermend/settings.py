@@ -13,6 +13,8 @@ from math import isfinite
 from typing import Any
 
 from markermend.dataset import BadDataSet
+from markermend.predictors.networks import KINDS as NETWORKS
+from markermend.predictors.networks import cannot_train
 from markermend.predictors.registry import REGISTRY
 from markermend.repair_methods import METHODS
 
@@ -34,11 +36,12 @@ def prepare(config: dict[str, Any]) -> None:
         config["detect"] = []
 
 
-def judge(config: dict[str, Any]) -> None:
+def judge(config: dict[str, Any], *, deployed: bool) -> None:
     """Refuse what the schema cannot see and every recording would fail on; raises BadDataSet naming all of it.
 
-    config: of the schema's shape. Judged are numbers that are not finite, regular expressions, and names of predictors
-    and repairs.
+    config: of the schema's shape. Judged are numbers that are not finite, regular expressions, names of predictors and
+    repairs, and whether networks can be trained. deployed: whether the stages run in environments of their own, which
+    have what networks need.
     """
     problems = [f"{place}: {value} is not a finite number" for place, value in numbers(config) if not isfinite(value)]
     for key in ("unlabelled", "static_names"):
@@ -49,10 +52,18 @@ def judge(config: dict[str, Any]) -> None:
                 problems.append(f"ingest.{key}: {pattern!r} is no regular expression ({error})")
     members = [*REGISTRY, *config["fill"]["variants"]]
     problems += unknown("fill.members", config["fill"]["members"], members)
+    if not deployed and (reason := cannot_train(config["fill"]["members"])):
+        problems.append(f"fill.members: {reason}")
     for kind, methods in config["repair"]["methods"].items():
         problems += unknown(f"repair.methods.{kind}", methods, METHODS)
     if problems:
         raise BadDataSet("\n".join(["The config cannot be used", *problems]))
+
+
+def methods(config: dict[str, Any]) -> list[str]:
+    """The methods that a person may decide on: networks only where they are members, since they need torch."""
+    names = dict.fromkeys([*METHODS, *REGISTRY, *config["fill"]["variants"]])
+    return [name for name in names if name not in NETWORKS or name in config["fill"]["members"]]
 
 
 def unknown(place: str, names: Collection[str], known: Collection[str]) -> list[str]:

@@ -1,6 +1,6 @@
 """What the rules share: the settings, the recordings, and what a command is made of.
 
-Reads: the config, the recordings' folder or table, failures.tsv among the results.
+Reads: the config, the recordings' folder or table, the decisions, failures.tsv among the results.
 Writes: nothing.
 """
 
@@ -19,13 +19,15 @@ PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
 sys.path.insert(0, SCRIPTS)
 
-from markermend import dataset, outcome, provenance, settings
+from markermend import dataset, decision_table, outcome, provenance, settings
 from markermend.events import CLASSES
+from markermend.predictors.networks import KINDS as NETWORKS
 from markermend.storage import sha256, write_json, write_text
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
-PYTHON = "python" if workflow.deployment_settings.deployment_method else sys.executable
+DEPLOYED = bool(workflow.deployment_settings.deployment_method)
+PYTHON = "python" if DEPLOYED else sys.executable
 
 
 def check(value, schema, where):
@@ -55,12 +57,25 @@ def recordings(name, results):
     return {entry.folders: entry for entry in entries}
 
 
+def decisions():
+    """A person's decisions on each recording, by its folders; a table that was named must be there."""
+    shipped = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))["decisions"]
+    if config["decisions"] is None or (config["decisions"] == shipped and not os.path.exists(shipped)):
+        return {}
+    path = os.path.abspath(os.path.expanduser(config["decisions"]))
+    decided, warnings = decision_table.load(path, list(RECORDINGS.values()), settings.methods(config))
+    if workflow.is_main_process:
+        print(*warnings, sep="\n", end="\n" * bool(warnings), file=sys.stderr)
+    return decided
+
+
 try:
     settings.prepare(config)
     check(config, "config.schema.yaml", "The config")
-    settings.judge(config)
+    settings.judge(config, deployed=DEPLOYED)
     RESULTS = settings.folder(config["results"])
     RECORDINGS = recordings(config["recordings"], RESULTS)
+    DECISIONS = decisions()
 except (dataset.BadDataSet, OSError) as error:
     raise WorkflowError(str(error))
 
@@ -141,6 +156,11 @@ def kind(wildcards):
 def rate(wildcards):
     """What the table says of the recording's rate, as a flag."""
     return f"--rate={settings.text(entry(wildcards).rate)}"
+
+
+def decided(wildcards):
+    """What a person decided about the recording, as a flag: other recordings' lines in the table rerun nothing."""
+    return f"--decisions={settings.text(DECISIONS.get((wildcards.subject, wildcards.recording), []))}"
 
 
 def of_subject(wildcards):

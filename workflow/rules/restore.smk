@@ -1,6 +1,6 @@
 """Repair what was found, fill the gaps, write the result back into the recording's own format.
 
-Reads: 01_markers.parquet, mesh.json, the events, the original file.
+Reads: 01_markers.parquet, mesh.json, the events, a person's decisions, the original file.
 Writes: 06_repaired.parquet, 07_filled.parquet, cleaned.* with changes.tsv and certificate.json.
 """
 
@@ -27,12 +27,13 @@ rule repair:
     params:
         *code("repair"),
         options=options("repair", "local_ridge", "interpolation", "protect"),
+        decisions=decided,
         failures=failures("repair"),
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/repair.py --markers {input.markers:q} --mesh {input.mesh:q}"
-        " --events {input.events:q} --repaired {output.repaired:q} {params.options} 2> {log:q}"
+        " --events {input.events:q} --repaired {output.repaired:q} {params.options} {params.decisions:q} 2> {log:q}"
 
 
 rule fill:
@@ -48,7 +49,7 @@ rule fill:
     group:
         "recording"
     conda:
-        "../../envs/base.yaml"
+        "../../envs/torch.yaml" if set(config["fill"]["members"]) & set(NETWORKS) else "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
@@ -56,12 +57,13 @@ rule fill:
     params:
         *code("fill"),
         options=options("fill", "local_ridge", "interpolation", "protect"),
+        decisions=decided,
         failures=failures("fill"),
     message:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --mesh {input.mesh:q}"
-        " --filled {output.filled:q} {params.options} 2> {log:q}"
+        " --filled {output.filled:q} {params.options} {params.decisions:q} 2> {log:q}"
 
 
 for suffix in dataset.FORMATS:

@@ -12,6 +12,8 @@ from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
 from markermend.predictors.linear import GlobalRegression, LinearOptions
 from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.predictors.lowrank import IteratedSvd, PcaOptions, SvdOptions, WeightedPca
+from markermend.predictors.networks import KINDS as NETWORKS
+from markermend.predictors.networks import Network, NetworkOptions
 from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
 
 FAMILIES = {
@@ -24,6 +26,7 @@ FAMILIES = {
     "weighted_pca": "the predictor weighted_pca",
     "kalman": "the predictor kalman",
     "local_gp": "the predictor local_gp beyond those of local_ridge",
+    "networks": "network_linear, network_tanh, network_lstm, network_gru and network_bilstm",
 }
 """The families that have settings, and whose settings they are."""
 
@@ -35,8 +38,13 @@ def _interpolation(kind: str) -> Callable[[Settings], Predictor]:
     return lambda settings: Interpolation(kind, **settings["interpolation"])
 
 
+def _network(name: str) -> Callable[[Settings], Predictor]:
+    return lambda settings: Network(name, NetworkOptions(**settings["networks"]))
+
+
 REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     **{kind: _interpolation(kind) for kind in KINDS},
+    **{name: _network(name) for name in NETWORKS},
     "linear_regression": lambda settings: GlobalRegression(LinearOptions(**settings["linear_regression"])),
     "local_interpolation": lambda settings: LocalInterpolation(FrameOptions(**settings["reference_frame"])),
     "local_quadratic": lambda settings: LocalQuadratic(FrameOptions(**settings["reference_frame"])),
@@ -53,13 +61,19 @@ REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
 
 
 def members(names: Sequence[str], settings: Settings, *, most_frames: int | None = None) -> list[Predictor]:
-    """Make the named predictors; local_ridge and its variants train on at most so many frames.
+    """Make the named predictors.
+
+    most_frames: for trials, with less training: so many frames at most for local_ridge and its variants, and the
+    networks' `trial_epochs`.
 
     Raises ValueError for a name that is neither known nor a variant, or named twice.
     """
     if most_frames is not None:
         ridge = settings["local_ridge"]
         settings = {**settings, "local_ridge": {**ridge, "frames": min(ridge["frames"], most_frames)}}
+        if "networks" in settings:
+            networks = settings["networks"]
+            settings = {**settings, "networks": {**networks, "epochs": networks["trial_epochs"]}}
     variants = settings.get("variants", {})
     unknown = [name for name in names if name not in REGISTRY and name not in variants]
     if unknown:

@@ -1,0 +1,198 @@
+"""Neural networks: a marker from the laboratory coordinates of a few neighbours now and one frame ago (skurowski2021).
+
+One network per marker, trained on the recording's own frames. Networks are trained side by side, whatever their markers
+and scenes; torch is imported when the first one is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from markermend.predictors import Prediction, Scene
+from markermend.predictors.network_inputs import Scale, completed, features, stretches
+from markermend.predictors.references import companions, thinned
+from markermend.recording import runs
+
+if TYPE_CHECKING:
+    from markermend.predictors.network_training import Lesson, Weights
+
+KINDS = {
+    "network_linear": "linear",
+    "network_tanh": "tanh",
+    "network_lstm": "lstm",
+    "network_gru": "gru",
+    "network_bilstm": "bilstm",
+}
+"""The kinds of network by the names of their predictors."""
+
+
+def cannot_train(names: Iterable[str]) -> str | None:
+    """Why the networks among the named members cannot be had, None where they can or there are none."""
+    wanted = [name for name in names if name in KINDS]
+    if not wanted or find_spec("torch") is not None:
+        return None
+    return (
+        f"{', '.join(wanted)} cannot be trained without torch: install it with pip into the Python that runs markermend "
+        "(envs/torch.yaml names the version), or leave them out"
+    )
+
+
+@dataclass(frozen=True)
+class NetworkOptions:
+    """Settings of the networks (config section `fill`, key `networks`).
+
+    inputs: neighbours that a network is fed, at most. minimum_inputs: of these, so many must be seen in a frame to tell
+    anything (all, if there are fewer). share: a neighbour that would leave less of the training frames is left out.
+    frames, minimum_frames: most and fewest training frames. centred: whether the mean of the inputs is subtracted from
+    each frame. units, recurrent_units: neurons of the dense and of the recurrent layer. stretch_s: recurrent networks
+    learn from stretches of up to so many s, each from rest; None = as long as nothing is missing. context_s: how far
+    before and behind a gap they begin. epochs, learning_rate, momentum: of the training; the rate falls by the factor
+    drop every drop_every epochs. trial_epochs: in place of epochs on pseudo-gaps. clip: longest gradient. batch: networks trained at once, at most. seed: of the first
+    weights.
+    """
+
+    inputs: int
+    minimum_inputs: int
+    share: float
+    frames: int
+    minimum_frames: int
+    centred: bool
+    units: int
+    recurrent_units: int
+    stretch_s: float | None
+    context_s: float
+    epochs: int
+    trial_epochs: int
+    learning_rate: float
+    momentum: float
+    drop: float
+    drop_every: int
+    clip: float
+    batch: int
+    seed: int
+
+
+@dataclass(frozen=True)
+class _Network:
+    """A trained network of a marker: the scales of what goes in and comes out, the weights in z-scores."""
+
+    inlet: Scale
+    outlet: Scale
+    weights: Weights
+
+
+_Task = tuple[Scene, int, np.ndarray]
+"""A network to train: the scene to learn from, the marker, the inputs."""
+
+
+class Network:
+    """Neural networks of one kind as a predictor; states no error."""
+
+    continuous = False
+
+    def __init__(self, name: str, options: NetworkOptions) -> None:
+        """Keep the settings. Raises ValueError where torch is not installed."""
+        if reason := cannot_train([name]):
+            raise ValueError(reason)
+        self.name, self.kind, self.options = name, KINDS[name], options
+
+    def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
+        """See Trainable. A marker has a further network for gaps that see too few of its usual inputs."""
+        wanted: dict[tuple[int, int, bytes], _Task] = {}
+        for scene, marker in jobs:
+            source = scene.measured or scene
+            for start, stop in runs(~source.present[:, marker]):
+                inputs = self._inputs(source, scene, marker, start, stop)
+                if len(inputs) and (marker, inputs.tobytes()) not in self._trained(source):
+                    wanted[id(source), marker, inputs.tobytes()] = source, marker, inputs
+        if wanted:
+            self._learn(list(wanted.values()))
+
+    def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """See Predictor. Inputs that are missing are told from those that are there, where enough are."""
+        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        positions = np.full((stop - start + 2, 3), np.nan)
+        source = hidden.measured or hidden
+        inputs = self._inputs(source, hidden, marker, start, stop)
+        if len(inputs):
+            key = marker, inputs.tobytes()
+            if key not in self._trained(source):
+                self._learn([(source, marker, inputs)])
+            frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
+            positions[frames - (start - 1)] = self._apply(self._trained(source)[key], source, hidden, inputs, frames)
+        return Prediction(positions, np.full(len(positions), np.nan))
+
+    def _trained(self, source: Scene) -> dict[tuple[int, bytes], _Network]:
+        """The networks that learned from a scene, by marker and inputs; what is added stays."""
+        return source.remember((self, "networks"), dict)
+
+    def _inputs(self, source: Scene, scene: Scene, marker: int, start: int, stop: int) -> np.ndarray:
+        """The neighbours to feed (k,); none where too few frames train.
+
+        The siblings and the parent marker, then the first of the mesh's ranking, so that one network serves all gaps of
+        a marker. Where too few of these are seen throughout [start, stop), the first that are, if those are enough.
+        """
+        options, near = self.options, np.asarray(source.neighbours[marker], int)
+        if source.relatives is not None:
+            related = np.asarray(source.relatives[marker], int)
+            near = np.concatenate([related, near[~np.isin(near, related)]])
+        seen = np.logical_and.reduce(scene.present[start:stop], axis=0)
+        choices = []
+        for ranked in (near, near[seen[near]]):
+            chosen, _ = companions(source, marker, ranked, share=options.share, minimum_frames=options.minimum_frames)
+            choices.append(chosen[: options.inputs])
+            if np.count_nonzero(seen[choices[-1]]) >= options.minimum_inputs:
+                return choices[-1]
+        return choices[0]
+
+    def _learn(self, tasks: Sequence[_Task]) -> None:
+        """Train a network for each task, and let the scenes that they learn from remember them."""
+        from markermend.predictors.network_training import train
+
+        prepared = [self._lesson(*task) for task in tasks]
+        learned = train(self.kind, [lesson for lesson, _, _ in prepared], self.options)
+        for (source, marker, inputs), (_, inlet, outlet), weights in zip(tasks, prepared, learned, strict=True):
+            self._trained(source)[marker, inputs.tobytes()] = _Network(inlet, outlet, weights)
+
+    def _lesson(self, source: Scene, marker: int, inputs: np.ndarray) -> tuple[Lesson, Scale, Scale]:
+        """What a network learns from, in z-scores, and the scales of its inputs and targets."""
+        from markermend.predictors.network_training import GATES, Lesson
+
+        options = self.options
+        seen = source.present[:, marker] & source.present[:, inputs].all(axis=1)
+        parts = [thinned(np.flatnonzero(seen), options.frames)]
+        if self.kind in GATES:
+            longest = len(seen) if options.stretch_s is None else max(2, round(options.stretch_s * source.rate))
+            parts = stretches(seen, longest=longest, frames=options.frames)
+        columns, middle = features(source.positions[:, inputs], np.concatenate(parts), centred=options.centred)
+        targets = source.positions[np.concatenate(parts), marker] - middle
+        inlet, outlet = Scale.of(columns), Scale.of(targets)
+        cuts = np.cumsum([len(part) for part in parts])[:-1]
+        return Lesson(np.split(inlet.scores(columns), cuts), np.split(outlet.scores(targets), cuts)), inlet, outlet
+
+    def _apply(
+        self, network: _Network, source: Scene, scene: Scene, inputs: np.ndarray, frames: np.ndarray
+    ) -> np.ndarray:
+        """Predicted position (n, 3) at consecutive frames, NaN where too few inputs are seen."""
+        from markermend.predictors.network_training import evaluate
+
+        options, reach = self.options, 1 + round(self.options.context_s * scene.rate)
+        first, last = max(frames[0] - reach, 0), min(frames[-1] + 1 + reach, len(scene.positions))
+        examples = thinned(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.frames)
+        near = completed(
+            scene.positions[first:last, inputs],
+            source.positions[np.ix_(examples, inputs)],
+            minimum=min(options.minimum_inputs, len(inputs)),
+        )
+        columns, middle = features(near, np.arange(last - first), centred=options.centred)
+        told = np.full((last - first, 3), np.nan)
+        for start, stop in runs(~np.isnan(columns).any(axis=1)):
+            scores = evaluate(self.kind, network.weights, network.inlet.scores(columns[start:stop]))
+            told[start:stop] = network.outlet.columns(scores) + middle[start:stop]
+        # The order of sums depends on batch and threads, and shows in the last bits: no trace of it is left.
+        return np.round(told[frames - first], 3)
