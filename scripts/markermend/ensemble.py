@@ -37,8 +37,7 @@ class EnsembleOptions:
     frames that make a reference. frames: most frames and samples used to learn distances. smoothing_s: moving average
     over the likelihoods. floor: least likelihood. spacing_references, spacing_low, spacing_high, spacing_rounds: see
     constrain_spacing (0 rounds: off). error_mm: least error of a member. prior: weight of the stated errors, in
-    pseudo-gaps, against what the pseudo-gaps tell. radius68, radius95: radii of the balls that hold 68 and 95 %, in
-    units of the calibrated standard deviation per axis (Gaussian: 1.872 and 2.795).
+    pseudo-gaps, against what the pseudo-gaps of a gap tell. radius: see RadiusOptions.
     """
 
     weights: str
@@ -60,8 +59,7 @@ class EnsembleOptions:
     spacing_rounds: int
     error_mm: float
     prior: float
-    radius68: float
-    radius95: float
+    radius: Mapping[str, float]
 
     def __post_init__(self) -> None:
         if self.weights not in WEIGHTS:
@@ -72,13 +70,12 @@ class EnsembleOptions:
 class Filling:
     """What to write into a gap of n frames.
 
-    positions: (n, 3), mm, NaN where no member can tell. error, error95: (n,), mm, radii of the balls that hold the true
-    position with probability 0.68 and 0.95. weights: the members' mean shares.
+    positions: (n, 3), mm, NaN where no member can tell. deviation: (n,), mm, standard deviation of each axis. weights:
+    the members' mean shares.
     """
 
     positions: np.ndarray
-    error: np.ndarray
-    error95: np.ndarray
+    deviation: np.ndarray
     weights: dict[str, float]
 
 
@@ -87,12 +84,14 @@ class Trust:
     """What pseudo-gaps tell about the members.
 
     typical: (members,), mm, root mean square distance to the truth, NaN where unknown. shares: (members,), weights that
-    follow from it. scale: factor on the stated standard deviation.
+    follow from it. scale: factor on the stated standard deviation. missed: for each pseudo-gap, by how many standard
+    deviations each sample was missed, had only the other pseudo-gaps been known.
     """
 
     typical: np.ndarray
     shares: np.ndarray
     scale: float
+    missed: tuple[np.ndarray, ...]
 
 
 @dataclass(frozen=True)
@@ -128,17 +127,17 @@ class Ensemble:
         options = self.options
         trials = pseudo_gaps(hidden, marker, start, stop, count=options.pseudo_gaps, share=options.hidden_share)
         tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
-        typical = _typical_errors(trials, tried, len(self.members))
-        untested = Trust(typical, self._shares(typical), 1.0)
+        errors = _errors(trials, tried, len(self.members))
         judges = self._judges(hidden, marker)
-        ratios = [np.nan]
-        for trial, candidates in zip(trials, tried, strict=True):
-            guess, stated, _ = self._average(trial.scene, judges, trial.start, candidates, untested)
-            ratio = ((guess - trial.truth) ** 2).mean(axis=1) / stated**2
-            ratios.append(float(ratio[np.isfinite(ratio)].mean()) if np.isfinite(ratio).any() else np.nan)
-        prior, count = self.options.prior, int(np.isfinite(ratios).sum())
-        scale = np.sqrt((prior + np.nansum(ratios)) / (prior + count)) if prior + count else 1.0
-        return replace(untested, scale=float(scale))
+        ratios, missed = np.full(len(trials), np.nan), []
+        for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
+            others = self._trust(np.delete(errors, k, axis=0))
+            guess, stated, _ = self._average(trial.scene, judges, trial.start, candidates, others)
+            missed.append(np.linalg.norm(guess - trial.truth, axis=1) / stated)
+            known = missed[-1][~np.isnan(missed[-1])]
+            ratios[k] = (known**2).mean() / 3 if len(known) else np.nan
+        scaled = [values / self._scale(np.delete(ratios, k)) for k, values in enumerate(missed)]
+        return replace(self._trust(errors), scale=self._scale(ratios), missed=tuple(scaled))
 
     def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
         """Fill one gap. The marker's samples in [start, stop) are not looked at."""
@@ -146,9 +145,9 @@ class Ensemble:
         candidates = self._candidates(self.members, hidden, marker, start, stop)
         judges = self._judges(hidden, marker)
         positions, stated, shares = self._average(hidden, judges, start, candidates, trust)
-        sigma = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
+        deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
         named = {member.name: float(share) for member, share in zip(self.members, shares, strict=True) if share > 0}
-        return Filling(positions, self.options.radius68 * sigma, self.options.radius95 * sigma, named)
+        return Filling(positions, deviation, named)
 
     def _candidates(
         self, members: Sequence[Predictor], scene: Scene, marker: int, start: int, stop: int
@@ -167,6 +166,18 @@ class Ensemble:
             course = predicted.positions if member.continuous else constrain_time(predicted.positions, borders)
             positions[k], errors[k] = course[1:-1], predicted.error[1:-1]
         return _Candidates(positions, errors)
+
+    def _trust(self, errors: np.ndarray) -> Trust:
+        """What to think of the members after errors (pseudo-gaps, 2, members) as from _errors."""
+        square, count = errors.sum(axis=0)
+        typical = np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
+        return Trust(typical, self._shares(typical), 1.0, ())
+
+    def _scale(self, ratios: np.ndarray) -> float:
+        """Factor on stated deviations: by how much the pseudo-gaps were missed in the mean, mean squares (n,)."""
+        known = ratios[~np.isnan(ratios)]
+        whole = self.options.prior + len(known)
+        return math.sqrt((self.options.prior + known.sum()) / whole) if whole else 1.0
 
     def _shares(self, typical: np.ndarray) -> np.ndarray:
         """Weights (members,) from the errors on pseudo-gaps (members,), mm; all alike where nothing could be tried."""
@@ -237,12 +248,10 @@ class Ensemble:
         return positions, np.sqrt(variance), weights.mean(axis=1)
 
 
-def _typical_errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: int) -> np.ndarray:
-    """Root mean square distance (members,) over the pseudo-gaps, mm; NaN where a member told nothing."""
-    square, count = np.zeros(members), np.zeros(members)
-    for trial, candidates in zip(trials, tried, strict=True):
-        distance = ((candidates.positions - trial.truth) ** 2).sum(axis=2)
-        known = ~np.isnan(distance)
-        square += np.where(known, distance, 0).sum(axis=1)
-        count += known.sum(axis=1)
-    return np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
+def _errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: int) -> np.ndarray:
+    """Sum of squared distances to the truth, mm^2, and samples that a member told: (pseudo-gaps, 2, members)."""
+    errors = np.zeros((len(trials), 2, members))
+    for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
+        square = ((candidates.positions - trial.truth) ** 2).sum(axis=2)
+        errors[k] = np.nansum(square, axis=1), np.count_nonzero(~np.isnan(square), axis=1)
+    return errors

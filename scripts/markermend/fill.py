@@ -11,12 +11,17 @@ from typing import Any
 
 import numpy as np
 
+from markermend.calibration import RadiusOptions, radii
+from markermend.decisions import GAP, Decision, Ruling, rule
 from markermend.ensemble import Ensemble, Filling, Trust
 from markermend.predictors import Scene
 from markermend.predictors.interpolation import KINDS
 from markermend.recording import FILLED, MEASURED, MISSING, Restored, runs
 
 log = logging.getLogger("markermend")
+
+NOBODY: Mapping[str, Ensemble] = {}
+"""No ensembles."""
 
 
 @dataclass(frozen=True)
@@ -51,18 +56,27 @@ class Gap:
 
 
 def fill_gaps(
-    restored: Restored, neighbours: Sequence[np.ndarray], *, ensemble: Ensemble, options: FillOptions
+    restored: Restored,
+    neighbours: Sequence[np.ndarray],
+    *,
+    ensemble: Ensemble,
+    options: FillOptions,
+    decisions: Sequence[Decision] = (),
+    alone: Mapping[str, Ensemble] = NOBODY,
 ) -> Restored:
     """Fill the gaps of a recording; every gap is afterwards in the facts `fills` or, with a reason, `gaps_left`.
 
-    neighbours: as in Scene. Only missing samples are written, a gap as a whole or not at all. Static recordings are
-    left as they are. Markers that are seen most come first (tits2018).
+    neighbours: as in Scene. decisions: what a person says, against which no limit holds. alone: for each member that
+    decisions name, the ensemble that it is. Only missing samples are written, a gap as a whole or not at all. Static
+    recordings are left as they are. Markers that are seen most come first (tits2018), and gaps that a person wants
+    filled last, so that they change no other.
     """
     missing = restored.missing
     found = list(_gaps(missing))
-    left = {gap: reason for gap in found if (reason := why_not(restored, missing, gap, options))}
+    rulings = {gap: rule(decisions, [GAP], [restored.markers[gap.marker]], gap.start, gap.stop, alone) for gap in found}
+    left = {gap: reason for gap in found if (reason := why_not(restored, missing, gap, options, rulings[gap]))}
     planned = sorted(
-        (gap for gap in found if gap not in left),
+        (gap for gap in found if gap not in left and not rulings[gap].confirmed),
         key=lambda gap: (np.count_nonzero(missing[:, gap.marker]), gap.marker, gap.start),
     )
     altered = np.count_nonzero((restored.origin != MEASURED) & (restored.origin != MISSING))
@@ -72,19 +86,25 @@ def fill_gaps(
         left |= dict.fromkeys(planned, reason)
         planned = []
     filler = _Filler(restored, neighbours, ensemble, options)
-    fills = []
     for number, gap in enumerate(planned, start=1):
-        outcome = filler.fill(gap)
-        if isinstance(outcome, str):
-            left[gap] = outcome
-        else:
-            fills.append({**_named(restored, gap), **_method(outcome)})
+        filler.fill(gap)
         if number % 50 == 0:
             log.info("%d of %d gaps", number, len(planned))
+    fillers, result = [filler], filler.finish(restored)
+    wanted = [gap for gap in found if gap not in left and rulings[gap].confirmed]
+    for method in sorted({rulings[gap].method or "" for gap in wanted}):
+        own = _Filler(restored, neighbours, alone.get(method, ensemble), replace(options, max_error_mm=None), filler)
+        for gap in wanted:
+            if (rulings[gap].method or "") == method:
+                own.fill(gap)
+        fillers, result = [*fillers, own], own.finish(result)
+    filled = {gap: filling for each in fillers for gap, filling in each.filled.items()}
+    left |= {gap: reason for each in fillers for gap, reason in each.left.items()}
+    fills = [{**_named(restored, gap), **_method(filling), **rulings[gap].note} for gap, filling in filled.items()]
     fills.sort(key=lambda entry: (entry["marker"], entry["start"]))
-    gaps_left = [{**_named(restored, gap), "reason": left[gap]} for gap in found if gap in left]
+    gaps_left = [{**_named(restored, gap), "reason": left[gap], **rulings[gap].note} for gap in found if gap in left]
     gaps_left.sort(key=lambda entry: (entry["marker"], entry["start"]))
-    return replace(filler.result, facts={**restored.facts, "fills": fills, "gaps_left": gaps_left})
+    return replace(result, facts={**restored.facts, "fills": fills, "gaps_left": gaps_left})
 
 
 def _gaps(missing: np.ndarray) -> Iterable[Gap]:
@@ -105,8 +125,11 @@ def _method(filling: Filling) -> dict[str, Any]:
     return {"method": next(iter(weights)) if len(weights) == 1 else "ensemble", "weights": weights}
 
 
-def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOptions) -> str | None:
-    """The reason for which a gap is not to be filled, None where it may be tried. missing: that of the recording."""
+def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOptions, ruling: Ruling) -> str | None:
+    """The reason for which a gap is not to be filled, None where it may be tried.
+
+    missing: that of the recording. ruling: what a person's decisions come to for the gap.
+    """
     name, frames, length = restored.markers[gap.marker], restored.frames, gap.stop - gap.start
     if restored.facts.get("kind") == "static":
         return "static recording"
@@ -115,6 +138,8 @@ def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOpti
         return "never seen"
     if any(fnmatchcase(name, pattern) for pattern in options.protect):
         return "protected marker"
+    if ruling.left or ruling.confirmed:
+        return ruling.left
     if seen < options.seen_share:
         return f"marker seen in {seen:.0%} of the frames, {options.seen_share:.0%} needed"
     if not options.ends and (gap.start == 0 or gap.stop == frames):
@@ -137,55 +162,83 @@ def longest_gap(name: str, options: FillOptions) -> float | None:
 
 
 class _Filler:
-    """A recording while its gaps are being filled."""
+    """A recording while its gaps are being filled: what has been `filled`, and what was `left` for which reason."""
 
     def __init__(
-        self, restored: Restored, neighbours: Sequence[np.ndarray], ensemble: Ensemble, options: FillOptions
+        self,
+        restored: Restored,
+        neighbours: Sequence[np.ndarray],
+        ensemble: Ensemble,
+        options: FillOptions,
+        before: _Filler | None = None,
     ) -> None:
-        self.result = replace(
-            restored,
-            positions=restored.positions.copy(),
-            origin=restored.origin.copy(),
-            error=restored.error.copy(),
-            error95=restored.error95.copy(),
-        )
-        self._references = restored.positions.copy()
-        self.scene = Scene(restored.positions, restored.rate, neighbours)
-        self.ensemble, self.options = ensemble, options
+        """before: whose fillings are references for these."""
+        self.filled: dict[Gap, Filling] = {}
+        self.left: dict[Gap, str] = {}
+        self._ensemble, self._options = ensemble, options
+        self._radius = RadiusOptions(**ensemble.options.radius)
+        self._references: np.ndarray = before._references.copy() if before else restored.positions.copy()
+        self._doubt: np.ndarray = before._doubt.copy() if before else np.zeros(restored.missing.shape)
+        self._scene = Scene(restored.positions, restored.rate, neighbours)
         self._trust: dict[tuple[Hashable, ...], Trust] = {}
         self._marker: int | None = None
 
-    def fill(self, gap: Gap) -> Filling | str:
-        """Fill one gap in the result; or tell why not.
+    def fill(self, gap: Gap) -> None:
+        """Fill one gap, or tell why not.
 
         All gaps of a marker see the same scene, in which none of them is filled: so they share what is learned from it,
         and no marker learns from what was made up for it.
         """
         if gap.marker != self._marker:
-            measured = self.scene.measured or self.scene
-            self.scene = replace(self.scene, positions=self._references.copy(), measured=measured)
+            measured = self._scene.measured or self._scene
+            self._scene = replace(
+                self._scene, positions=self._references.copy(), measured=measured, doubt=self._doubt.copy()
+            )
             self._marker = gap.marker
-        filling = self.ensemble.fill(self.scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
-        if np.isnan(filling.positions).any() or np.isnan(filling.error95).any():
-            near = self.scene.present[gap.start : gap.stop, self.scene.neighbours[gap.marker]]
+        filling = self._ensemble.fill(self._scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
+        if np.isnan(filling.positions).any() or np.isnan(filling.deviation).any():
+            near = self._scene.present[gap.start : gap.stop, self._scene.neighbours[gap.marker]]
             fewest = int(near.sum(axis=1).min())
-            return f"no method could fill it; fewest neighbours seen: {fewest}"
-        worst = float(filling.error.max())
-        if self.options.max_error_mm is not None and worst > self.options.max_error_mm:
-            return f"expected error {worst:.0f} mm, at most {self.options.max_error_mm:g} mm wanted"
-        place = slice(gap.start, gap.stop), gap.marker
-        self.result.positions[place] = filling.positions
-        self.result.origin[place] = FILLED
-        self.result.error[place] = filling.error
-        self.result.error95[place] = filling.error95
-        # A course drawn in time alone knows nothing of the body: it is no reference.
-        if self.options.reuse and not set(filling.weights) <= set(KINDS):
+            self.left[gap] = f"no method could fill it; fewest neighbours seen: {fewest}"
+            return
+        self.filled[gap] = filling
+        # A course drawn in time alone knows nothing of the body: it is no reference, nor is what will not be believed.
+        told = not set(filling.weights) <= set(KINDS)
+        if self._options.reuse and told and self._refusal(filling, self._radius.inner) is None:
+            place = slice(gap.start, gap.stop), gap.marker
             self._references[place] = filling.positions
-        return filling
+            self._doubt[place] = filling.deviation
+
+    def finish(self, old: Restored) -> Restored:
+        """A recording with all gaps that could be filled well enough besides, and their expected errors."""
+        inner, outer = radii([part for trust in self._trust.values() for part in trust.missed], self._radius)
+        result = replace(
+            old,
+            positions=old.positions.copy(),
+            origin=old.origin.copy(),
+            error=old.error.copy(),
+            error95=old.error95.copy(),
+        )
+        self.left |= {gap: why for gap, own in self.filled.items() if (why := self._refusal(own, inner)) is not None}
+        self.filled = {gap: filling for gap, filling in self.filled.items() if gap not in self.left}
+        for gap, filling in self.filled.items():
+            place = slice(gap.start, gap.stop), gap.marker
+            result.positions[place] = filling.positions
+            result.origin[place] = FILLED
+            result.error[place] = inner * filling.deviation
+            result.error95[place] = outer * filling.deviation
+        return result
+
+    def _refusal(self, filling: Filling, radius: float) -> str | None:
+        """Why a filling is not good enough, given the radius of the 68 % ball; None where it is."""
+        worst, most = radius * float(filling.deviation.max()), self._options.max_error_mm
+        if most is None or worst <= most:
+            return None
+        return f"expected error {worst:.0f} mm, at most {most:g} mm wanted"
 
     def _trusted(self, gap: Gap) -> Trust:
         """What pseudo-gaps tell for this gap, or told for one of similar length that missed the same markers."""
-        key = self.ensemble.sort(self.scene, gap.marker, gap.start, gap.stop)
+        key = self._ensemble.sort(self._scene, gap.marker, gap.start, gap.stop)
         if key not in self._trust:
-            self._trust[key] = self.ensemble.try_out(self.scene, gap.marker, gap.start, gap.stop)
+            self._trust[key] = self._ensemble.try_out(self._scene, gap.marker, gap.start, gap.stop)
         return self._trust[key]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from markermend.predictors import Scene
+from markermend.recording import runs
 
 
 @dataclass(frozen=True)
@@ -23,32 +24,42 @@ class PseudoGap:
 def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int, share: float) -> list[PseudoGap]:
     """Hide stretches as long as the gap [start, stop), spread evenly over where the marker is seen with both borders.
 
+    Where the marker is not seen that long, they are two thirds of its longest stretch.
+
     A gap at an end of the recording has but one border: on the other side its trials hide as much again, at least 1 s.
-    What neighbours miss during the real gap they miss at the same offsets of the trial. Fewer than `count` stretches,
-    or none, where the marker is not seen that long; the real gap itself stays hidden in all.
+    What neighbours miss during the real gap they miss at the same offsets of the trial, and where they were filled they
+    are moved as far as the filling may be off (Scene.doubt). The real gap itself stays hidden in all.
 
     Trials share a scene, in which all of them are hidden, so that what is learned from it serves all: as many as hide at
     most `share` of the samples of the marker and are at least as far apart as each is long.
     """
-    length = stop - start
+    longest = max((last - first for first, last in runs(scene.present[:, marker])), default=0)
+    length = min(stop - start, 2 * (longest - 2) // 3)
+    if length < 1 or count == 0:
+        return []
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
     begins = np.arange(1, len(scene.positions) - length)
     begins = begins[seen[begins + length + 1] - seen[begins - 1] == length + 2]
-    if len(begins) == 0 or count == 0:
-        return []
     chosen = begins[np.unique(np.linspace(0, len(begins) - 1, count + 2).astype(int)[1:-1])]
-    absent = ~scene.present[start:stop]
+    rows = np.linspace(start, stop - 1, length).astype(int)
+    absent = ~scene.present[rows]
     beyond = max(length, round(scene.rate))
     before, after = beyond * (start == 0), beyond * (stop == len(scene.positions))
     hidden = before + length + after
+    doubt = np.zeros((length, scene.positions.shape[1])) if scene.doubt is None else scene.doubt[rows]
+    # The same gap gets the same trials in every run; an error of filling lasts about as long as the gap.
+    directions = np.random.default_rng([marker, start, stop]).standard_normal(
+        (len(chosen), scene.positions.shape[1], 3)
+    )
     every = _scenes(chosen, room=2 * hidden, most=int(share * seen[-1] / hidden))
     trials: dict[int, PseudoGap] = {}
     for first in range(every):
         positions = scene.positions.copy()
-        for begin in chosen[first::every].tolist():
+        for begin, direction in zip(chosen[first::every].tolist(), directions[first::every], strict=True):
+            positions[begin : begin + length] += doubt[..., None] * direction
             positions[begin : begin + length][absent] = np.nan
             positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
-        shared = replace(scene, positions=positions, measured=None)
+        shared = replace(scene, positions=positions, measured=None, doubt=None)
         for begin in chosen[first::every].tolist():
             trials[begin] = PseudoGap(shared, begin, begin + length, scene.positions[begin : begin + length, marker])
     return [trials[begin] for begin in chosen.tolist()]
