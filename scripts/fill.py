@@ -4,11 +4,13 @@ Reads: 06_repaired.parquet, mesh.json.
 Writes: 07_filled.parquet.
 """
 
-from markermend import mesh, storage
+from dataclasses import replace
+
+from markermend import decisions, mesh, storage
 from markermend.ensemble import Ensemble, EnsembleOptions
 from markermend.fill import FillOptions, fill_gaps
-from markermend.predictors.registry import FAMILIES, members
-from markermend.stage import Stage, boolean, mapping, optional
+from markermend.predictors.registry import FAMILIES, REGISTRY, members
+from markermend.stage import Stage, boolean, mapping, objects, optional
 
 STAGE = Stage("fill", __doc__)
 STAGE.reads("repaired", "trajectories after repair")
@@ -18,6 +20,7 @@ STAGE.option("max_gap_s", optional(float), "longest gap filled, s; a longer one 
 STAGE.option("max_gap_s_of", mapping, "longest gap of single markers, s, by name pattern with * and ?")
 STAGE.option("ends", boolean, "whether gaps at the recording's start and end are filled")
 STAGE.option("protect", str, "markers never filled, as name patterns with * and ?", many=True)
+STAGE.option("decisions", objects, "what a person decided about the recording (config/README.md)")
 STAGE.option("seen_share", float, "markers seen in a smaller share of the frames are left alone")
 STAGE.option("border_s", float, "time for which a marker must be seen without a break on either side, s")
 STAGE.option("max_error_mm", optional(float), "gaps whose expected error exceeds this stay open, mm")
@@ -37,13 +40,20 @@ def work(call):
     body = mesh.read(call.mesh, restored.facts["recording"])
     settings = {name: call.options[name] for name in FAMILIES}
     own = {name: value for name, value in call.options.items() if name not in settings}
-    names, most, averaging = (own.pop(name) for name in ("members", "trial_frames", "ensemble"))
-    full, brief = members(names, settings), members(names, settings, most_frames=most)
+    names, most, decided = (own.pop(name) for name in ("members", "trial_frames", "decisions"))
+    averaging = EnsembleOptions(**own.pop("ensemble"))
+    wanted = {entry["value"] for entry in decided if entry["decision"] == "method"} & {*REGISTRY, *settings["variants"]}
+
+    def together(names, options):
+        return Ensemble(members(names, settings), members(names, settings, most_frames=most), options)
+
     filled = fill_gaps(
         restored,
         body.neighbour_indices(restored.markers),
-        ensemble=Ensemble(full, brief, EnsembleOptions(**averaging)),
+        ensemble=together(names, averaging),
         options=FillOptions(**own),
+        decisions=decisions.read(decided, restored.first_frame),
+        alone={name: together([name], replace(averaging, longest_s={})) for name in sorted(wanted)},
     )
     storage.write_recording(call.filled, filled, call.facts)
     return f"{len(filled.facts['fills'])} gaps filled, {len(filled.facts['gaps_left'])} left"

@@ -4,10 +4,11 @@ Reads: 01_markers.parquet, mesh.json, the events files, in the order of the dete
 Writes: 06_repaired.parquet.
 """
 
-from markermend import mesh, storage
+from markermend import decisions, mesh, storage
 from markermend.predictors.registry import REGISTRY, members
 from markermend.repair import RepairOptions, repair
-from markermend.stage import Stage, mapping
+from markermend.repair_methods import METHODS
+from markermend.stage import Stage, mapping, objects
 
 STAGE = Stage("repair", __doc__)
 STAGE.reads("markers", "trajectories as ingested")
@@ -16,6 +17,7 @@ STAGE.reads("events", "findings, one file per detector", many=True, optional=Tru
 STAGE.writes("repaired", "trajectories after repair")
 STAGE.option("methods", mapping, "for each detector the methods to try, best first: predictors, offset, swap, ...")
 STAGE.option("protect", str, "markers never touched, as name patterns with * and ?", many=True)
+STAGE.option("decisions", objects, "what a person decided about the recording (config/README.md)")
 STAGE.option("max_altered_share", float, "share of the seen samples; if more are found, nothing is repaired")
 STAGE.option("max_repair_s", float, "longer findings become missing instead, s")
 STAGE.option("max_error_mm", float, "findings whose repair is expected to err by more become missing instead, mm")
@@ -33,13 +35,17 @@ def work(call):
     found = {storage.read_facts(path)["stage"]: storage.read_events(path) for path in call.events}
     settings = {name: call.options[name] for name in ("local_ridge", "interpolation")}
     own = {name: value for name, value in call.options.items() if name not in settings}
-    names = {name for methods in own["methods"].values() for name in methods if name in REGISTRY} | {"local_ridge"}
+    decided = own.pop("decisions")
+    named = {name for methods in own["methods"].values() for name in methods}
+    named |= {entry["value"] for entry in decided if entry["decision"] == "method"}
+    names = named & set(REGISTRY) & set(METHODS) | {"local_ridge"}
     result = repair(
         recording,
         found=found,
         neighbours=body.neighbour_indices(recording.markers),
         predictors={predictor.name: predictor for predictor in members(sorted(names), settings)},
         options=RepairOptions(**own),
+        decisions=decisions.read(decided, recording.first_frame),
     )
     storage.write_recording(call.repaired, result, call.facts)
     return f"{len(result.facts['repairs'])} repairs, {len(result.facts['repairs_left'])} findings not repaired"

@@ -68,18 +68,17 @@ def load(
             problems.append(f"line {number}, column {column}: {text}")
             continue
         if found is None:
-            close = suggestion(row["recording"], {entry.recording for entry in entries})
-            warnings.append(f"{path} line {number}: no recording {row['recording']!r} among the recordings{close}")
+            warnings.append(f"decisions: {path} line {number}: {absent(row, entries)}")
         else:
             lines.setdefault(found.folders, []).append(line)
     for several in lines.values():
         problems += contradictions(several)
     decided = {folders: in_order(several) for folders, several in lines.items()}
-    for (subject, recording), several in decided.items():
-        if len(json.dumps(several).encode()) > LARGEST:
-            problems.append(
-                f"{len(several)} lines on {subject}/{recording} are too many; use patterns, longer stretches"
-            )
+    problems += [
+        f"{len(objects)} lines on {'/'.join(folders)} are too many; use patterns and longer stretches"
+        for folders, objects in decided.items()
+        if len(json.dumps(objects)) > LARGEST
+    ]
     if problems:
         raise BadDataSet("\n".join([f"decisions: {path} cannot be used (config/README.md)", *problems]))
     return decided, warnings
@@ -159,6 +158,15 @@ def recordings_of(row: Mapping[str, str], entries: Sequence[Entry]) -> Entry | N
         subjects = ", ".join(entry.subject for entry in named)
         raise Problem("subject", f"is empty, and {row['recording']!r} is a recording of {subjects}")
     return named[0] if named else None
+
+
+def absent(row: Mapping[str, str], entries: Sequence[Entry]) -> str:
+    """Say that there is no such recording, and which may have been meant."""
+    subjects = [entry.subject for entry in entries if entry.recording == row["recording"]]
+    if subjects:
+        return f"subject {row['subject']!r} has no recording {row['recording']!r}, but {', '.join(subjects)} has"
+    close = suggestion(row["recording"], {entry.recording for entry in entries})
+    return f"no recording {row['recording']!r} among the recordings{close}"
 
 
 def in_order(lines: Sequence[Line]) -> list[dict[str, Any]]:

@@ -63,6 +63,14 @@ def mapping(text: str) -> dict[str, Any]:
     return value
 
 
+def objects(text: str) -> list[dict[str, Any]]:
+    """Parse a JSON list of objects."""
+    values = json.loads(text)
+    if not isinstance(values, list) or not all(isinstance(value, dict) for value in values):
+        raise ValueError(f"not a JSON list of objects: {text}")
+    return values
+
+
 class Stage:
     """One stage as a command: every flag is required, none may be abbreviated.
 
