@@ -10,8 +10,8 @@ from markermend.predictors import Prediction, Scene
 from markermend.predictors.references import alike, references, thinned
 
 CENTRINGS = ("complete", "available")
-"""What is subtracted from every frame: the mean of the markers that are never missing (those seen throughout the gap
-where there are none such), or, as the paper says, of the markers seen in that frame."""
+"""What is subtracted from every frame: the mean of the neighbours that are never missing (the inputs where there are none
+such), or, as the paper says, of those seen in that frame. Never of all markers: these may be on another person."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +74,11 @@ class GlobalRegression:
 
     def _centre(self, scene: Scene, marker: int, inputs: np.ndarray, frames: np.ndarray) -> np.ndarray:
         """What is subtracted from each frame, (n, 3)."""
-        others = np.arange(scene.positions.shape[1]) != marker
+        near = np.sort(np.asarray(scene.neighbours[marker], int))
         if self.options.centring == "available":
-            positions = scene.positions[np.ix_(frames, np.flatnonzero(others))]
-            known = scene.present[np.ix_(frames, np.flatnonzero(others))]
+            positions = scene.positions[np.ix_(frames, near)]
+            known = scene.present[np.ix_(frames, near)]
             return np.where(known[..., None], positions, 0).sum(axis=1) / known.sum(axis=1)[:, None]
-        complete = np.flatnonzero(scene.present.all(axis=0) & others)
+        complete = near[scene.present[:, near].all(axis=0)]
         chosen = complete if len(complete) else inputs
         return scene.positions[np.ix_(frames, chosen)].mean(axis=1)
