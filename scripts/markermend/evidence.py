@@ -15,6 +15,7 @@ from markermend.mesh import Mesh, for_recording
 from markermend.methods_text import paragraph
 from markermend.naming import decode
 from markermend.recording import BadRecording, Recording, Restored, SetAside
+from markermend.review import Outcome, drafts, outcomes
 
 TICKS = 8
 """About so many times along the map of what is missing."""
@@ -37,12 +38,17 @@ class Evidence:
     stages: dict[str, dict[str, Any]]
 
     @property
+    def decided(self) -> list[Outcome]:
+        """What came of a person's decisions."""
+        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after)
+
+    @property
     def warnings(self) -> list[str]:
-        """What ingest, the mesh and export warned of."""
+        """What ingest, the mesh and export warned of, and decisions that did nothing."""
         warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
         if refused := self.certificate["refused"]:
             warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
-        return warnings
+        return warnings + [outcome.warning for outcome in self.decided if outcome.warning]
 
 
 def read(call: Any) -> Evidence:
@@ -84,7 +90,8 @@ def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:
         warnings=seen.warnings,
         weights=weights,
     )
-    return {**summary, "methods": paragraph(seen.stages, summary["kind"], __version__)}
+    methods = paragraph(seen.stages, summary["kind"], __version__)
+    return {**summary, "decisions": len(seen.decided), "methods": methods}
 
 
 def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:
@@ -132,6 +139,8 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
         ticks=timeline.ticks(seen.before, TICKS),
         changes=seen.changes,
         left=seen.left,
+        decided=seen.decided,
+        drafts={"changed": drafts(seen.changes, seen.after), "open": drafts(seen.left, seen.after)},
         drawn=drawn,
         mesh=seen.mesh,
         certificate=seen.certificate,

@@ -17,7 +17,7 @@ from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Record
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
-    "method", "samples", "largest_change_mm", "expected_error_mm",
+    "method", "samples", "largest_change_mm", "expected_error_mm", "decision",
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
@@ -33,7 +33,8 @@ def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]
     """One row per change (COLUMNS), by marker and frame: repairs and fills, what was blanked, and their figures.
 
     The facts of the restored recording name the changes (`repairs`, `repairs_left`, `fills`). Where measured samples
-    were blanked and then filled, the row has the class and evidence of the finding and the method of the fill.
+    were blanked and then filled, the row has the class and evidence of the finding and the method of the fill. The
+    column decision has what a person decided about it.
     """
     differs, facts = changed(measured, restored), restored.facts
     filled = restored.origin == FILLED
@@ -52,17 +53,17 @@ def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]
             own[fill["start"] : fill["stop"]] = True
             own &= differs[:, m] & filled[:, m] & (measured.missing[:, m] != was_seen)
             for start, stop in runs(own):
-                change = (
-                    {**fill, **_finding(blanked, fill["marker"], start)} if was_seen else {**fill, "class": "filled"}
-                )
+                found = _finding(blanked, fill["marker"], start) if was_seen else {"class": "filled"}
+                told = [*found.get("decisions", ()), *fill.get("decisions", ())]
+                change = {**fill, **found, "decisions": list(dict.fromkeys(told))}
                 rows.append(_row(measured, restored, change, m, start, stop, own))
     return sorted(rows, key=lambda row: (row["marker"], row["first_frame"], row["class"]))
 
 
 def _finding(blanked: list[dict[str, Any]], marker: str, frame: int) -> dict[str, Any]:
-    """Class and score of the finding for which a measured sample was blanked."""
+    """Class, score and decisions of the finding for which a measured sample was blanked."""
     covering = (left for left in blanked if left["marker"] == marker and left["start"] <= frame < left["stop"])
-    return {key: value for key, value in next(covering).items() if key in ("class", "score")}
+    return {key: value for key, value in next(covering).items() if key in ("class", "score", "decisions")}
 
 
 def _row(
@@ -87,6 +88,7 @@ def _row(
         "samples": len(span),
         "largest_change_mm": _rounded(np.nanmax(moved) if np.isfinite(moved).any() else None),
         "expected_error_mm": _rounded(np.nanmax(error) if np.isfinite(error).any() else None),
+        "decision": "; ".join(change.get("decisions", ())),
     }
 
 

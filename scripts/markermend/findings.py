@@ -30,6 +30,7 @@ class Finding:
 
     kind: "gap" or the class of the artifact. score: in units of the detector's threshold. method: what replaced the
     samples; None where nothing did, and then reason says why. largest_change_mm, expected_error_mm: None where unknown.
+    decision: what a person decided about it, empty where nobody did.
     """
 
     kind: str
@@ -44,6 +45,7 @@ class Finding:
     samples: int = 0
     largest_change_mm: float | None = None
     expected_error_mm: float | None = None
+    decision: str = ""
 
     @property
     def concern_mm(self) -> float:
@@ -116,6 +118,7 @@ def _change(row: Mapping[str, str], first_frame: int) -> Finding:
         samples=int(row["samples"]),
         largest_change_mm=_number(row["largest_change_mm"]),
         expected_error_mm=_number(row["expected_error_mm"]),
+        decision=row["decision"],
     )
 
 
@@ -129,6 +132,7 @@ def _unrepaired(entry: Mapping[str, Any], found: Mapping[str, Iterable[Event]]) 
         score=entry.get("score"),
         reason=entry["reason"],
         samples=entry["stop"] - entry["start"],
+        decision="; ".join(entry.get("decisions", ())),
     )
     for stage, events in found.items():
         for event in events:

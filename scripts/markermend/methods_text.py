@@ -79,6 +79,8 @@ def paragraph(stages: Mapping[str, Mapping[str, Any]], kind: str | None, version
             )
     if "fill" in stages:
         told.append(_filling(stages["fill"], cite("averaging")))
+    if stages.get("fill", {}).get("decisions"):
+        told.append("Where a person reviewed findings and gaps, the decision of that person stood over these rules.")
     told.append(
         "Changed samples, and only those, were overwritten in a copy of each file, which was then compared with the "
         "original byte by byte."

@@ -81,7 +81,7 @@ def summarize(
     """Sum up one recording as JSON values.
 
     before, after: as ingested, and after repair and filling. found: events by class, for the detectors that ran.
-    changes, left: what was changed and what was not. weights: see `attention`. NaN samples are missing ones.
+    changes, left: what was changed and what was not; an artifact that a person left is not open. weights: see `attention`. NaN samples are missing ones.
     """
     touched = changed(before, after)
     errors = after.error[touched & ~after.missing]
@@ -104,7 +104,7 @@ def summarize(
         "changed_share": share(touched),
         "origins": {name: int((after.origin == code).sum()) for code, name in enumerate(ORIGINS)},
         **outcomes(changes),
-        "findings_open": totals([finding for finding in left if finding.kind != "gap"]),
+        "findings_open": totals([finding for finding in left if finding.kind != "gap" and not finding.decision]),
         "gaps_open": {**totals(gaps_left), "reasons": dict(Counter(finding.reason for finding in gaps_left))},
         "largest_change_mm": largest_change(before, after),
         "expected_error_median_mm": finite(np.median, errors),
