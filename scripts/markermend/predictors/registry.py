@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from markermend.predictors import Predictor
+from markermend.predictors.bolero import Bolero, BoleroOptions
 from markermend.predictors.gaussian import GaussianOptions, LocalGaussian
 from markermend.predictors.interpolation import KINDS, Interpolation
 from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
@@ -25,6 +26,7 @@ FAMILIES = {
     "msvd": "the predictor msvd",
     "weighted_pca": "the predictor weighted_pca",
     "kalman": "the predictor kalman",
+    "bolero": "the predictor bolero",
     "local_gp": "the predictor local_gp beyond those of local_ridge",
     "networks": "network_linear, network_tanh, network_lstm, network_gru and network_bilstm",
 }
@@ -52,6 +54,7 @@ REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     "msvd": lambda settings: IteratedSvd(SvdOptions(**settings["msvd"])),
     "weighted_pca": lambda settings: WeightedPca(PcaOptions(**settings["weighted_pca"])),
     "kalman": lambda settings: KalmanSmoother(KalmanOptions(**settings["kalman"])),
+    "bolero": lambda settings: Bolero(BoleroOptions(**settings["bolero"])),
     "local_gp": lambda settings: LocalGaussian(
         RidgeOptions(**settings["local_ridge"]), GaussianOptions(**settings["local_gp"])
     ),
