@@ -6,74 +6,13 @@ import pytest
 import bodies
 from markermend.events import Event
 from markermend.predictors import Prediction
-from markermend.predictors.interpolation import Interpolation
-from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.recording import MEASURED, MISSING, ORIGINS
-from markermend.repair import RepairOptions, repair
-
-RIDGE = RidgeOptions(
-    anchors=3,
-    inputs=8,
-    width_mm=5,
-    ridge_mm2=1,
-    frames=1000,
-    minimum_frames=60,
-    robust_sigmas=6,
-    scales_s=(0.05, 0.2, 1),
-    longest_s=1,
-    border_s=0.15,
-)
-METHODS = {
-    "peaks": ["spline"],
-    "noise": ["local_ridge"],
-    "steps": ["swap", "offset", "local_ridge"],
-    "slow": ["local_ridge"],
-}
-MARKER, START, STOP = "2b", 600, 640
-PREDICTORS = [Interpolation("spline", knots=10), Interpolation("linear", knots=10), LocalRidge(RIDGE)]
+from repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 
 
 @pytest.fixture(scope="module")
 def clean():
-    names, positions, _ = bodies.subject(8, frames=1500, markers=4)
-    rng = np.random.default_rng(3)
-    return bodies.recording(names, positions + rng.normal(0, 0.05, positions.shape))
-
-
-def neighbours_of(recording):
-    """The others of the same segment, then of the next ones: names carry the segment's number."""
-    segments = np.array([int(name[0]) for name in recording.markers])
-    return [
-        np.array([j for j in np.argsort(abs(segments - segments[m]), kind="stable") if j != m])
-        for m in range(len(segments))
-    ]
-
-
-def mend(recording, found, *, extra=None, **changes):
-    settings = {
-        "methods": METHODS,
-        "protect": [],
-        "max_altered_share": 0.3,
-        "max_repair_s": 2.0,
-        "max_error_mm": 20.0,
-        "coherent_share": 0.25,
-        "savitzky_golay_order": 13,
-        "savitzky_golay_s": 1.01,
-        "trials": 5,
-    }
-    return repair(
-        recording,
-        found=found,
-        neighbours=neighbours_of(recording),
-        predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
-        options=RepairOptions(**{**settings, **changes}),
-    )
-
-
-def distorted(clean, offsets, start=START, stop=STOP, marker=MARKER):
-    positions = clean.positions.copy()
-    positions[start:stop, clean.markers.index(marker)] += offsets
-    return bodies.recording(clean.markers, positions)
+    return body()
 
 
 def check_only(recording, result, start, stop, origin, marker=MARKER):
@@ -87,11 +26,6 @@ def check_only(recording, result, start, stop, origin, marker=MARKER):
     assert (result.origin[start:stop, m] == ORIGINS.index(origin)).all()
     assert (result.error[start:stop, m] > 0).all()
     assert (result.error95 >= result.error).all()
-
-
-def error(clean, result, start=START, stop=STOP, marker=MARKER):
-    m = clean.markers.index(marker)
-    return np.linalg.norm(result.positions[start:stop, m] - clean.positions[start:stop, m], axis=1)
 
 
 @pytest.mark.parametrize("kind", ["noise", "slow"])
