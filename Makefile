@@ -2,6 +2,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 CORES ?= all
+# Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
+TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
 .PHONY: demo test lint lock clean
 
@@ -28,10 +30,11 @@ lock: .venv/ready
 		--python-version 3.11 --upgrade --custom-compile-command "make lock" requirements.in --output-file requirements.lock
 	rm -r .venv-lock
 
-.venv/ready: requirements.lock
+.venv/ready: requirements.lock envs/torch.yaml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| (echo "markermend needs Python 3.11 or later: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1)
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(if $(TORCH),$(BIN)/pip install --quiet $(TORCH))
 	$(BIN)/pip install --quiet --require-hashes --requirement requirements.lock
 	touch $@
 

@@ -2,6 +2,7 @@
 
 import ast
 import re
+import subprocess
 import sys
 
 import pytest
@@ -45,3 +46,14 @@ def test_the_code_imports_nothing_else_and_torch_where_networks_train():
     imported = {path.name: set(imports(path)) for path in (PROJECT / "scripts").rglob("*.py")}
     assert set().union(*imported.values()) - sys.stdlib_module_names - {"markermend", "torch"} <= set(RUNTIME)
     assert [name for name, packages in imported.items() if "torch" in packages] == ["network_training.py"]
+
+
+def test_make_installs_the_torch_of_the_environment():
+    command = ["make", "--dry-run", "--always-make", ".venv/ready"]
+    usual = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    version = yaml.safe_load((PROJECT / "envs/torch.yaml").read_text())["dependencies"][-1]["pip"][0]
+    assert version.startswith("torch==")
+    # before the lock, which then has the last word on what both need
+    assert usual.index(f"pip install --quiet {version}\n") < usual.index("--require-hashes")
+    without = subprocess.run([*command, "TORCH="], cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    assert "torch" not in without

@@ -1,0 +1,86 @@
+"""Time the training of networks side by side against one after the other, on markers of a synthetic person.
+
+Writes: a table to stdout.
+
+    OMP_NUM_THREADS=1 .venv/bin/python benchmarks/networks.py --epochs 30
+
+Settings are those of config/config.yaml but for the epochs: time is proportional to them, and the ratio does not depend
+on them. Each number of networks is trained both ways in turn, on the same gaps; the last column is the largest distance
+between what the two tell, mm.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+
+import numpy as np
+import torch
+import yaml
+
+from markermend.predictors import Scene
+from markermend.predictors.networks import KINDS, Network, NetworkOptions
+from markermend.walker import make_body, walk
+
+PROJECT = Path(__file__).resolve().parents[1]
+OPTIONS = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))["fill"]["networks"]
+GAP = (500, 600)
+
+
+def positions(markers):
+    """A person for 15 s, with a gap of 1 s in each of so many markers, and who is near whom."""
+    rng = np.random.default_rng(1)
+    person = walk(
+        body=make_body(rng=rng),
+        duration=15.0,
+        rate=100.0,
+        activities=["exercise", "walk"],
+        noise=0.2,
+        soft_tissue=1.0,
+        rng=rng,
+    ).recording.positions
+    distance = np.linalg.norm(person[::20, :, None] - person[::20, None], axis=3)
+    spread = distance.std(axis=0) + 1e9 * np.eye(len(distance[0]))
+    gapped = person.copy()
+    gapped[GAP[0] : GAP[1], :markers] = np.nan
+    return gapped, [np.argsort(row, kind="stable")[:-1] for row in spread]
+
+
+def trained(network, place, jobs):
+    """Train the jobs (lists of markers) one after the other in a fresh scene; the seconds, and what all markers get."""
+    scene = Scene(place[0], 100.0, place[1])
+    started = time.perf_counter()
+    for markers in jobs:
+        network.train([(scene, marker) for marker in markers])
+    seconds = time.perf_counter() - started
+    return seconds, np.stack([network.predict(scene, marker, *GAP).positions for markers in jobs for marker in markers])
+
+
+def main():
+    """Parse the command line, train, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
+    parser.add_argument("--networks", nargs="+", type=int, default=[1, 8, 32], help="how many are trained at once")
+    parser.add_argument("--epochs", type=int, default=30)
+    parser.add_argument("--frames", type=int, default=OPTIONS["frames"], help="training frames, at most")
+    arguments = parser.parse_args()
+    batch = max(arguments.networks)
+    options = NetworkOptions(**{**OPTIONS, "epochs": arguments.epochs, "frames": arguments.frames, "batch": batch})
+    print(f"{torch.cuda.get_device_name() if torch.cuda.is_available() else 'CPU'}, {torch.get_num_threads()} threads")
+    print(f"{options.frames} frames, {options.epochs} epochs\n")
+    print(f"{'kind':16} {'networks':>8} {'at once, s':>11} {'one by one, s':>14} {'ratio':>6} {'apart, mm':>10}")
+    for kind in arguments.kinds:
+        network = Network(kind, options)
+        network.train([(Scene(*positions(1)[:1], 100.0, positions(1)[1]), 0)])
+        for number in arguments.networks:
+            place = positions(number)
+            once, told = trained(network, place, [range(number)])
+            single, other = trained(network, place, [[marker] for marker in range(number)])
+            apart = np.nanmax(np.linalg.norm(told - other, axis=2), initial=0)
+            print(f"{kind:16} {number:8} {once:11.2f} {single:14.2f} {single / once:6.1f} {apart:10.3f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
