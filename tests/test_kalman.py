@@ -5,29 +5,30 @@ import pytest
 
 from fillings import predictor, scene
 from markermend.constraints import constrain_time
-from markermend.predictors.kalman import Chain
+from markermend.predictors.kalman import steady_motion
 
 
-def small_chain(seed=3):
+def small_motion(seed=3):
+    """A steady motion, and what it is made of."""
     rng = np.random.default_rng(seed)
-    loading = rng.normal(size=(4, 3, 2))
-    return Chain(
-        loading,
-        rng.normal(size=(4, 3)) * 10,
-        noise=rng.uniform(0.1, 1, 4),
-        drive=rng.uniform(0.5, 2, 2),
-        start=np.array([50.0, 80.0]),
-        start_velocity=np.array([3.0, 2.0]),
-    )
+    parts = {
+        "loading": rng.normal(size=(4, 3, 2)),
+        "middle": rng.normal(size=(4, 3)) * 10,
+        "noise": rng.uniform(0.1, 1, 4),
+        "drive": rng.uniform(0.5, 2, 2),
+        "start": np.array([50.0, 80.0]),
+        "start_velocity": np.array([3.0, 2.0]),
+    }
+    return steady_motion(**parts), parts
 
 
-def dense_conditional(chain, observed, marker):
+def dense_conditional(parts, observed, marker):
     """Posterior by conditioning the joint Gaussian of all states and observations."""
-    frames, markers, _ = observed.shape
-    size = len(chain.drive)
+    frames, _, _ = observed.shape
+    size = len(parts["drive"])
     step = np.kron([[1, 1], [0, 1]], np.eye(size))
-    push = np.kron([[1 / 3, 1 / 2], [1 / 2, 1]], np.diag(chain.drive))
-    first = np.diag(np.concatenate([chain.start, chain.start_velocity]))
+    push = np.kron([[1 / 3, 1 / 2], [1 / 2, 1]], np.diag(parts["drive"]))
+    first = np.diag(np.concatenate([parts["start"], parts["start_velocity"]]))
     covariance = np.zeros((frames, 2 * size, frames, 2 * size))
     marginal = first
     for t in range(frames):
@@ -37,31 +38,30 @@ def dense_conditional(chain, observed, marker):
             passed = step @ passed
         marginal = step @ marginal @ step.T + push
     place = covariance[:, :size, :, :size]
-    joint = np.einsum("mka,tasb,nlb->tmksnl", chain.loading, place, chain.loading)
-    joint = joint.reshape(frames * markers * 3, -1)
+    joint = np.einsum("mka,tasb,nlb->tmksnl", parts["loading"], place, parts["loading"])
+    joint = joint.reshape(observed.size, -1)
     known = ~np.isnan(observed).reshape(-1)
-    noise = np.tile(np.repeat(chain.noise, 3), frames)
-    mean = np.tile(chain.middle.reshape(-1), frames)
+    noise = np.tile(np.repeat(parts["noise"], 3), frames)
+    mean = np.tile(parts["middle"].reshape(-1), frames)
     gain = np.linalg.solve((joint + np.diag(noise))[np.ix_(known, known)], joint[known]).T
     posterior = mean + gain @ (observed.reshape(-1) - mean)[known]
     variance = np.diag(joint - gain @ joint[known]) + noise
-    shape = (frames, markers, 3)
-    return posterior.reshape(shape)[:, marker], variance.reshape(shape)[:, marker]
+    return posterior.reshape(observed.shape)[:, marker], variance.reshape(observed.shape)[:, marker]
 
 
 def test_smoothing_equals_the_dense_conditional():
     rng = np.random.default_rng(4)
-    chain = small_chain()
+    system, parts = small_motion()
     observed = rng.normal(size=(14, 4, 3)) * 10
     observed[4:9, 1] = np.nan
     observed[6:8] = np.nan
     observed[12:, 2:] = np.nan
     before = observed.copy()
-    wanted = np.array([0, 5, 7, 13])
-    mean, variance = chain.smooth(observed, 1, wanted)
-    expected, spread = dense_conditional(chain, observed, 1)
+    states = system.smooth(observed)
+    expected, spread = dense_conditional(parts, observed, 1)
     assert np.array_equal(observed, before, equal_nan=True)
-    assert np.allclose(mean, expected) and np.allclose(variance, spread[wanted])
+    assert np.allclose(system.positions(states.mean)[:, 1], expected)
+    assert np.allclose(np.diagonal(system.spread(states.covariance, 1), axis1=1, axis2=2), spread)
 
 
 @pytest.mark.parametrize("left", [0, 2])
@@ -96,6 +96,26 @@ def test_the_error_grows_inside_a_blackout_and_with_its_length(walker):
     short = predictor("kalman").predict(hidden, 9, 300, 340).error
     long = predictor("kalman").predict(hidden, 9, 500, 600).error
     assert short[20] > 1.5 * short[0] and long[50] > 1.5 * short[20]
+
+
+@pytest.mark.parametrize(("length", "left"), [(30, 0), (80, 0), (40, 12)])
+def test_the_stated_error_is_that_of_the_truth_within_a_factor(length, left, walker):
+    positions = walker.recording.positions[:800]
+    seen = scene(positions)
+    square, stated = [], []
+    for marker in (3, 12, 20):
+        for start in (150, 400, 600):
+            gapped = positions.copy()
+            gapped[start : start + length] = np.nan
+            kept = seen.neighbours[marker][:left]
+            gapped[start : start + length, kept] = positions[start : start + length, kept]
+            found = predictor("kalman").predict(
+                type(seen)(gapped, 100.0, seen.neighbours), marker, start, start + length
+            )
+            square.append((found.positions[1:-1] - positions[start : start + length, marker]) ** 2)
+            stated.append(found.error[1:-1] ** 2)
+    ratio = np.sqrt(np.mean(square) / np.mean(stated))
+    assert 0.5 < ratio < 1.6
 
 
 def test_with_the_neighbours_there_the_pose_tells_the_place(walker):

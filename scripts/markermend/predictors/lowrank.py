@@ -113,7 +113,7 @@ def complete(
     trusted = len(whole) > matrix.shape[1]
     rank = _rank(whole if trusted else filled, explained)
     if trusted and holed.any():
-        filled[holed] = _expected(whole, matrix[holed], rank)
+        filled[holed] = expected(whole, matrix[holed], rank)
     absent, some = missing[holed], filled[holed]
     # Only rows with holes change: the others enter by their sums, about a fixed point near the mean.
     origin = filled.mean(axis=0)
@@ -144,7 +144,7 @@ def _bridged(column: np.ndarray) -> np.ndarray:
     return np.interp(np.arange(len(column)), known, column[known])
 
 
-def _expected(whole: np.ndarray, holed: np.ndarray, rank: int) -> np.ndarray:
+def expected(whole: np.ndarray, holed: np.ndarray, rank: int) -> np.ndarray:
     """Rows with missing entries, filled with their expectation under the complete rows' probabilistic components."""
     mean = whole.mean(axis=0)
     sizes, vectors = np.linalg.eigh(np.cov(whole, rowvar=False))
