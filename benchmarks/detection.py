@@ -18,12 +18,13 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from markermend import events, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
+from markermend import events, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
 from markermend.contamination import Contamination, Recipe, integers, normal, one_at_a_time, poisson
 from markermend.events import CLASSES
 from markermend.formats import files
+from markermend.mesh import Mesh
 from markermend.predictors import Scene
-from markermend.predictors.registry import REGISTRY, members
+from markermend.predictors.registry import REGISTRY, SHARED, members
 from markermend.recording import Recording
 from markermend.repair import RepairOptions, repair
 
@@ -64,20 +65,23 @@ def damage(clean: Recording, *, amplitude: float, share: float, seed: int) -> Co
     return one_at_a_time(clean.positions, clean.markers, recipes=recipes, share=share, margin=10, rng=rng)
 
 
-def detect(recording: Recording, neighbours: list[np.ndarray], config: dict, preset: str) -> dict:
+def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
     """Find the events of each class as the workflow does: swaps undone, each detector after the ones before."""
-    scene, swapped = Scene(recording.positions, recording.rate, neighbours), []
+    near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
+    scene, swapped = Scene(recording.positions, recording.rate, near, relatives=relatives), []
     if preset != "paper":
         swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=swaps.SwapSettings(**config["swaps"]))
         scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
-    claimed, found = np.zeros(recording.missing.shape, bool), {}
+    claimed, found = np.zeros(recording.positions.shape, bool), {}
     for kind, module in DETECTORS.items():
         settings = module.settings({**config[kind], "preset": preset})
+        if isinstance(settings, hills.CoordinateSlow):
+            predictor = hills.predictor(settings, config)
         arguments = {"markers": recording.markers, "earlier": claimed, "settings": settings, "predictor": predictor}
         result = getattr(module, f"detect_{kind}")(scene, **arguments)
         found[kind] = result[0] if kind == "steps" else result
-        claimed = claimed | events.mask(found[kind], recording.frames, recording.markers)
+        claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
     return {**found, "steps": swaps.among(found["steps"], swapped)}
 
 
@@ -85,7 +89,7 @@ def mend(recording: Recording, neighbours: list[np.ndarray], found: dict, config
     """Positions after repair of what was found, and whether the repair refused."""
     options = RepairOptions(**config["repair"], protect=config["protect"])
     names = {name for methods in options.methods.values() for name in methods if name in REGISTRY} | {"local_ridge"}
-    settings = {name: config[name] for name in ("local_ridge", "interpolation")}
+    settings = {name: config[name] for name in SHARED}
     predictors = {predictor.name: predictor for predictor in members(sorted(names), settings)}
     result = repair(recording, found=found, neighbours=neighbours, predictors=predictors, options=options)
     refused = bool(result.facts["repairs_left"]) and not result.facts["repairs"]
@@ -106,11 +110,12 @@ def judge(clean: Recording, config: dict, *, amplitude: float, share: float, see
     harmed = replace(clean, positions=harm.positions, facts={"recording": "benchmark"})
     settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
     thinned = mesh_statistics.thin(harmed, frames=settings["frames"])
-    neighbours = mesh_inference.infer_mesh([thinned], **settings).neighbour_indices(harmed.markers)
+    body = mesh_inference.infer_mesh([thinned], **settings)
+    neighbours = body.neighbour_indices(harmed.markers)
     truth, seen, out = classes(harm.events, harmed), ~harmed.missing, {}
     perfect, _ = mend(harmed, neighbours, harm.events, config)
     for preset in presets:
-        found = detect(harmed, neighbours, config, preset)
+        found = detect(harmed, body, config, preset)
         outcome = out[preset] = nothing()
         np.add.at(outcome.confusion, (truth[seen], classes(found, harmed)[seen]), 1)
         actual, outcome.refused = mend(harmed, neighbours, found, config)

@@ -5,7 +5,7 @@ Writes: 06_repaired.parquet.
 """
 
 from markermend import decisions, mesh, storage
-from markermend.predictors.registry import REGISTRY, members
+from markermend.predictors.registry import FAMILIES, REGISTRY, SHARED, members
 from markermend.repair import RepairOptions, repair
 from markermend.repair_methods import METHODS
 from markermend.stage import Stage, mapping, objects
@@ -25,15 +25,15 @@ STAGE.option("coherent_share", float, "a step is subtracted if what remains of i
 STAGE.option("savitzky_golay_order", int, "order of the method savitzky_golay")
 STAGE.option("savitzky_golay_s", float, "window of the method savitzky_golay, s")
 STAGE.option("trials", int, "hidden stretches that tell the error of a method that does not state one")
-STAGE.option("local_ridge", mapping, "settings of the predictor local_ridge")
-STAGE.option("interpolation", mapping, "settings of the predictors linear, spline, pchip and makima")
+for family in SHARED:
+    STAGE.option(family, mapping, f"settings of {FAMILIES[family]}")
 
 
 def work(call):
     recording = storage.read_recording(call.markers)
     body = mesh.read(call.mesh, recording.facts["recording"])
     found = {storage.read_facts(path)["stage"]: storage.read_events(path) for path in call.events}
-    settings = {name: call.options[name] for name in ("local_ridge", "interpolation")}
+    settings = {name: call.options[name] for name in SHARED}
     own = {name: value for name, value in call.options.items() if name not in settings}
     decided = own.pop("decisions")
     named = {name for methods in own["methods"].values() for name in methods}

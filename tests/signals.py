@@ -50,7 +50,7 @@ def detect_signal(signal, rate, preset="coordinates"):
 def detect(recording, preset="default", only=tuple(DETECTORS)):
     """Events per class of a recording, each detector after the ones before; and the open steps."""
     found, left = {}, []
-    claimed = np.zeros(recording.missing.shape, bool)
+    claimed = np.zeros(recording.positions.shape, bool)
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
     for stage in only:
         call = getattr(DETECTORS[stage], f"detect_{stage}")
@@ -58,7 +58,7 @@ def detect(recording, preset="default", only=tuple(DETECTORS)):
             scene, markers=recording.markers, earlier=claimed, settings=settings(stage, preset), predictor=RIDGE
         )
         found[stage], left = result if stage == "steps" else (result, left)
-        claimed = claimed | events.mask(found[stage], recording.frames, recording.markers)
+        claimed = claimed | events.coordinates(found[stage], recording.frames, recording.markers)
     return found, left
 
 

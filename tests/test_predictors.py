@@ -9,7 +9,7 @@ from markermend.predictors.registry import REGISTRY, members
 
 NAMES = sorted(REGISTRY)
 EXACT = [name for name in NAMES if name.startswith("local") or name == "linear_regression"]
-ON_THE_BODY = [*EXACT, "msvd", "weighted_pca"]
+ON_THE_BODY = [*EXACT, "msvd", "weighted_pca", "replicated_network"]
 IN_TIME = list(KINDS)
 
 

@@ -15,18 +15,28 @@ Find = Callable[[np.ndarray, str], tuple[np.ndarray, np.ndarray]]
 units of the threshold, (frames,)."""
 
 
-def merge(positions: np.ndarray, find: Find, *, markers: Sequence[str], earlier: np.ndarray, reach: int) -> list[Event]:
+def bridged(positions: np.ndarray, earlier: np.ndarray, reach: int) -> np.ndarray:
+    """Positions with what detectors before claimed replaced by curves whose slopes are taken over `reach` samples.
+
+    positions: (frames, markers, 3), mm, NaN = missing. earlier: bool, likewise: each coordinate by itself.
+    """
+    out = positions.copy()
+    for marker, axis in np.argwhere(earlier.any(axis=0)):
+        out[:, marker, axis] = bridge(positions[:, marker, axis], earlier[:, marker, axis], reach)
+    return out
+
+
+def find_in_each(signals: np.ndarray, find: Find, *, markers: Sequence[str], earlier: np.ndarray) -> list[Event]:
     """Run a detector on each coordinate of each marker and merge what it finds to events of markers.
 
-    positions: (frames, markers, 3), mm, NaN = missing. earlier: bool (frames, markers), samples that detectors before
-    claimed: they are bridged by curves whose slopes are taken over `reach` samples, and cannot be found again.
+    signals: (frames, markers, 3), mm, NaN = missing. earlier: bool, likewise; where it claims any coordinate of a
+    marker, nothing is found again.
     """
-    fired = np.zeros(positions.shape, bool)
-    score = np.zeros(positions.shape)
-    for m in range(positions.shape[1]):
+    fired = np.zeros(signals.shape, bool)
+    score = np.zeros(signals.shape)
+    for m in range(signals.shape[1]):
         for axis in range(3):
-            signal = bridge(positions[:, m, axis], earlier[:, m], reach)
-            fired[:, m, axis], score[:, m, axis] = find(signal, markers[m])
-    fired &= ~earlier[:, :, None]
+            fired[:, m, axis], score[:, m, axis] = find(signals[:, m, axis], markers[m])
+    fired &= ~earlier.any(axis=2, keepdims=True)
     found: np.ndarray = np.any(fired, axis=2)
     return events.from_mask(found, np.where(fired, score, 0.0).max(axis=2), fired, markers)

@@ -70,24 +70,28 @@ def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
 
 
 def without(scene: Scene, claimed: np.ndarray) -> Scene:
-    """The scene with claimed samples (frames, markers) missing: neither inputs, nor training, nor judged."""
+    """The scene without samples of which any coordinate is claimed: neither inputs, nor training, nor judged.
+
+    claimed: bool, like the scene's positions.
+    """
     positions = scene.positions.copy()
-    positions[claimed] = np.nan
+    positions[claimed.any(axis=2)] = np.nan
     return replace(scene, positions=positions)
 
 
 def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording, Scene, np.ndarray]:
-    """Read a recording, its scene, and the mask (frames, markers) of what earlier detectors claimed, but for swaps.
+    """Read a recording, its scene, and the mask, like its positions, of what earlier detectors claimed, but for swaps.
 
     Raises SetAside where an earlier stage set the recording aside.
     """
     recording = storage.read_recording(markers)
     network = mesh.read(mesh_file, recording.facts["recording"])
-    scene = Scene(recording.positions, recording.rate, network.neighbour_indices(recording.markers))
-    claimed = np.zeros(recording.missing.shape, bool)
+    near, relatives = network.neighbour_indices(recording.markers), network.relative_indices(recording.markers)
+    scene = Scene(recording.positions, recording.rate, near, relatives=relatives)
+    claimed = np.zeros(recording.positions.shape, bool)
     for path in earlier:
         artifacts = [event for event in storage.read_events(path) if event.partner is None]
-        claimed |= events.mask(artifacts, recording.frames, recording.markers)
+        claimed |= events.coordinates(artifacts, recording.frames, recording.markers)
     return recording, scene, claimed
 
 

@@ -76,6 +76,13 @@ def mask(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.nda
     return covered
 
 
+def coordinates(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.ndarray:
+    """Bool (frames, markers, 3): True where any of the events stands, on the axes that fired. See mask."""
+    found = list(events)
+    own = [[event for event in found if axis in event.axes] for axis in "xyz"]
+    return np.stack([mask(some, frames, markers) for some in own], axis=2)
+
+
 def carrying(vectors: np.ndarray) -> str:
     """The axes that carry a finding (n, 3): those whose largest component is at least half of the largest of all."""
     size = np.abs(vectors).max(axis=0)

@@ -118,9 +118,9 @@ def detect_noise(
 ) -> list[Event]:
     """Find the stretches of heavy noise of a recording.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
-    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
-    used by the detector against the neighbours alone.
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detector against the neighbours alone.
     """
     found, _ = sudden.detect(
         scene,

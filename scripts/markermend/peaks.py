@@ -132,9 +132,9 @@ def detect_peaks(
 ) -> list[Event]:
     """Find the isolated peaks of a recording.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
-    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
-    used by the detector against the neighbours alone.
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detector against the neighbours alone.
     """
     found, _ = sudden.detect(
         scene,

@@ -8,10 +8,11 @@ import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
 from markermend.predictors.interpolation import KINDS
+from markermend.predictors.loose import LOOSE
 from markermend.recording import runs
 from markermend.robust import high_pass
 
-METHODS = ("swap", "offset", "savitzky_golay", "blank", "local_ridge", *KINDS)
+METHODS = ("swap", "offset", "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
 """The ways of repair by the names that a config may use."""
 
 

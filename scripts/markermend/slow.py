@@ -9,26 +9,12 @@ from typing import Any
 import numpy as np
 from scipy import ndimage
 
-from markermend import coordinates, detection, events, robust
+from markermend import detection, events, hills, robust
 from markermend.blame import ResidualSource
 from markermend.events import Event
+from markermend.hills import CoordinateSlow, regrow
 from markermend.predictors import Scene
 from markermend.recording import runs
-
-
-@dataclass(frozen=True)
-class CoordinateSlow:
-    """Settings of the detector of one coordinate of the residual (config slow.paper).
-
-    scale: `mad` or `std`, of the residual. sigmas: upper threshold, in its standard deviations. lower: lower threshold,
-    likewise. top_s: shortest stretch beyond the upper threshold. shortest_s: shortest stretch beyond the lower one.
-    """
-
-    scale: str
-    sigmas: float
-    lower: float
-    top_s: float
-    shortest_s: float
 
 
 @dataclass(frozen=True)
@@ -58,35 +44,6 @@ class NeighbourSlow:
     longest_s: float
     rivals: int
     suspect: float
-
-
-def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]]:
-    """Hysteresis with re-growing: stretches of a level above `lower` that exceed 1 for `top` samples in a row at least.
-
-    level: (frames,), NaN = missing, at which a stretch ends.
-    """
-    tops = np.array([start for start, stop in runs(np.nan_to_num(level) > 1) if stop - start >= top], int)
-    grown = list(runs(np.nan_to_num(level) > lower))
-    return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
-
-
-def find_slow(residual: np.ndarray, *, rate: float, settings: CoordinateSlow) -> tuple[np.ndarray, np.ndarray]:
-    """Find the hills and valleys of one coordinate of the residual (skurowski2022 3.5, steps 1-4).
-
-    residual: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
-    """
-    finite = residual[np.isfinite(residual)]
-    centre = float(np.median(finite)) if finite.size else 0.0
-    sigma = robust.threshold(residual, scale=settings.scale, sigmas=1.0, floor_mm=1e-9)
-    level = (residual - centre) / (settings.sigmas * sigma)
-    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
-    top, shortest = robust.samples(settings.top_s, rate), robust.samples(settings.shortest_s, rate)
-    for sign in (1, -1):
-        for start, stop in regrow(sign * level, lower=settings.lower / settings.sigmas, top=top):
-            if stop - start >= shortest:
-                mask[start:stop] = True
-                score[start:stop] = (sign * level[start:stop]).max()
-    return mask, score
 
 
 @dataclass(frozen=True)
@@ -212,19 +169,12 @@ def detect_slow(
 ) -> list[Event]:
     """Find the slow changes of a recording.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
-    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
-    for either.
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, for either.
     """
-    rest = detection.without(scene, earlier)
     if isinstance(settings, CoordinateSlow):
-        return coordinates.merge(
-            predictor.residuals(rest),
-            lambda residual, _: find_slow(residual, rate=scene.rate, settings=settings),
-            markers=markers,
-            earlier=earlier,
-            reach=1,
-        )
+        return hills.detect(scene, markers=markers, earlier=earlier, settings=settings, predictor=predictor)
+    rest = detection.without(scene, earlier)
     levels = measure(rest, predictor.residuals(rest), settings=settings)
     found = [
         event

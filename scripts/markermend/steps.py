@@ -183,9 +183,9 @@ def detect_steps(
 ) -> tuple[list[Event], list[OpenStep]]:
     """Find the steps of a recording, and the jumps that remain without a counterpart.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
-    samples that detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals,
-    used by the detector against the neighbours alone.
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detector against the neighbours alone.
     """
     alone: dict[tuple[str, int], float] = {}
 

@@ -135,11 +135,10 @@ def detect(
 ) -> tuple[list[Event], Changes | None]:
     """Find one class of artifacts in the way that the settings belong to; and the changes, if judged against neighbours.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool (frames, markers),
-    samples that detectors before claimed. in_coordinate: finds in one coordinate,
-    given with its marker's name and the settings, see coordinates.Find; for settings of that kind. judge:
-    finds among the changes of a marker, given (changes, marker) and its name, the rate and the settings. predictor:
-    source of the residuals, for judging alone.
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. in_coordinate: finds in one coordinate, given with its marker's name and the settings, see
+    coordinates.Find; for settings of that kind. judge: finds among the changes of a marker, given (changes, marker) and
+    its name, the rate and the settings. predictor: source of the residuals, for judging alone.
     """
     if not isinstance(settings, SuddenSettings):
         reach = robust.samples(settings.bridge_s, scene.rate)
@@ -147,7 +146,8 @@ def detect(
         def find_in(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
             return in_coordinate(signal, marker, settings)
 
-        return coordinates.merge(scene.positions, find_in, markers=markers, earlier=earlier, reach=reach), None
+        bridged = coordinates.bridged(scene.positions, earlier, reach)
+        return coordinates.find_in_each(bridged, find_in, markers=markers, earlier=earlier), None
     found, changes = find(
         detection.without(scene, earlier),
         judge=lambda changes, m: judge(changes, m, name=markers[m], rate=scene.rate, settings=settings),

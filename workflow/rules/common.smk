@@ -21,7 +21,9 @@ sys.path.insert(0, SCRIPTS)
 
 from markermend import dataset, decision_table, outcome, provenance, settings
 from markermend.events import CLASSES
+from markermend.predictors.loose import LOOSE
 from markermend.predictors.networks import KINDS as NETWORKS
+from markermend.predictors.registry import SHARED
 from markermend.storage import sha256, write_json, write_text
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a

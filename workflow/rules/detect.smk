@@ -29,7 +29,7 @@ for stage in DETECTORS:
             runtime=10,
         params:
             *code(stage),
-            options=options(stage, "local_ridge", "swaps"),
+            options=options(stage, "local_ridge", "swaps", *(LOOSE if stage == "slow" else [])),
             failures=failures(stage),
         message:
             "Detect {rule} in {wildcards.subject}/{wildcards.recording}"

@@ -26,7 +26,7 @@ rule repair:
         runtime=30,
     params:
         *code("repair"),
-        options=options("repair", "local_ridge", "interpolation", "protect"),
+        options=options("repair", *SHARED, "protect"),
         decisions=decided,
         failures=failures("repair"),
     message:
@@ -56,7 +56,7 @@ rule fill:
         runtime=60,
     params:
         *code("fill"),
-        options=options("fill", "local_ridge", "interpolation", "protect"),
+        options=options("fill", *SHARED, "protect"),
         decisions=decided,
         failures=failures("fill"),
     message:

@@ -12,15 +12,20 @@ from markermend.predictors.interpolation import KINDS, Interpolation
 from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
 from markermend.predictors.linear import GlobalRegression, LinearOptions
 from markermend.predictors.local import LocalRidge, RidgeOptions
+from markermend.predictors.loose import LOOSE, LooseOptions
 from markermend.predictors.lowrank import IteratedSvd, PcaOptions, SvdOptions, WeightedPca
 from markermend.predictors.networks import KINDS as NETWORKS
 from markermend.predictors.networks import Network, NetworkOptions
+from markermend.predictors.polynomial import Polynomial
 from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
+from markermend.predictors.replicated_network import ReplicatedNetwork, ReplicatedOptions
 
 FAMILIES = {
     "local_ridge": "the predictor local_ridge",
     "variants": "members that are local_ridge with other settings, by their names",
     "interpolation": "the predictors linear, spline, pchip and makima",
+    "polynomial": "the predictor polynomial",
+    "replicated_network": "the predictor replicated_network",
     "linear_regression": "the predictor linear_regression",
     "reference_frame": "local_interpolation, local_quadratic and local_grnn",
     "msvd": "the predictor msvd",
@@ -31,6 +36,9 @@ FAMILIES = {
     "networks": "network_linear, network_tanh, network_lstm, network_gru and network_bilstm",
 }
 """The families that have settings, and whose settings they are."""
+
+SHARED = ("local_ridge", "interpolation", *LOOSE)
+"""Families with a section of the config of their own, because several stages use them."""
 
 Settings = Mapping[str, Mapping[str, Any]]
 """Settings by family; those of families that are not asked for may be absent."""
@@ -47,6 +55,8 @@ def _network(name: str) -> Callable[[Settings], Predictor]:
 REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     **{kind: _interpolation(kind) for kind in KINDS},
     **{name: _network(name) for name in NETWORKS},
+    "polynomial": lambda settings: Polynomial(LooseOptions(**settings["polynomial"])),
+    "replicated_network": lambda settings: ReplicatedNetwork(ReplicatedOptions(**settings["replicated_network"])),
     "linear_regression": lambda settings: GlobalRegression(LinearOptions(**settings["linear_regression"])),
     "local_interpolation": lambda settings: LocalInterpolation(FrameOptions(**settings["reference_frame"])),
     "local_quadratic": lambda settings: LocalQuadratic(FrameOptions(**settings["reference_frame"])),
