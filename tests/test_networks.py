@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from markermend import mesh, storage
 from markermend import settings as workflow_settings
 from markermend.dataset import BadDataSet
 from markermend.predictors import Scene, Trainable, networks
-from markermend.predictors.network_inputs import completed, features, stretches
+from markermend.predictors.network_inputs import chosen, completed, features, stretches
 from markermend.predictors.networks import KINDS, Network, NetworkOptions
 from markermend.predictors.registry import members
 from markermend.stage import flag
@@ -160,7 +161,7 @@ def test_a_gap_in_which_the_usual_inputs_are_missing_has_others(person):
     one.train([(seen, 3)])
     assert np.isfinite(one.predict(seen, 3, 100, 140).positions).all()
     assert np.isfinite(one.predict(seen, 3, 300, 330).positions).all()
-    inputs = {inputs for _, inputs in seen.remember((one, "networks"), dict)}
+    inputs = {inputs for _, inputs in one._learned(seen).networks}
     assert len(inputs) == 2
 
 
@@ -189,12 +190,11 @@ def test_recurrent_networks_look_beyond_the_gap(person):
     for name, before, behind in (("network_tanh", 0, 0), ("network_gru", 1, 0), ("network_bilstm", 1, 1)):
         one = network(name)
         usual = one.predict(seen, 3, 100, 140).positions
-        learned = seen.remember((one, "networks"), dict)
         for frames, matters in ((slice(85, 95), before), (slice(145, 155), behind)):
             moved = seen.positions.copy()
             moved[frames] += 300.0
             other = Scene(moved, 100.0, seen.neighbours)
-            other.remember((one, "networks"), dict).update(learned)
+            other.remember((one, "learned"), partial(one._learned, seen))
             again = one.predict(other, 3, 100, 140).positions
             assert np.array_equal(usual, again) != bool(matters)
 
@@ -251,3 +251,13 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
     learned, torch = stage(tmp_path, ["network_linear"])
     assert len(learned.facts["fills"]) == 2 and torch
     assert {name for entry in learned.facts["fills"] for name in entry["weights"]} == {"network_linear"}
+
+
+def test_siblings_and_parent_marker_are_the_first_inputs(person):
+    seen = hidden(person, (3, 100, 140))
+    related = replace(seen, relatives=[np.array([11, 9]) for _ in range(12)])
+    limits = {"most": 4, "minimum": 3, "share": 0.6, "minimum_frames": 60}
+    there = np.ones(12, bool)
+    near = neighbours(person)[3]
+    assert chosen(related, 3, there, **limits).tolist() == [11, 9, *near[~np.isin(near, (9, 11))][:2]]
+    assert chosen(seen, 3, there, **limits).tolist() == near[:4].tolist()

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.predictors.references import thinned
+from markermend.predictors import Scene
+from markermend.predictors.references import companions, thinned
 from markermend.recording import runs
 
 
@@ -30,6 +31,28 @@ class Scale:
     def columns(self, scores: np.ndarray) -> np.ndarray:
         """What has these z-scores."""
         return scores * self.deviation + self.middle
+
+
+def chosen(
+    scene: Scene, marker: int, seen: np.ndarray, *, most: int, minimum: int, share: float, minimum_frames: int
+) -> np.ndarray:
+    """The markers to predict a marker from (k <= most,); none where too few frames of the scene train.
+
+    seen: (markers,), which are there throughout the gap. Siblings and parent marker, then the first of the mesh's
+    ranking, so that one network serves all gaps of a marker; where fewer than `minimum` of these are seen, the first
+    that are, if those are enough. share, minimum_frames: see companions.
+    """
+    near = np.asarray(scene.neighbours[marker], int)
+    if scene.relatives is not None:
+        related = np.asarray(scene.relatives[marker], int)
+        near = np.concatenate([related, near[~np.isin(near, related)]])
+    choices = []
+    for ranked in (near, near[seen[near]]):
+        together, _ = companions(scene, marker, ranked, share=share, minimum_frames=minimum_frames)
+        choices.append(together[:most])
+        if np.count_nonzero(seen[choices[-1]]) >= minimum:
+            return choices[-1]
+    return choices[0]
 
 
 def features(positions: np.ndarray, frames: np.ndarray, *, centred: bool) -> tuple[np.ndarray, np.ndarray]:

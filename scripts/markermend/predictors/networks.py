@@ -7,15 +7,15 @@ and scenes; torch is imported when the first one is.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from markermend.predictors import Prediction, Scene
-from markermend.predictors.network_inputs import Scale, completed, features, stretches
-from markermend.predictors.references import companions, thinned
+from markermend.predictors.network_inputs import Scale, chosen, completed, features, stretches
+from markermend.predictors.references import thinned
 from markermend.recording import runs
 
 if TYPE_CHECKING:
@@ -86,6 +86,14 @@ class _Network:
     weights: Weights
 
 
+@dataclass(frozen=True)
+class _Learned:
+    """What a scene taught: networks by marker and inputs; inputs by marker and which others a gap sees."""
+
+    networks: dict[tuple[int, bytes], _Network] = field(default_factory=dict)
+    inputs: dict[tuple[int, bytes], np.ndarray] = field(default_factory=dict)
+
+
 _Task = tuple[Scene, int, np.ndarray]
 """A network to train: the scene to learn from, the marker, the inputs."""
 
@@ -108,7 +116,7 @@ class Network:
             source = scene.measured or scene
             for start, stop in runs(~source.present[:, marker]):
                 inputs = self._inputs(source, scene, marker, start, stop)
-                if len(inputs) and (marker, inputs.tobytes()) not in self._trained(source):
+                if len(inputs) and (marker, inputs.tobytes()) not in self._learned(source).networks:
                     wanted[id(source), marker, inputs.tobytes()] = source, marker, inputs
         if wanted:
             self._learn(list(wanted.values()))
@@ -121,34 +129,26 @@ class Network:
         inputs = self._inputs(source, hidden, marker, start, stop)
         if len(inputs):
             key = marker, inputs.tobytes()
-            if key not in self._trained(source):
+            if key not in self._learned(source).networks:
                 self._learn([(source, marker, inputs)])
             frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
-            positions[frames - (start - 1)] = self._apply(self._trained(source)[key], source, hidden, inputs, frames)
+            network = self._learned(source).networks[key]
+            positions[frames - (start - 1)] = self._apply(network, source, hidden, inputs, frames)
         return Prediction(positions, np.full(len(positions), np.nan))
 
-    def _trained(self, source: Scene) -> dict[tuple[int, bytes], _Network]:
-        """The networks that learned from a scene, by marker and inputs; what is added stays."""
-        return source.remember((self, "networks"), dict)
+    def _learned(self, source: Scene) -> _Learned:
+        """What a scene taught so far; what is added stays."""
+        return source.remember((self, "learned"), _Learned)
 
     def _inputs(self, source: Scene, scene: Scene, marker: int, start: int, stop: int) -> np.ndarray:
-        """The neighbours to feed (k,); none where too few frames train.
-
-        The siblings and the parent marker, then the first of the mesh's ranking, so that one network serves all gaps of
-        a marker. Where too few of these are seen throughout [start, stop), the first that are, if those are enough.
-        """
-        options, near = self.options, np.asarray(source.neighbours[marker], int)
-        if source.relatives is not None:
-            related = np.asarray(source.relatives[marker], int)
-            near = np.concatenate([related, near[~np.isin(near, related)]])
+        """The markers to predict a marker from during a gap (k,): see chosen."""
         seen = np.logical_and.reduce(scene.present[start:stop], axis=0)
-        choices = []
-        for ranked in (near, near[seen[near]]):
-            chosen, _ = companions(source, marker, ranked, share=options.share, minimum_frames=options.minimum_frames)
-            choices.append(chosen[: options.inputs])
-            if np.count_nonzero(seen[choices[-1]]) >= options.minimum_inputs:
-                return choices[-1]
-        return choices[0]
+        known, key, options = self._learned(source).inputs, (marker, seen.tobytes()), self.options
+        if key not in known:
+            most, least = options.inputs, options.minimum_inputs
+            share, frames = options.share, options.minimum_frames
+            known[key] = chosen(source, marker, seen, most=most, minimum=least, share=share, minimum_frames=frames)
+        return known[key]
 
     def _learn(self, tasks: Sequence[_Task]) -> None:
         """Train a network for each task, and let the scenes that they learn from remember them."""
@@ -157,7 +157,7 @@ class Network:
         prepared = [self._lesson(*task) for task in tasks]
         learned = train(self.kind, [lesson for lesson, _, _ in prepared], self.options)
         for (source, marker, inputs), (_, inlet, outlet), weights in zip(tasks, prepared, learned, strict=True):
-            self._trained(source)[marker, inputs.tobytes()] = _Network(inlet, outlet, weights)
+            self._learned(source).networks[marker, inputs.tobytes()] = _Network(inlet, outlet, weights)
 
     def _lesson(self, source: Scene, marker: int, inputs: np.ndarray) -> tuple[Lesson, Scale, Scale]:
         """What a network learns from, in z-scores, and the scales of its inputs and targets."""
