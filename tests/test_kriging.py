@@ -5,6 +5,7 @@ import pytest
 
 from fillings import CONFIG
 from markermend.predictors.kriging import Covariance, autocovariance, fit_covariance, kernels, krige
+from markermend.predictors.references import scattered
 
 SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
 
@@ -12,13 +13,13 @@ SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
 def naive_autocovariance(residual, lags):
     """Mean product over all pairs of known samples, lag by lag."""
     out = []
-    for lag in range(lags):
+    for lag in lags:
         products = [
             (residual[i] * residual[i + lag]).mean()
             for i in range(len(residual) - lag)
             if np.isfinite(residual[i]).all() and np.isfinite(residual[i + lag]).all()
         ]
-        out.append(np.mean(products) if products else 0.0)
+        out.append(np.mean(products) if products else np.nan)
     return np.array(out)
 
 
@@ -52,15 +53,45 @@ def covariance():
 def test_autocovariance_equals_loops_with_missing_samples():
     residual = np.random.default_rng(1).normal(size=(80, 3)).cumsum(axis=0)
     residual[[3, 4, 30, 77]] = np.nan
-    assert np.allclose(autocovariance(residual, 20), naive_autocovariance(residual, 20))
+    lags = np.array([0, 1, 2, 5, 19, 60])
+    assert np.allclose(autocovariance(residual, lags), naive_autocovariance(residual, lags))
 
 
 def test_a_lag_without_pairs_gets_nothing():
     residual = np.full((40, 3), np.nan)
     residual[::10] = 1.0
-    found = autocovariance(residual, 12)
+    found = autocovariance(residual, np.arange(12))
     assert found[0] == pytest.approx(1) and found[10] == pytest.approx(1)
-    assert (found[1:10] == 0).all()
+    assert np.isnan(found[1:10]).all()
+
+
+def test_the_fit_needs_no_sample_beside_another():
+    rng = np.random.default_rng(4)
+    smooth = np.convolve(rng.normal(size=40_000), np.hanning(41), mode="same")[:, None] + np.zeros(3)
+    sparse = np.full_like(smooth, np.nan)
+    rows = scattered(np.arange(len(smooth)), 2000)
+    sparse[rows] = smooth[rows]
+    whole = fit_covariance(smooth, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    fitted = fit_covariance(sparse, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    lags = np.array([0.01, 0.05, 0.1, 0.2])
+    assert np.allclose(fitted(lags), whole(lags), atol=0.2 * whole(np.zeros(1))[0])
+    assert fitted.noise < 0.1 * whole(np.zeros(1))[0]
+
+
+def test_nothing_known_is_no_covariance():
+    fitted = fit_covariance(np.full((50, 3), np.nan), rate=100.0, scales_s=SCALES, longest_s=2.0)
+    assert fitted(np.zeros(1))[0] == 0 and fitted.noise < 1e-6
+
+
+def test_scattered_frames_are_spread_evenly_and_at_every_distance():
+    frames = np.arange(7, 50_007)
+    chosen = scattered(frames, 2500)
+    assert len(chosen) == 2500 and (np.diff(chosen) > 0).all() and np.isin(chosen, frames).all()
+    assert np.ptp(np.histogram(chosen, bins=25, range=(7, 50_007))[0]) < 60  # 100 each
+    seen = np.isin(frames, chosen)
+    pairs = np.array([np.count_nonzero(seen[lag:] & seen[:-lag]) for lag in range(1, 250)])
+    assert pairs.min() > 60 and abs(pairs.mean() - 125) < 10
+    assert np.array_equal(scattered(frames[:9], 9), frames[:9])
 
 
 def test_kriging_equals_the_gaussian_process(covariance):

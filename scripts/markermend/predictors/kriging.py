@@ -7,19 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 
-def autocovariance(residual: np.ndarray, lags: int) -> np.ndarray:
-    """Empirical autocovariance (lags,) of a residual (frames, axes) about zero, averaged over the axes.
+def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
+    """Empirical autocovariance (k,) of a residual (frames, axes) about zero at lags (k,), frames, averaged over the axes.
 
-    NaN = missing: pairs with a missing end do not count; a lag without any pair gets 0.
+    NaN = missing: pairs with a missing end do not count; NaN at a lag without any pair.
     """
-    known = ~np.isnan(residual).any(axis=1)
-    values = np.where(known[:, None], residual, 0.0)
-    size = int(2 ** np.ceil(np.log2(2 * len(values))))
-    spectrum = np.fft.rfft(values, size, axis=0)
-    products = np.fft.irfft((np.abs(spectrum) ** 2).sum(axis=1), size)[:lags]
-    mask = np.fft.rfft(known.astype(float), size)
-    pairs = np.round(np.fft.irfft(np.abs(mask) ** 2, size)[:lags])
-    return np.where(pairs > 0, products / np.maximum(pairs, 1) / residual.shape[1], 0.0)
+    known = np.flatnonzero(~np.isnan(residual).any(axis=1))
+    values = residual[known]
+    place = np.full(len(residual) + lags.max(), -1)
+    place[known] = np.arange(len(known))
+    partner = place[known[:, None] + lags]
+    products = np.einsum("na,nka->nk", values, values[partner])
+    pairs = np.count_nonzero(partner >= 0, axis=0)
+    total = np.where(partner >= 0, products, 0.0).sum(axis=0)
+    return np.where(pairs > 0, total / np.maximum(pairs, 1) / residual.shape[1], np.nan)
 
 
 @dataclass(frozen=True)
@@ -60,12 +61,15 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, l
     from scipy.optimize import nnls  # 0.2 s to import, and the detectors, which predict without kriging, never get here
 
     lags = int(np.clip(round(longest_s * rate), 2, max(2, len(residual) // 2)))
-    empirical = autocovariance(residual, lags)
     # Lags are thinned towards the long ones, so that the short ones, which matter at the borders, are not outvoted.
     chosen = np.unique(np.round(np.geomspace(1, lags, 40)).astype(int) - 1)
+    empirical = autocovariance(residual, chosen)
+    chosen, empirical = chosen[~np.isnan(empirical)], empirical[~np.isnan(empirical)]
+    if len(chosen) == 0:
+        return Covariance(np.append(1e-12, np.zeros(2 * len(scales_s))), scales_s)
     lag_s = chosen / rate
     design = np.concatenate([(chosen == 0)[:, None].astype(float), kernels(lag_s, scales_s)], axis=1)
-    weights, _ = nnls(design, empirical[chosen])
+    weights, _ = nnls(design, empirical)
     if weights.sum() <= 0:
         weights[0] = max(empirical[0], 1e-12)
     return Covariance(weights, scales_s)

@@ -17,6 +17,7 @@ import numpy as np
 from markermend.predictors import Prediction, Scene
 from markermend.predictors.frames import align, mean_shape, width
 from markermend.predictors.kriging import Covariance, fit_covariance, krige
+from markermend.predictors.references import scattered
 from markermend.predictors.ridge_model import RidgeModel, evaluate, robust_weights
 
 
@@ -25,7 +26,7 @@ class RidgeOptions:
     """Settings of the local ridge (config section `local_ridge`).
 
     anchors: markers in the frame. inputs: neighbours regressed on. width_mm: anchors thinner than this get company.
-    ridge_mm2: penalty, the variance of the noise on an input. frames: training frames, evenly spaced. minimum_frames:
+    ridge_mm2: penalty, the variance of the noise on an input. frames: training frames at most. minimum_frames:
     fewer joint frames than this and no model is made. robust_sigmas: training residuals beyond this many robust sigmas
     lose weight. scales_s, longest_s, border_s: correlation lengths, longest lag, and reach of kriging, s.
     """
@@ -176,7 +177,8 @@ class LocalRidge:
         """The training data of a model, from at most `frames` of the frames that show all that it needs."""
         options = self.options
         joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
-        training = joint[np.unique(np.linspace(0, len(joint) - 1, options.frames).astype(int))]
+        # Kriging needs to know how residuals go together at every lag: evenly spaced frames would tell of a few alone.
+        training = scattered(joint, options.frames)
         rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
         points = scene.positions[np.ix_(training, [*inputs, marker])] - origin[:, None]
         local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)

@@ -17,6 +17,18 @@ def thinned(frames: np.ndarray, most: int) -> np.ndarray:
     return frames[np.unique(np.linspace(0, len(frames) - 1, most).astype(int))]
 
 
+def scattered(frames: np.ndarray, most: int) -> np.ndarray:
+    """At most `most` of the frames, spread evenly but at irregular distances, so that some pairs are at every lag.
+
+    Taken are the first by the fractional part of the golden ratio times the frame squared, which is as irregular as
+    chance (to 64 bits, by integers that wrap).
+    """
+    if len(frames) <= most:
+        return frames
+    drawn = frames.astype(np.uint64) ** 2 * np.uint64(0x9E3779B97F4A7C15)
+    return frames[np.sort(np.argpartition(drawn, most)[:most])]
+
+
 def references(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
     """Rank a marker's neighbours by the standard deviation of their distance to it; source: tits2018 eq 1.
 
