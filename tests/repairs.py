@@ -18,6 +18,7 @@ RIDGE = RidgeOptions(
     scales_s=(0.05, 0.2, 1),
     longest_s=1,
     border_s=0.15,
+    novelty=20.0,
 )
 METHODS = {
     "peaks": ["spline"],

@@ -229,9 +229,7 @@ class Ensemble:
             )
             weights = weights * likelihood
         positions, weights = weighted_mean(candidates.positions, weights)
-        errors = np.where(np.isnan(candidates.errors), trust.typical[:, None] / np.sqrt(3), candidates.errors)
-        # A member that states nothing and was never tried is taken to be as good as the worst of the others.
-        errors = np.maximum(np.where(np.isnan(errors), np.nanmax(errors, initial=0.0), errors), options.error_mm)
+        errors = np.maximum(_expected(candidates.errors, trust.typical, weights), options.error_mm)
         # The variance of a mixture: what the members state, and how far apart they are.
         apart = ((np.nan_to_num(candidates.positions) - positions) ** 2).mean(axis=2)
         variance = (weights * (errors**2 + np.where(weights > 0, apart, 0))).sum(axis=0)
@@ -255,3 +253,19 @@ def _errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: 
         square = ((candidates.positions - trial.truth) ** 2).sum(axis=2)
         errors[k] = np.nansum(square, axis=1), np.count_nonzero(~np.isnan(square), axis=1)
     return errors
+
+
+def _expected(stated: np.ndarray, typical: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Standard deviation per axis (members, n), mm, of members some of which do not state it (NaN).
+
+    These are taken to err as much as on pseudo-gaps, typical (members,), and when those that state something do. A
+    member that was never tried either is taken to be as good as the worst of the others.
+    """
+    usual = (typical / np.sqrt(3))[:, None]
+    told = np.where(np.isnan(stated) | np.isnan(usual), 0.0, weights)
+    known = told.sum(axis=0) > 0
+    share = told / np.where(known, told.sum(axis=0), 1.0)
+    course = np.where(known, (share * np.nan_to_num(stated)).sum(axis=0), 1.0)
+    level = np.where(known, (share * np.nan_to_num(usual)).sum(axis=0), 1.0)
+    errors = np.where(np.isnan(stated), usual * course / np.maximum(level, 1e-9), stated)
+    return np.where(np.isnan(errors), np.nanmax(errors, axis=0, initial=0.0), errors)

@@ -22,7 +22,7 @@ class PseudoGap:
 
 
 def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int, share: float) -> list[PseudoGap]:
-    """Hide stretches as long as the gap [start, stop), spread evenly over where the marker is seen with both borders.
+    """Hide stretches as long as the gap [start, stop), spread over where the marker is seen with both borders.
 
     Where the marker is not seen that long, they are two thirds of its longest stretch.
 
@@ -40,7 +40,9 @@ def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int,
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
     begins = np.arange(1, len(scene.positions) - length)
     begins = begins[seen[begins + length + 1] - seen[begins - 1] == length + 2]
-    chosen = begins[np.unique(np.linspace(0, len(begins) - 1, count + 2).astype(int)[1:-1])]
+    # The same gap gets the same trials in every run, other gaps other ones: what all have in common is no accident.
+    rng = np.random.default_rng([marker, start, stop])
+    chosen = begins[np.unique(((np.arange(count) + rng.random(count)) / count * len(begins)).astype(int))]
     rows = np.linspace(start, stop - 1, length).astype(int)
     absent = ~scene.present[rows]
     beyond = max(length, round(scene.rate))

@@ -17,8 +17,9 @@ import numpy as np
 from markermend.predictors import Prediction, Scene
 from markermend.predictors.frames import align, mean_shape, width
 from markermend.predictors.kriging import Covariance, fit_covariance, krige
+from markermend.predictors.novelty import Novelty, learn_novelty
 from markermend.predictors.references import scattered
-from markermend.predictors.ridge_model import RidgeModel, evaluate, robust_weights
+from markermend.predictors.ridge_model import RidgeModel, evaluate, inputs_at, robust_weights
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,8 @@ class RidgeOptions:
     anchors: markers in the frame. inputs: neighbours regressed on. width_mm: anchors thinner than this get company.
     ridge_mm2: penalty, the variance of the noise on an input. frames: training frames at most. minimum_frames:
     fewer joint frames than this and no model is made. robust_sigmas: training residuals beyond this many robust sigmas
-    lose weight. scales_s, longest_s, border_s: correlation lengths, longest lag, and reach of kriging, s.
+    lose weight. scales_s, longest_s, border_s: correlation lengths, longest lag, and reach of kriging, s. novelty:
+    see Novelty.most.
     """
 
     anchors: int
@@ -41,6 +43,7 @@ class RidgeOptions:
     scales_s: tuple[float, ...]
     longest_s: float
     border_s: float
+    novelty: float
 
 
 class LocalRidge:
@@ -218,7 +221,7 @@ class LocalRidge:
         options = self.options
         span = len(scene.positions)
         blocks = int(np.clip(span // max(length, 1), 2, 12))
-        covariance = scene.remember(
+        covariance, novelty = scene.remember(
             (model, used.tobytes(), blocks), partial(self._covariance, scene, model, used, learned, blocks)
         )
         reach = np.unique(np.round(np.geomspace(1, max(2.0, options.border_s * scene.rate), 12)).astype(int))
@@ -232,21 +235,44 @@ class LocalRidge:
             observed = np.einsum("ni,nij->nj", scene.positions[nearby, marker] - origin, rotation)
             values = observed - predicted
         mean, variance = krige(covariance, known_s=nearby / scene.rate, values=values, wanted_s=rows / scene.rate)
-        return mean, np.sqrt(variance)
+        factor = self._novel(novelty, model, scene, used, rows)
+        return mean, np.sqrt(variance) * factor
 
-    def _covariance(self, scene: Scene, model: RidgeModel, used: np.ndarray, learned: Any, blocks: int) -> Covariance:
-        """Covariance of residuals over equal blocks of the recording, each left out of its own training."""
+    def _novel(
+        self, novelty: Novelty, model: RidgeModel, scene: Scene, used: np.ndarray, rows: np.ndarray
+    ) -> np.ndarray:
+        """The factor (n,) by which the novelty of the pose widens the error at rows."""
+        return novelty.factor(inputs_at(model, scene.positions, used, rows)[0])
+
+    def _covariance(
+        self, scene: Scene, model: RidgeModel, used: np.ndarray, learned: Any, blocks: int
+    ) -> tuple[Covariance, Novelty]:
+        """Covariance of residuals over equal blocks of the recording, each left out of its own training, and their growth.
+
+        A pose unlike all others is predicted worse: the covariance is that of residuals divided by the factor of their
+        novelty.
+        """
         span = len(scene.positions)
         block = model.training * blocks // span
+        left = np.where(model.weights[:, None] > 0.5, self._left_out(model, used, learned, block), np.nan)
+        columns = np.flatnonzero(np.repeat(used, 3))
+        novelty, factor = learn_novelty(
+            model.local[:, columns],
+            model.weights,
+            left,
+            block,
+            ridge=self.options.ridge_mm2,
+            most=self.options.novelty,
+        )
         residual = np.full((span, 3), np.nan)
-        left = self._left_out(model, used, learned, block)
-        residual[model.training] = np.where(model.weights[:, None] > 0.5, left, np.nan)
-        return fit_covariance(
+        residual[model.training] = left / factor[:, None]
+        covariance = fit_covariance(
             residual,
             rate=scene.rate,
             scales_s=np.array(self.options.scales_s),
             longest_s=self.options.longest_s,
         )
+        return covariance, novelty
 
 
 def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
