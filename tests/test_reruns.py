@@ -1,11 +1,12 @@
 """What a second run does: nothing, unless something that a result depends on has changed."""
 
+import csv
 import json
 import os
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -43,8 +44,21 @@ def edited(path: Path, addition: str) -> Iterator[None]:
     """Append to a file, and take it back."""
     before = path.read_bytes()
     path.write_bytes(before + addition.encode())
-    yield
-    path.write_bytes(before)
+    try:
+        yield
+    finally:
+        path.write_bytes(before)
+
+
+def changes(project: Project, recording: str) -> list[dict[str, str]]:
+    """The table of changes of one recording."""
+    with open(project.results / recording / "changes.tsv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file, delimiter="\t"))
+
+
+def places(rows: Iterable[dict[str, str]]) -> list[tuple[str, ...]]:
+    """What changed where."""
+    return [tuple(row[name] for name in ("marker", "first_frame", "last_frame", "class")) for row in rows]
 
 
 def script(rule):
@@ -90,6 +104,55 @@ def test_an_added_recording_reruns_what_its_subject_shares_and_the_report(finish
     (finished.recordings / "S02/new.c3d").unlink()
     assert plan.jobs == {"ingest": 1, "mesh": 1, **dict.fromkeys(CHAIN[2:-1], 2), "report": 1, "all": 1}
     assert "S01" not in plan.text.partition("Building DAG")[2].replace("S01/a/08", "")
+
+
+def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
+    found = changes(finished, "S01/a")
+    peak = next(row for row in found if row["class"] == "peak")
+    untouched = changes(finished, "S02/b")
+    line = "\t".join(
+        [*(peak[name] for name in ("recording", "marker", "first_frame", "last_frame")), "reject\tpeak\thop"]
+    )
+    with edited(finished.folder / "config/decisions.tsv", f"{line}\n"):
+        plan = finished.plan()
+        assert plan.jobs == {**dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)}
+        assert plan.parameters_changed == {"repair"}
+        finished.run()
+        assert places(changes(finished, "S01/a")) == places(row for row in found if row != peak)
+        assert changes(finished, "S02/b") == untouched
+        page = (finished.results / "S01/a/page.html").read_text()
+        assert "a person decided: reject peak (hop)" in page and "What a person decided" in page
+        with edited(finished.folder / "config/decisions.tsv", "b\tM1\t41\t50\treject\tgap\n"):
+            assert finished.plan().jobs == plan.jobs
+        assert NOTHING in finished.plan().text
+    finished.run()
+    assert changes(finished, "S01/a") == found
+
+
+def test_a_table_of_decisions_that_contradicts_itself_stops_before_anything_runs(finished):
+    path = finished.folder / "config/decisions.tsv"
+    with edited(path, "a\tM1\t1\t5\taccept\nb\tM1\t5\t7\tacept\na\tM*\t5\t7\treject\n"):
+        done = subprocess.run(
+            finished.command("-n"), cwd=finished.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+    assert done.returncode == 1 and "Traceback" not in done.stdout
+    assert f"decisions: {path} cannot be used" in done.stdout
+    assert "line 3, column decision: 'acept' is none of" in done.stdout
+    assert "lines 2 and 4 contradict each other: M1 accept, M* reject" in done.stdout
+
+
+def test_a_table_of_decisions_that_was_named_must_be_there(finished, tmp_path):
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"decisions": str(tmp_path / "none.tsv")}))
+    done = subprocess.run(
+        finished.command("-n", "--configfile", str(tmp_path / "study.yaml")),
+        cwd=finished.folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert done.returncode == 1 and f"{tmp_path}/none.tsv" in done.stdout and "Traceback" not in done.stdout
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"decisions": None}))
+    assert NOTHING in finished.plan("--configfile", str(tmp_path / "study.yaml")).text
 
 
 def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tmp_path):
