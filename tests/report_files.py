@@ -101,7 +101,13 @@ def named(recording: Recording, name: str, subject: str, **facts: Any) -> Record
 
 
 def write(
-    results: Path, before: Recording, after: Restored, found: Mapping[str, Sequence[Event]], **mesh_parts: Any
+    results: Path,
+    before: Recording,
+    after: Restored,
+    found: Mapping[str, Sequence[Event]],
+    *,
+    decisions: Sequence[Mapping[str, Any]] = (),
+    **mesh_parts: Any,
 ) -> Results:
     """Write everything that qc reads of a recording, with the change log as export writes it."""
     name, subject = before.facts["recording"], before.facts["subject"]
@@ -112,7 +118,7 @@ def write(
         storage.write_events(folder / f"{number:02d}_{stage}.parquet", events, facts)
     for file, stage, options in (
         ("06_repaired", "repair", {"max_error_mm": 20.0}),
-        ("07_filled", "fill", {"max_gap_s": 2.0}),
+        ("07_filled", "fill", {"max_gap_s": 2.0, "decisions": list(decisions)}),
     ):
         storage.write_recording(folder / f"{file}.parquet", after, {"stage": stage, "options": options})
     order = tuple(sorted(before.markers))
