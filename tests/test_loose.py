@@ -8,6 +8,7 @@ import pytest
 from fillings import predictor
 from markermend.predictors import Scene, Trainable
 from markermend.predictors.replicated_network import ReplicatedNetwork, moving_average
+from markermend.repair_methods import METHODS, predicted
 
 BOTH = ["polynomial", "replicated_network"]
 
@@ -128,3 +129,15 @@ def test_measured_samples_are_learned_from_where_there_are_enough(name):
     method = quick(name)
     assert np.allclose(method._task(both, 1, np.array([2, 3])).target, positions[np.r_[0:100, 300:600], 1])
     assert np.isfinite(method.predict(both, 1, 150, 160).positions).all()
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_a_repair_may_name_it_and_learns_its_error_from_trials(name):
+    positions = limb(frames=800)
+    damaged = positions.copy()
+    damaged[400:440, 2] = np.nan
+    proposal = predicted(quick(name), scene(damaged), 2, 400, 440, trials=1)
+    off = np.sqrt(np.mean((proposal.positions - positions[400:440, 2]) ** 2))
+    assert proposal.method == name and name in METHODS
+    assert off < 30  # of a swing of 400
+    assert off / 5 < proposal.error[0] < 5 * off
