@@ -177,10 +177,10 @@ def in_order(lines: Sequence[Line]) -> list[dict[str, Any]]:
 
 def contradictions(lines: Sequence[Line]) -> Iterator[str]:
     """Say which lines on one recording contradict each other."""
-    for one, other in combinations(lines, 2):
-        a, b = one.decision, other.decision
+    numbered = [(line.number, line.decision) for line in lines]
+    for (one, a), (other, b) in combinations(numbered, 2):
         if a.start < b.stop and b.start < a.stop and clash(a, b) and meet(a.marker, b.marker):
-            yield f"lines {one.number} and {other.number} contradict each other: {a.marker} {a.text}, {b.marker} {b.text}"
+            yield f"lines {one} and {other} contradict each other: {a.marker} {a.text}, {b.marker} {b.text}"
 
 
 def clash(one: Decision, other: Decision) -> bool:
