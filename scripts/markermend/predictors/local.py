@@ -183,7 +183,7 @@ class LocalRidge:
         # Kriging needs to know how residuals go together at every lag: evenly spaced frames would tell of a few alone.
         training = scattered(joint, options.frames)
         rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
-        points = scene.positions[np.ix_(training, [*inputs, marker])] - origin[:, None]
+        points = scene.positions[np.ix_(training, np.append(inputs, marker))] - origin[:, None]
         local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)
         centre = np.median(local, axis=0)
         local = local - centre

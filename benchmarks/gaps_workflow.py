@@ -1,0 +1,101 @@
+"""Fill gaps whose truth is known through the whole workflow, C3D in and C3D out, and compare with the predictors alone.
+
+Reads: as benchmarks/gaps.py.
+Writes: C3D files with gaps and results below a temporary folder (or --folder); a table to stdout.
+
+    .venv/bin/python benchmarks/gaps_workflow.py --iterations 1 --cores 2
+
+Each case becomes a subject of its own: a copy of the recording whose samples in the gaps are marked as missing. What the
+workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/gaps.py fills. Detection is off,
+and the rules of what may be filled are lifted, as there.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import numpy as np
+import yaml
+from gaps import CONFIG, LIFTED, PROJECT, fill_case, load, score
+
+from markermend.formats import files
+
+UNLABELLED = CONFIG["ingest"]["unlabelled"]
+
+
+def write_case(folder, case, target):
+    """Write a case's recording with its gaps; returns the truth and which samples are hidden, as read from the file."""
+    (original,) = Path(folder, "clean").glob(f"{case['seq']}*")
+    reading = files.read(original, unlabelled=UNLABELLED, rate=None)
+    positions = reading.recording.positions.copy()
+    hidden = np.zeros(positions.shape[:2], bool)
+    for marker, start, stop in case["gaps"]:
+        hidden[start:stop, marker] = True
+    positions[hidden] = np.nan
+    target.parent.mkdir(parents=True)
+    files.write_back(
+        original, target, format=reading.format, positions=positions, changed=hidden, columns=reading.columns
+    )
+
+
+def run(recordings, results, cores):
+    """Run the workflow over the cases."""
+    settings = {key: value for key, value in LIFTED.items() if key != "protect"}
+    study = {"recordings": str(recordings), "results": str(results), "detect": [], "fill": settings}
+    path = results.with_suffix(".yaml")
+    path.write_text(yaml.safe_dump(study), encoding="utf-8")
+    command = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--configfile", path]
+    subprocess.run([*command, "--quiet", "all"], cwd=PROJECT, check=True)
+
+
+def compare(folder, case, results):
+    """Errors of a case, mm: by the predictors alone, by the workflow; and how far apart the two are at most."""
+    _, _, alone = fill_case(str(folder), case, tuple(CONFIG["fill"]["members"]))
+    (cleaned,) = results.glob(f"{case['seq']}_{case['cond']}_{case['it']}/*/cleaned.c3d")
+    written = files.read(cleaned, unlabelled=UNLABELLED, rate=None).recording
+    truth, through = load(str(folder), case["seq"]), []
+    for marker, start, stop in case["gaps"]:
+        place = slice(start, stop), marker
+        offsets = (written.positions - truth.positions)[place][~truth.missing[place]]
+        through.append((offsets,))
+    apart = max(np.abs(a[0] - b[0]).max(initial=0.0) for a, b in zip(alone, through, strict=True))
+    return score(case["cond"], alone), score(case["cond"], through), float(apart)
+
+
+def main():
+    """Parse the command line, write the cases, run, compare, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--cases", type=Path, help="cases.json (default: next to --data)")
+    parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
+    parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
+    parser.add_argument("--cores", type=int, default=1)
+    parser.add_argument("--folder", type=Path, help="keep files and results here")
+    arguments = parser.parse_args()
+    path = arguments.cases or arguments.data.parent / "bench/gaps/cases.json"
+    cases = json.loads(path.read_text(encoding="utf-8"))
+    cases = [case for case in cases if not arguments.conditions or case["cond"] in arguments.conditions]
+    cases = [case for case in cases if arguments.iterations is None or case["it"] < arguments.iterations]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = (arguments.folder or Path(temporary)).resolve()
+        for case in cases:
+            name = f"{case['seq']}_{case['cond']}_{case['it']}"
+            write_case(arguments.data, case, folder / "recordings" / name / f"{case['seq']}.c3d")
+        run(folder / "recordings", folder / "results", arguments.cores)
+        errors = defaultdict(list)
+        for case in cases:
+            errors[case["cond"]].append(compare(arguments.data, case, folder / "results"))
+    print(f"{'condition':10} {'cases':>5} {'alone, mm':>10} {'workflow':>9} {'apart at most':>13}")
+    for condition, found in sorted(errors.items()):
+        alone, through, apart = np.array(found).T
+        print(f"{condition:10} {len(found):5} {alone.mean():10.4f} {through.mean():9.4f} {apart.max():13.4f}")
+
+
+if __name__ == "__main__":
+    main()
