@@ -50,6 +50,7 @@ def work(call):
     filled = fill_gaps(
         restored,
         body.neighbour_indices(restored.markers),
+        relatives=body.relative_indices(restored.markers),
         ensemble=together(names, averaging),
         options=FillOptions(**own),
         decisions=decisions.read(decided, restored.first_frame),

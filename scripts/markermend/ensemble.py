@@ -17,7 +17,7 @@ import numpy as np
 from markermend.averaging import pma_likelihood, weighted_mean
 from markermend.constraints import constrain_spacing, constrain_time
 from markermend.density import Density, kernel_density
-from markermend.predictors import Predictor, Scene
+from markermend.predictors import Predictor, Scene, Trainable
 from markermend.predictors.references import references, thinned
 from markermend.pseudo_gaps import PseudoGap, pseudo_gaps
 
@@ -121,11 +121,16 @@ class Ensemble:
         size = math.floor(math.log(stop - start, self.options.similar_length))
         return marker, size, start == 0, stop == len(scene.positions), tuple(near[absent].tolist())
 
+    def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
+        """Let the members that learn faster together learn for each scene and marker."""
+        _train(self.members, jobs)
+
     def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
         options = self.options
         trials = pseudo_gaps(hidden, marker, start, stop, count=options.pseudo_gaps, share=options.hidden_share)
+        _train(self.trial_members, list({id(trial.scene): (trial.scene, marker) for trial in trials}.values()))
         tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
         errors = _errors(trials, tried, len(self.members))
         judges = self._judges(hidden, marker)
@@ -246,6 +251,13 @@ class Ensemble:
                 rounds=options.spacing_rounds,
             )
         return positions, np.sqrt(variance), weights.mean(axis=1)
+
+
+def _train(members: Sequence[Predictor], jobs: Sequence[tuple[Scene, int]]) -> None:
+    """Let those of the members that can learn for all jobs at once."""
+    for member in members:
+        if isinstance(member, Trainable):
+            member.train(jobs)
 
 
 def _errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: int) -> np.ndarray:

@@ -61,12 +61,13 @@ def fill_gaps(
     *,
     ensemble: Ensemble,
     options: FillOptions,
+    relatives: Sequence[np.ndarray] | None = None,
     decisions: Sequence[Decision] = (),
     alone: Mapping[str, Ensemble] = NOBODY,
 ) -> Restored:
     """Fill the gaps of a recording; every gap is afterwards in the facts `fills` or, with a reason, `gaps_left`.
 
-    neighbours: as in Scene. decisions: what a person says, against which no limit holds. alone: for each member that
+    neighbours, relatives: as in Scene. decisions: what a person says, against which no limit holds. alone: for each member that
     decisions name, the ensemble that it is. Only missing samples are written, a gap as a whole or not at all. Static
     recordings are left as they are. Markers that are seen most come first (tits2018), and gaps that a person wants
     filled last, so that they change no other.
@@ -85,7 +86,9 @@ def fill_gaps(
         reason = f"nothing filled: {share:.0%} of the recording would be altered, the limit is {options.max_altered_share:.0%}"
         left |= dict.fromkeys(planned, reason)
         planned = []
-    filler = _Filler(restored, neighbours, ensemble, options)
+    scene = Scene(restored.positions, restored.rate, neighbours, relatives=relatives)
+    filler = _Filler(scene, ensemble, options)
+    ensemble.train([(scene, marker) for marker in sorted({gap.marker for gap in planned})])
     for number, gap in enumerate(planned, start=1):
         filler.fill(gap)
         if number % 50 == 0:
@@ -93,7 +96,7 @@ def fill_gaps(
     fillers, result = [filler], filler.finish(restored)
     wanted = [gap for gap in found if gap not in left and rulings[gap].confirmed]
     for method in sorted({rulings[gap].method or "" for gap in wanted}):
-        own = _Filler(restored, neighbours, alone.get(method, ensemble), replace(options, max_error_mm=None), filler)
+        own = _Filler(scene, alone.get(method, ensemble), replace(options, max_error_mm=None), filler)
         for gap in wanted:
             if (rulings[gap].method or "") == method:
                 own.fill(gap)
@@ -166,20 +169,19 @@ class _Filler:
 
     def __init__(
         self,
-        restored: Restored,
-        neighbours: Sequence[np.ndarray],
+        scene: Scene,
         ensemble: Ensemble,
         options: FillOptions,
         before: _Filler | None = None,
     ) -> None:
-        """before: whose fillings are references for these."""
+        """scene: nothing filled yet. before: whose fillings are references for these."""
         self.filled: dict[Gap, Filling] = {}
         self.left: dict[Gap, str] = {}
         self._ensemble, self._options = ensemble, options
         self._radius = RadiusOptions(**ensemble.options.radius)
-        self._references: np.ndarray = before._references.copy() if before else restored.positions.copy()
-        self._doubt: np.ndarray = before._doubt.copy() if before else np.zeros(restored.missing.shape)
-        self._scene = Scene(restored.positions, restored.rate, neighbours)
+        self._references: np.ndarray = before._references.copy() if before else scene.positions.copy()
+        self._doubt: np.ndarray = before._doubt.copy() if before else np.zeros(scene.present.shape)
+        self._scene = scene
         self._trust: dict[tuple[Hashable, ...], Trust] = {}
         self._marker: int | None = None
 

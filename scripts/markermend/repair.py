@@ -54,16 +54,17 @@ def repair(
     neighbours: Sequence[np.ndarray],
     predictors: Mapping[str, Predictor],
     options: RepairOptions,
+    relatives: Sequence[np.ndarray] | None = None,
     decisions: Sequence[Decision] = (),
 ) -> Restored:
     """Repair the findings of each class (in detector order) and return the recording with the story of every sample.
 
-    neighbours: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
+    neighbours, relatives: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
     a person says, against which no limit holds. The facts of the result gain `repairs` (marker, start, stop, class,
     method, score, axes, partner), `repairs_left` (the same with a reason and whether the samples were blanked), each
     with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
     """
-    work = _Repairer(recording, found, neighbours, predictors, options, decisions)
+    work = _Repairer(recording, found, neighbours, relatives, predictors, options, decisions)
     work.swap_back()
     for marker, start, stop, members in work.findings():
         work.treat(marker, start, stop, members)
@@ -82,11 +83,13 @@ class _Repairer:
         recording: Recording,
         found: Mapping[str, Sequence[Event]],
         neighbours: Sequence[np.ndarray],
+        relatives: Sequence[np.ndarray] | None,
         predictors: Mapping[str, Predictor],
         options: RepairOptions,
         decisions: Sequence[Decision],
     ) -> None:
-        self.neighbours, self.predictors, self.options = neighbours, predictors, options
+        self.neighbours, self.relatives = neighbours, relatives
+        self.predictors, self.options = predictors, options
         static = recording.facts.get("kind") == "static"
         self.decisions = [] if static else [*protecting(options.protect), *decisions]
         judged = judge(recording, found, self.decisions)
@@ -100,7 +103,7 @@ class _Repairer:
         self.found = {stage: list(events) for stage, events in found.items() if events}
         self.flagged = self._covered([event for events in self.found.values() for event in events])
         believed = np.where(self.flagged[..., None], np.nan, recording.positions)
-        self.scene = Scene(believed, recording.rate, self.neighbours)
+        self.scene = Scene(believed, recording.rate, self.neighbours, relatives=self.relatives)
 
     def _covered(self, events: Sequence[Event]) -> np.ndarray:
         """Bool (frames, markers): the seen samples that the findings cover."""
