@@ -6,7 +6,7 @@ import pytest
 from markermend.predictors import block_tridiagonal
 from markermend.predictors.linear_dynamics import LinearDynamics, learn, maximise
 
-LEARNING = {"hidden": 4, "iterations": 15, "tolerance": 0.0, "floor": 1e-6}
+LEARNING = {"hidden": 4, "lag": 0, "iterations": 15, "tolerance": 0.0, "floor": 1e-6}
 
 
 def small_system(seed=1, size=4, markers=5):
@@ -110,11 +110,11 @@ def test_smoothing_equals_the_filter_and_backward_smoother(frames):
     assert np.isclose(states.log_likelihood, likelihood)
 
 
-@pytest.mark.parametrize("floor", [1e-6, 0.05])
-def test_learning_never_gets_less_likely(floor):
+@pytest.mark.parametrize(("floor", "lag"), [(1e-6, 0), (0.05, 0), (1e-6, 5)])
+def test_learning_never_gets_less_likely(floor, lag):
     observed = with_holes(draw(small_system(), 80))
     before = observed.copy()
-    system, likelihood = learn(observed, **{**LEARNING, "floor": floor, "iterations": 40})
+    system, likelihood = learn(observed, **{**LEARNING, "floor": floor, "lag": lag, "iterations": 40})
     assert np.array_equal(observed, before, equal_nan=True)
     assert len(likelihood) == 40 and likelihood[-1] > likelihood[0] + 10
     assert (np.diff(likelihood) > -1e-7 * np.abs(likelihood[1:])).all()
@@ -162,3 +162,18 @@ def test_missing_samples_of_a_known_system_are_recovered():
     found = learned.positions(learned.smooth(gapped).mean) - whole
     for place in ((slice(150, 190), 0), (slice(200, 206),)):
         assert np.sqrt((found[place] ** 2).mean()) < 1.25 * np.sqrt((ideal[place] ** 2).mean())
+
+
+def test_a_first_guess_that_looks_ahead_carries_velocities_across_a_blackout():
+    """A marker on an ellipse, and nothing else: the place alone does not tell where it goes."""
+    angle = np.arange(300) / 20
+    course = np.stack([np.sin(angle), 2 * np.sin(angle + 1), 0.3 * np.sin(2 * angle)], axis=1)
+    whole = course[:, None] + np.random.default_rng(6).normal(size=(300, 1, 3)) * 0.01
+    gapped = whole.copy()
+    gapped[140:180] = np.nan
+    error = []
+    for lag in (0, 5):
+        system, _ = learn(gapped, **{**LEARNING, "lag": lag, "hidden": 5, "iterations": 20})
+        found = system.positions(system.smooth(gapped).mean)[140:180]
+        error.append(np.sqrt(((found - whole[140:180]) ** 2).mean()))
+    assert error[1] < 0.05 and error[1] < error[0] / 3

@@ -88,17 +88,18 @@ class LinearDynamics:
 
 
 def learn(
-    observed: np.ndarray, *, hidden: int, iterations: int, tolerance: float, floor: float
+    observed: np.ndarray, *, hidden: int, lag: int, iterations: int, tolerance: float, floor: float
 ) -> tuple[LinearDynamics, np.ndarray]:
     """Learn a linear dynamical system; source: DynaMMo (Li, McCann, Pollard & Faloutsos 2009), with an exact E-step.
 
     observed: (n, markers, 3), NaN = missing, in units in which it has a spread of about 1; every marker seen somewhere.
-    hidden: dimensions of the state, at most; the first guess is the principal components after straight lines over what
-    is missing. iterations: at most so many; ends when the log-likelihood rises by less than `tolerance` per observed
+    hidden: dimensions of the state, at most. lag: the first guess is the principal components of frames together with
+    those so many frames later, after straight lines over what is missing; with 0 it knows no velocities, and expectation
+    maximisation hardly finds them. iterations: at most so many; ends when the log-likelihood rises by less than `tolerance` per observed
     number. floor: least variance of noise and drive. Returns the system and the log-likelihood after each step, which
     never falls: also within these bounds, every M-step is the best there is.
     """
-    states = _first_guess(observed, hidden=hidden, floor=floor)
+    states = _first_guess(observed, hidden=hidden, lag=lag, floor=floor)
     count = np.count_nonzero(~np.isnan(observed))
     likelihood: list[float] = []
     for _ in range(iterations):
@@ -134,11 +135,13 @@ def maximise(observed: np.ndarray, states: States, *, floor: float) -> LinearDyn
     return LinearDynamics(np.ones(size), transition, drive, loading[..., :-1], loading[..., -1], noise)
 
 
-def _first_guess(observed: np.ndarray, *, hidden: int, floor: float) -> States:
+def _first_guess(observed: np.ndarray, *, hidden: int, lag: int, floor: float) -> States:
     """States of unit variance, taken to be known exactly."""
     columns = [_bridged(column) for column in observed.reshape(len(observed), -1).T]
     matrix = np.stack(columns, axis=1)
-    vectors, sizes, _ = np.linalg.svd(matrix - matrix.mean(axis=0), full_matrices=False)
+    later = matrix[np.minimum(np.arange(len(matrix)) + lag, len(matrix) - 1)]
+    both = np.concatenate([matrix, later], axis=1)
+    vectors, sizes, _ = np.linalg.svd(both - both.mean(axis=0), full_matrices=False)
     real = int(np.count_nonzero(sizes**2 > floor * len(matrix)))
     mean = vectors[:, : max(1, min(hidden, real))] * np.sqrt(len(matrix))
     frames, size = mean.shape
