@@ -142,8 +142,8 @@ class Ensemble:
             known = missed[-1][~np.isnan(missed[-1])]
             ratios[k] = (known**2).mean() / 3 if len(known) else np.nan
         scaled = [values / self._scale(np.delete(ratios, k)) for k, values in enumerate(missed)]
-        # Tried on shorter stretches only, errors are taken to grow with the length.
-        beyond = (stop - start) / (trials[0].stop - trials[0].start) if trials else 1.0
+        # Tried on shorter stretches only, errors are taken to grow as a random walk does.
+        beyond = math.sqrt((stop - start) / (trials[0].stop - trials[0].start)) if trials else 1.0
         return replace(self._trust(errors), scale=beyond * self._scale(ratios), missed=tuple(scaled))
 
     def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
