@@ -1,0 +1,132 @@
+"""What the benchmarks of the fill stage share: recordings with gaps, and the stage run on them in a process of its own."""
+
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+
+import numpy as np
+import yaml
+
+from markermend import mesh, settings, storage
+from markermend.mesh_inference import infer_meshes
+from markermend.mesh_statistics import thin
+from markermend.predictors.registry import FAMILIES
+from markermend.recording import MEASURED, MISSING, Recording, Restored
+from markermend.walker import make_body, walk
+
+PROJECT = Path(__file__).resolve().parents[1]
+CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+SHARED = ("protect", *(family for family in FAMILIES if family not in CONFIG["fill"]))
+"""Sections of the config that the fill stage reads beside its own."""
+
+WATCH = """
+import resource, subprocess, sys
+subprocess.run(sys.argv[1:], check=True)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
+"""
+"""Runs a command, prints the seconds of a core that it took and its peak memory, MB.
+
+A process starts with its parent's peak, so it needs a parent that is small.
+"""
+
+FILES = {"repaired": "06_repaired.parquet", "mesh": "mesh.json", "filled": "07_filled.parquet"}
+"""The stage's files by their flags."""
+
+TAKE_S = 60.0
+"""Length of a take of the synthetic person, s."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A recording after the fill stage, and what the process took: seconds of a core, start included, and MB at most."""
+
+    filled: Restored
+    seconds: float
+    megabytes: float
+
+
+def mesh_of(recording):
+    """The mesh inferred from one recording."""
+    own = {key: value for key, value in CONFIG["mesh"].items() if key != "files"}
+    (inferred,) = infer_meshes([thin(recording, frames=own["frames"])], supplied=[], **own)
+    return inferred
+
+
+def fill(recording, **options):
+    """Infer the mesh of a recording with gaps and run scripts/fill.py on it, with some options changed."""
+    recording = replace(recording, facts={"recording": "benchmark", "kind": "dynamic"})
+    section = {**CONFIG["fill"], **{name: CONFIG[name] for name in SHARED}, "decisions": [], **options}
+    with tempfile.TemporaryDirectory() as folder:
+        files = {name: Path(folder, file) for name, file in FILES.items()}
+        storage.write_recording(files["repaired"], restored(recording), {})
+        mesh.write(files["mesh"], [mesh_of(recording)], {})
+        script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
+        command = [sys.executable, "-c", WATCH, *script, *shlex.split(settings.flags(section))]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
+            raise RuntimeError(done.stderr[-2000:])
+        seconds, megabytes = map(float, done.stdout.split())
+        return Run(storage.read_recording(files["filled"]), seconds, megabytes)
+
+
+def restored(recording):
+    """A recording as repair hands it on: nothing repaired."""
+    missing = recording.missing
+    error = np.where(missing, np.nan, 0.0)
+    origin = np.where(missing, MISSING, MEASURED).astype(np.uint8)
+    return Restored(**vars(recording), origin=origin, error=error, error95=error)
+
+
+def with_gaps(recording, gaps):
+    """The recording without the samples in the gaps (marker, start, stop)."""
+    positions = recording.positions.copy()
+    for marker, start, stop in gaps:
+        positions[start:stop, marker] = np.nan
+    return replace(recording, positions=positions)
+
+
+@cache
+def walker(frames, markers, rate=100.0, seed=1):
+    """A synthetic person with so many markers, doing ever other things: takes of a minute, joined standing.
+
+    Markers beyond the walker's 51 sit within some centimetres of these.
+    """
+    rng = np.random.default_rng(seed)
+    body = make_body(rng=rng)
+    on = np.resize(np.arange(len(body.markers)), markers)
+    apart = np.where(np.arange(markers) < len(body.markers), 0.0, 30.0)[:, None]
+    body = replace(
+        body,
+        markers=tuple(f"{body.markers[place]}{number}" for number, place in enumerate(on)),
+        on=body.on[on],
+        places=body.places[on] + apart * rng.normal(0.0, 1.0, (markers, 3)),
+        tissue=body.tissue[on],
+        compliance=body.compliance[on],
+    )
+    positions = np.empty((0, markers, 3))
+    while len(positions) < frames:
+        activities = ["stand", *rng.permutation(["walk", "reach", "sit", "exercise", "walk"]).tolist()]
+        take = walk(body=body, duration=TAKE_S, rate=rate, activities=activities, noise=0.2, soft_tissue=1.0, rng=rng)
+        begin, end = [bout[1:] for bout in take.bouts if bout[0] == "stand"][-1]
+        own = take.recording.positions[: round((begin + end) / 2 * rate)]
+        positions = np.concatenate([positions, continued(own, positions[-1]) if len(positions) else own])
+    positions = positions[:frames].copy()
+    return Recording(body.markers, positions, rate)
+
+
+def continued(positions, last):
+    """The positions (frames, markers, 3) turned about the vertical and moved so that they go on from `last` (markers, 3)."""
+    plane, there = (points[..., 0] + 1j * points[..., 1] for points in (positions, last))
+    middle = plane[0].mean()
+    turn = np.vdot(plane[0] - middle, there - there.mean())
+    plane = (plane - middle) * turn / abs(turn) + there.mean()
+    return np.stack([plane.real, plane.imag, positions[..., 2]], axis=-1)

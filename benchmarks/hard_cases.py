@@ -1,0 +1,282 @@
+"""Fill the gaps that are hard, on real clean recordings and large synthetic ones, and print what became of them.
+
+Reads: clean/ in the data folder. Writes: a table to stdout.
+
+    .venv/bin/python benchmarks/hard_cases.py --only blackout ends
+
+Each row is one run of scripts/fill.py in a process of its own, with the default settings and the options that the row
+names; seconds (of a core) and peak memory are those of the process, start and files included. The mesh is inferred from
+the recording with its gaps. `inside` and `inside95` are the shares of the true positions within error and error95.
+"""
+
+import argparse
+import re
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import gaps
+import numpy as np
+from fill_runs import CONFIG, PROJECT, fill, mesh_of, walker, with_gaps
+from scipy.interpolate import CubicSpline
+
+from markermend.recording import Recording
+
+
+@dataclass(frozen=True)
+class Case:
+    """A row: a recording without gaps, its gaps (marker, start, stop), and the options that differ from the default."""
+
+    title: str
+    whole: Recording
+    gaps: list
+    options: dict = field(default_factory=dict)
+
+
+def spread(count, length, frames, *, first=60):
+    """Starts of `count` stretches of so many frames, evenly over a recording."""
+    return np.linspace(first, frames - length - first, count).astype(int).tolist()
+
+
+def at_once(markers, start, length):
+    """A gap at the same place in each of the markers."""
+    return [(int(marker), start, start + length) for marker in markers]
+
+
+def concurrent(load):
+    """Twenty markers miss the same second."""
+    for name in ("85_02", "85_12", "HDM"):
+        whole = load(name)
+        chosen = np.random.default_rng(1).permutation(len(whole.markers))[:20]
+        yield Case(f"20 at once, {name}", whole, at_once(chosen, whole.frames // 2, round(whole.rate)))
+
+
+def segments(load):
+    """Each segment of the mesh misses a second, one after the other: what hangs on it sees its border go, too."""
+    for name in ("85_12", "STS1"):
+        whole = load(name)
+        found = mesh_of(whole).segments
+        starts = spread(len(found), round(whole.rate), whole.frames)
+        lost = [[whole.markers.index(marker) for marker in segment.markers] for segment in found]
+        gone = [
+            gap for each, start in zip(lost, starts, strict=True) for gap in at_once(each, start, round(whole.rate))
+        ]
+        yield Case(f"whole segments, {name}", whole, gone)
+
+
+def neighbours(load):
+    """A marker and its 15 nearest neighbours miss the same second."""
+    whole = load("85_12")
+    near = mesh_of(whole).neighbour_indices(whole.markers)
+    for marker in (5, 20):
+        yield Case("marker and 15 nearest", whole, at_once([marker, *near[marker][:15]], 2000, 120))
+
+
+def blackout(load):
+    """All markers are lost."""
+    whole = load("85_12")
+    every = range(len(whole.markers))
+    for seconds in (0.05, 0.1, 0.3, 1.0):
+        gone = [
+            gap
+            for start in spread(4, round(seconds * whole.rate), whole.frames)
+            for gap in at_once(every, start, round(seconds * whole.rate))
+        ]
+        yield Case(f"blackout {seconds} s", whole, gone)
+        if seconds >= 0.3:
+            names = [*CONFIG["fill"]["members"], "kalman"]
+            yield Case(f"blackout {seconds} s, kalman", whole, gone, {"members": names})
+
+
+def rare(load):
+    """A marker is seen for a quarter of the time."""
+    whole = load("85_12")
+    gone = [(9, start, start + 120) for start in range(40, whole.frames - 120, 160)]
+    yield Case("seen 25 %", whole, gone)
+    yield Case("seen 25 %, seen_share .2", whole, gone, {"seen_share": 0.2})
+
+
+def everyone(load):
+    """Every marker has gaps, at ever other times: not one is complete."""
+    for name in ("85_12", "HDM"):
+        whole = load(name)
+        count, length = len(whole.markers), round(0.5 * whole.rate)
+        gone = [
+            (marker, start, start + length) for marker, start in enumerate(spread(count, length, whole.frames // 2))
+        ]
+        gone += [(m, start + whole.frames // 2, stop + whole.frames // 2) for m, start, stop in gone]
+        yield Case(f"no complete marker, {name}", whole, gone)
+
+
+def ends(load):
+    """Markers come late or leave early."""
+    whole = load("85_12")
+    gone = [(m, 0, 60) for m in (3, 14, 30)] + [(m, whole.frames - 60, whole.frames) for m in (7, 20, 38)]
+    yield Case("ends .5 s", whole, gone)
+    yield Case("ends .5 s, ends: true", whole, gone, {"ends": True})
+    late = [(m, 0, 300 + 2 * m) for m in range(len(whole.markers))]
+    late += [(m, whole.frames - 300 - m, whole.frames) for m in range(len(whole.markers))]
+    inner = [(m, start, start + 120) for m, start in zip((3, 9, 20, 33), spread(4, 120, 3000, first=800), strict=True)]
+    yield Case("all enter and leave", whole, late + inner)
+
+
+def subjects(load):
+    """Two people and a prop in one recording; one of the people vanishes while the other has gaps."""
+    first, second = load("85_12"), load("HDM")
+    frames = second.frames
+    prop = rigid(frames, 5, first.rate)
+    whole = replace(
+        first,
+        markers=(*first.markers, *(f"second:{name}" for name in second.markers), *(f"prop{k}" for k in range(5))),
+        positions=np.concatenate(
+            [first.positions[:frames], second.positions + np.array([3000.0, 0.0, 0.0]), prop], axis=1
+        ),
+    )
+    own = [(m, start, start + 120) for m, start in zip((3, 9, 20, 33), spread(4, 120, frames), strict=True)]
+    gone = [(m, start - 120, stop + 120) for _, start, stop in own for m in range(41, 82)]
+    alone = replace(first, positions=first.positions[:frames])
+    yield Case("subject alone", alone, own)
+    yield Case("subject while other is there", whole, own)
+    yield Case("subject while other is gone", whole, own + gone)
+    yield Case("prop", whole, [(82, 500, 600), (84, 550, 700), (85, 2000, 2200)])
+
+
+def rigid(frames, markers, rate):
+    """A prop that tumbles: positions (frames, markers, 3)."""
+    seconds = np.arange(frames)[:, None] / rate
+    rng = np.random.default_rng(4)
+    angle = seconds * [0.9] + np.sin(0.7 * seconds)
+    places = rng.uniform(-80, 80, (markers, 2)) @ [1, 1j]
+    plane = places * np.exp(1j * angle) + 1000 * np.sin(0.4 * seconds)
+    height = np.broadcast_to(rng.uniform(500, 600, markers), plane.shape)
+    return np.stack([plane.real, plane.imag, height], axis=-1) + rng.normal(0, 0.2, (frames, markers, 3))
+
+
+def eight(load):
+    """No more than eight markers: those of one arm."""
+    whole = load("85_12")
+    near = mesh_of(whole).neighbour_indices(whole.markers)[9][:7]
+    few = replace(
+        whole,
+        markers=tuple(whole.markers[m] for m in (9, *near)),
+        positions=whole.positions[:, [9, *near]],
+    )
+    gone = [(m, start, start + 120) for m, start in enumerate(spread(8, 120, whole.frames))]
+    yield Case("8 markers", few, gone)
+    yield Case("8 markers, 3 at once", few, at_once(range(3), 2000, 120))
+
+
+def islands(load):
+    """Gaps of a marker with one or two samples between."""
+    whole = load("85_12")
+    for between in (1, 2, 3):
+        gone = [(9, start, start + 24) for start in range(2000, 2000 + 6 * (24 + between), 24 + between)]
+        yield Case(f"{between} samples between", whole, gone)
+        yield Case(f"{between} samples between, border_s 0", whole, gone, {"border_s": 0.0})
+
+
+def extremes(load):
+    """Next to nothing seen of a marker; next to no frames; nothing moves."""
+    whole = load("85_12")
+    lifted = {"seen_share": 0.0, "max_gap_s": None, "max_error_mm": None}
+    gone = [(9, 200, whole.frames - 200)]
+    yield Case("gap of 91 %", whole, gone)
+    yield Case("gap of 91 %, lifted", whole, gone, lifted)
+    gone = [(9, 40, whole.frames - 10)]
+    yield Case("gap of 99 %, lifted", whole, gone, lifted)
+    brief = replace(whole, positions=whole.positions[:50])
+    yield Case("50 frames", brief, [(9, 20, 30), (20, 25, 40)])
+    brief = replace(whole, positions=whole.positions[:100])
+    yield Case("100 frames", brief, [(9, 20, 30), (20, 45, 60)])
+    still = np.broadcast_to(np.random.default_rng(1).uniform(0, 500, (4, 3)), (whole.frames, 4, 3))
+    together = replace(
+        whole,
+        markers=(*whole.markers, *(f"still{k}" for k in range(4))),
+        positions=np.concatenate([whole.positions, still], axis=1),
+    )
+    yield Case("frozen prop", together, [(41, 500, 620), (42, 2000, 2120), (43, 2060, 2200)])
+    single = replace(together, markers=together.markers[:42], positions=together.positions[:, :42])
+    yield Case("one frozen marker", single, [(41, 500, 620)])
+
+
+def rates(load):
+    """The same motion and the same gaps at other rates."""
+    whole = load("85_12")
+    course = CubicSpline(np.arange(whole.frames) / whole.rate, whole.positions)
+    for rate in (50, 60, 100, 120, 200, 250, 500):
+        frames = int((whole.frames - 1) / whole.rate * rate)
+        resampled = replace(whole, rate=float(rate), positions=course(np.arange(frames) / rate))
+        gone = [
+            (m, start * rate, start * rate + rate) for m, start in zip(range(1, 41, 6), range(3, 36, 4), strict=False)
+        ]
+        yield Case(f"{rate} Hz", resampled, gone)
+
+
+def metres(load):
+    """A recording stored in metres."""
+    whole = load("STS1")
+    yield Case("in metres (STS1)", whole, [(m, 200 + 5 * m, 300 + 5 * m) for m in range(0, 50, 10)])
+
+
+def large(load):
+    """Many markers; many frames."""
+    rng = np.random.default_rng(2)
+    for frames, markers, count in ((5_000, 200, 60), (100_000, 60, 60)):
+        gone = [
+            (int(m), int(start), int(start + length))
+            for m, start, length in zip(
+                rng.integers(0, markers, count),
+                rng.integers(200, frames - 400, count),
+                rng.integers(20, 200, count),
+                strict=True,
+            )
+        ]
+        yield Case(f"{markers} markers, {frames} frames", walker(frames, markers), gone)
+
+
+CASES = {
+    case.__name__: case
+    for case in (concurrent, segments, neighbours, blackout, rare, everyone, ends, subjects, eight, islands)
+} | {case.__name__: case for case in (extremes, rates, metres, large)}
+
+
+def row(case):
+    """Fill, and write one line of the table."""
+    gapped = with_gaps(case.whole, case.gaps)
+    run = fill(gapped, **case.options)
+    measured = ~gapped.missing
+    assert np.array_equal(run.filled.positions[measured], gapped.positions[measured]), "a measured sample changed"
+    filled = gapped.missing & ~run.filled.missing & ~case.whole.missing
+    distance = np.linalg.norm((run.filled.positions - case.whole.positions)[filled], axis=1)
+    inside, inside95 = (
+        100 * np.mean(distance <= radius[filled]) if filled.any() else np.nan
+        for radius in (run.filled.error, run.filled.error95)
+    )
+    fills, left = run.filled.facts["fills"], run.filled.facts["gaps_left"]
+    reasons = Counter(re.sub(r"\d+(\.\d+)?", "#", entry["reason"]) for entry in left)
+    why = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common())
+    error = distance.mean() if filled.any() else np.nan
+    total = len(fills) + len(left)
+    return (
+        f"{case.title:34} {total:5} {len(fills):6} {len(left):5} {error:8.2f} {inside:6.0f} {inside95:8.0f} "
+        f"{run.seconds:7.1f} {run.megabytes:6.0f}  {why}"
+    )
+
+
+def main():
+    """Parse the command line, run the cases, print a row for each."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--only", nargs="+", choices=CASES, default=list(CASES), metavar="NAME", help=", ".join(CASES))
+    arguments = parser.parse_args()
+    print(
+        f"{'case':34} {'gaps':>5} {'filled':>6} {'left':>5} {'error mm':>8} {'inside':>6} {'inside95':>8} "
+        f"{'seconds':>7} {'MB':>6}  why left"
+    )
+    for name in arguments.only:
+        for case in CASES[name](lambda recording: gaps.load(str(arguments.data), recording)):
+            print(row(case), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""How the time and memory of the fill stage grow with frames, markers and gaps, on a synthetic person.
+
+Writes: three tables to stdout; in each one number varies and the others are those of the base case.
+
+    .venv/bin/python benchmarks/scaling.py
+
+Each row is scripts/fill.py with the default settings in a process of its own: seconds of a core and peak memory include
+its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at a random place on a random marker.
+"""
+
+import argparse
+
+import numpy as np
+from fill_runs import fill, walker, with_gaps
+
+BASE = {"frames": 4_000, "markers": 41, "gaps": 10}
+VARIED = {"frames": (1_000, 4_000, 16_000, 64_000), "markers": (20, 41, 80, 160), "gaps": (3, 10, 30, 100)}
+RATE = 100
+
+
+def run(frames, markers, gaps):
+    """Fill so many gaps; returns the run and the number of gaps that were filled."""
+    rng = np.random.default_rng(7)
+    starts = rng.integers(RATE, frames - 2 * RATE, gaps).tolist()
+    places = [
+        (int(marker), start, start + RATE) for marker, start in zip(rng.integers(0, markers, gaps), starts, strict=True)
+    ]
+    done = fill(with_gaps(walker(frames, markers, RATE), places))
+    return done, len(done.filled.facts["fills"])
+
+
+def main():
+    """Parse the command line, run, print a table for each number that varies."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--vary", nargs="+", choices=VARIED, default=list(VARIED))
+    for varied in parser.parse_args().vary:
+        others = ", ".join(f"{value} {name}" for name, value in BASE.items() if name != varied)
+        print(f"\n{others}\n{varied:>8} {'filled':>7} {'seconds':>8} {'x':>5} {'MB':>6} {'x':>5}")
+        before = None
+        for value in VARIED[varied]:
+            done, filled = run(**{**BASE, varied: value})
+            now = done.seconds, done.megabytes
+            ratios = [f"{a / b:5.2f}" if before else f"{'':5}" for a, b in zip(now, before or now, strict=True)]
+            print(f"{value:8} {filled:7} {now[0]:8.1f} {ratios[0]} {now[1]:6.0f} {ratios[1]}", flush=True)
+            before = now
+
+
+if __name__ == "__main__":
+    main()
