@@ -18,7 +18,7 @@ import time
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -55,15 +55,30 @@ def load(folder, name):
 
 
 @cache
-def ensemble(names):
-    """The averaging of the config over the named members."""
+def ensemble(names, changes=()):
+    """The averaging of the config over the named members, with changed settings (name, value) of the ensemble."""
     fill = CONFIG["fill"]
     settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
     brief = members(names, settings, most_frames=fill["trial_frames"])
-    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
+    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"] | dict(changes)))
 
 
-def fill_case(folder, case, names):
+def fill_gapped(whole, gaps, neighbours, names, changes=()):
+    """Hide gaps (marker, start, stop) of a recording and fill them with the named members."""
+    positions = whole.positions.copy()
+    for marker, start, stop in gaps:
+        positions[start:stop, marker] = np.nan
+    gapped = replace(whole, positions=positions)
+    none = np.where(gapped.missing, np.nan, 0.0)
+    origin = np.where(gapped.missing, MISSING, MEASURED).astype(np.uint8)
+    restored = Restored(
+        whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
+    )
+    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
+    return fill_gaps(restored, neighbours, ensemble=ensemble(names, changes), options=options)
+
+
+def fill_case(folder, case, names, changes=()):
     """Fill the gaps of one case; returns seconds (mesh, fill) and for each gap offsets (n, 3), error and error95 (n,)."""
     whole = load(folder, case["seq"])
     positions = whole.positions.copy()
@@ -73,14 +88,7 @@ def fill_case(folder, case, names):
     gapped = replace(whole, positions=positions)
     (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
     inferred = time.perf_counter()
-    missing = gapped.missing
-    none = np.where(missing, np.nan, 0.0)
-    origin = np.where(missing, MISSING, MEASURED).astype(np.uint8)
-    restored = Restored(
-        whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
-    )
-    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
-    filled = fill_gaps(restored, mesh.neighbour_indices(whole.markers), ensemble=ensemble(names), options=options)
+    filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
     seconds = inferred - started, time.perf_counter() - inferred
     gaps = []
     for marker, start, stop in case["gaps"]:
@@ -153,6 +161,9 @@ def main():
     parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
     parser.add_argument("--members", nargs="+", default=CONFIG["fill"]["members"], help="in place of the config's")
+    parser.add_argument(
+        "--set", nargs="+", default=[], metavar="KEY=VALUE", help="other settings of fill.ensemble, such as weights=pma"
+    )
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
@@ -162,9 +173,10 @@ def main():
     programs = json.loads(path.with_name("programs.json").read_text(encoding="utf-8"))
     cases = [case for case in cases if not arguments.conditions or case["cond"] in arguments.conditions]
     cases = [case for case in cases if arguments.iterations is None or case["it"] < arguments.iterations]
-    names = tuple(arguments.members)
+    names, folder = tuple(arguments.members), str(arguments.data)
+    changes = tuple((key, yaml.safe_load(value)) for key, _, value in (each.partition("=") for each in arguments.set))
     with ProcessPoolExecutor(arguments.jobs) as pool:
-        done = list(pool.map(fill_case, [str(arguments.data)] * len(cases), cases, [names] * len(cases)))
+        done = list(pool.map(partial(fill_case, folder, names=names, changes=changes), cases))
     for title, kept in (("all markers", False), ("without the rigidly fitted markers of HDM05", True)):
         ours = {}
         for case, _, gaps in done:

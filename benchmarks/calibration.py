@@ -1,0 +1,112 @@
+"""Whether expected errors are true: fill random gaps of all clean recordings, count truths within the stated balls.
+
+Reads: the recordings in DATA/clean.
+Writes: a table to stdout: per recording and gap length, the share of samples within `error` and `error95`, and their number.
+
+    .venv/bin/python benchmarks/calibration.py --runs 8 --jobs 2
+
+In each run some markers, chosen at random, miss the same stretch at a random place. The stated shares are 68 and 95 %.
+Samples of one gap go together, so a cell knows little more than it has runs: the standard error is printed beside it,
+from the spread between runs.
+"""
+
+import argparse
+import sys
+from collections import defaultdict
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import numpy as np
+from gaps import CONFIG, MESH, PROJECT, fill_gapped, load
+
+from markermend.mesh_inference import infer_meshes
+from markermend.mesh_statistics import thin
+
+LENGTHS_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+MOST_SHARE = 0.5
+"""Gaps longer than this share of a recording are not tried: too little would be left to learn from."""
+
+
+@cache
+def neighbours(folder, name):
+    """Whom each marker is predicted from, by the complete recording."""
+    whole = load(folder, name)
+    (mesh,) = infer_meshes([thin(whole, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
+    return mesh.neighbour_indices(whole.markers)
+
+
+def one_run(folder, name, length_s, markers, seed):
+    """Hide a stretch of some markers and fill it; returns distances, error and error95 (samples,), mm, or None."""
+    whole = load(folder, name)
+    length = round(length_s * whole.rate)
+    if length > MOST_SHARE * whole.frames or 2 * markers > len(whole.markers):
+        return None
+    rng = np.random.default_rng([seed, length, markers])
+    seen = np.concatenate([np.zeros((1, len(whole.markers)), int), np.cumsum(~whole.missing, axis=0)])
+    for start in rng.permutation(np.arange(1, whole.frames - length - 1)).tolist():
+        there = np.flatnonzero(seen[start + length + 1] - seen[start - 1] == length + 2)
+        if len(there) >= markers:
+            gaps = [(int(marker), start, start + length) for marker in rng.choice(there, markers, replace=False)]
+            break
+    else:
+        return None
+    filled = fill_gapped(whole, gaps, neighbours(folder, name), tuple(CONFIG["fill"]["members"]))
+    place = slice(start, start + length), [marker for marker, _, _ in gaps]
+    distance = np.linalg.norm(filled.positions[place] - whole.positions[place], axis=2)
+    return [each.ravel() for each in (distance, filled.error[place], filled.error95[place])]
+
+
+def cell(runs):
+    """Shares within both balls, %, and their standard errors, from what the runs found."""
+    shares = np.array([[(d <= e).mean(), (d <= e95).mean()] for d, e, e95 in runs])
+    inside, outside = 100 * shares.mean(axis=0)
+    spread = 100 * shares.std(axis=0, ddof=1) / np.sqrt(len(shares)) if len(shares) > 1 else (np.nan, np.nan)
+    return f"{inside:3.0f} ({spread[0]:2.0f}) {outside:3.0f} ({spread[1]:2.0f})"
+
+
+def main():
+    """Parse the command line, fill, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--lengths", nargs="+", type=float, default=LENGTHS_S, help="of the gaps, s")
+    parser.add_argument("--markers", nargs="+", type=int, default=[1, 3], help="that miss the stretch at once")
+    parser.add_argument("--runs", type=int, default=4, help="per recording, length and number of markers")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    arguments = parser.parse_args()
+    names = sorted(path.stem for path in (arguments.data / "clean").iterdir() if path.suffix in (".c3d", ".trc"))
+    plan = [
+        (name, length, markers, [arguments.seed, run])
+        for name in names
+        for length in arguments.lengths
+        for markers in arguments.markers
+        for run in range(arguments.runs)
+    ]
+    found = defaultdict(list)
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        columns = zip(*plan, strict=True)
+        for (name, length, _, _), outcome in zip(
+            plan, pool.map(one_run, [str(arguments.data)] * len(plan), *columns), strict=True
+        ):
+            if outcome is not None:
+                for key in ((name, length), (name, "all"), ("all", length), ("all", "all")):
+                    found[key].append(outcome)
+    print("% within error (standard error), within error95 (standard error); every run weighs the same")
+    headings = [*arguments.lengths, "all"]
+    print(f"{'recording':26}" + "".join(f"{f'{each} s' if each != 'all' else each:>18}" for each in headings))
+    for name in [*names, "all"]:
+        row = [cell(found[name, each]) if found[name, each] else "-" for each in headings]
+        print(f"{name:26}" + "".join(f"{each:>18}" for each in row))
+    print(f"\nmean error, mm{'':12}" + "".join(f"{mean_error(found['all', each]):18.2f}" for each in headings))
+
+
+def mean_error(runs):
+    """Mean distance over the samples of all runs, mm."""
+    return np.concatenate([distance for distance, _, _ in runs]).mean() if runs else np.nan
+
+
+if __name__ == "__main__":
+    main()
