@@ -19,7 +19,8 @@ from markermend.constraints import constrain_spacing, constrain_time
 from markermend.density import Density, kernel_density
 from markermend.predictors import Predictor, Scene, Trainable
 from markermend.predictors.references import references, thinned
-from markermend.pseudo_gaps import PseudoGap, pseudo_gaps
+from markermend.pseudo_gaps import pseudo_gaps
+from markermend.trust import Trust, expected_errors, shares, squared_errors, stated_scale, typical_errors
 
 WEIGHTS = ("error", "pma", "both", "equal")
 """Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all alike."""
@@ -80,21 +81,6 @@ class Filling:
 
 
 @dataclass(frozen=True)
-class Trust:
-    """What pseudo-gaps tell about the members.
-
-    typical: (members,), mm, root mean square distance to the truth, NaN where unknown. shares: (members,), weights that
-    follow from it. scale: factor on the stated standard deviation. missed: for each pseudo-gap, by how many standard
-    deviations each sample was missed, had only the other pseudo-gaps been known.
-    """
-
-    typical: np.ndarray
-    shares: np.ndarray
-    scale: float
-    missed: tuple[np.ndarray, ...]
-
-
-@dataclass(frozen=True)
 class _Candidates:
     """What the members say on one gap: positions (members, n, 3) after the time constraint, errors (members, n), mm."""
 
@@ -132,28 +118,30 @@ class Ensemble:
         trials = pseudo_gaps(hidden, marker, start, stop, count=options.pseudo_gaps, share=options.hidden_share)
         _train(self.trial_members, list({id(trial.scene): (trial.scene, marker) for trial in trials}.values()))
         tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
-        errors = _errors(trials, tried, len(self.members))
+        errors = squared_errors(
+            [trial.truth for trial in trials], [each.positions for each in tried], len(self.members)
+        )
         judges = self._judges(hidden, marker)
-        ratios, missed = np.full(len(trials), np.nan), []
+        ratios, missed, prior = np.full(len(trials), np.nan), [], options.prior
         for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
             others = self._trust(np.delete(errors, k, axis=0))
             guess, stated, _ = self._average(trial.scene, judges, trial.start, candidates, others)
             missed.append(np.linalg.norm(guess - trial.truth, axis=1) / stated)
             known = missed[-1][~np.isnan(missed[-1])]
             ratios[k] = (known**2).mean() / 3 if len(known) else np.nan
-        scaled = [values / self._scale(np.delete(ratios, k)) for k, values in enumerate(missed)]
+        scaled = [values / stated_scale(np.delete(ratios, k), prior) for k, values in enumerate(missed)]
         # Tried on shorter stretches only, errors are taken to grow as a random walk does.
         beyond = math.sqrt((stop - start) / (trials[0].stop - trials[0].start)) if trials else 1.0
-        return replace(self._trust(errors), scale=beyond * self._scale(ratios), missed=tuple(scaled))
+        return replace(self._trust(errors), scale=beyond * stated_scale(ratios, prior), missed=tuple(scaled))
 
     def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
         """Fill one gap. The marker's samples in [start, stop) are not looked at."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
         candidates = self._candidates(self.members, hidden, marker, start, stop)
         judges = self._judges(hidden, marker)
-        positions, stated, shares = self._average(hidden, judges, start, candidates, trust)
+        positions, stated, means = self._average(hidden, judges, start, candidates, trust)
         deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
-        named = {member.name: float(share) for member, share in zip(self.members, shares, strict=True) if share > 0}
+        named = {member.name: float(share) for member, share in zip(self.members, means, strict=True) if share > 0}
         return Filling(positions, deviation, named)
 
     def _candidates(
@@ -175,25 +163,12 @@ class Ensemble:
         return _Candidates(positions, errors)
 
     def _trust(self, errors: np.ndarray) -> Trust:
-        """What to think of the members after errors (pseudo-gaps, 2, members) as from _errors."""
-        square, count = errors.sum(axis=0)
-        typical = np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
-        return Trust(typical, self._shares(typical), 1.0, ())
-
-    def _scale(self, ratios: np.ndarray) -> float:
-        """Factor on stated deviations: by how much the pseudo-gaps were missed in the mean, mean squares (n,)."""
-        known = ratios[~np.isnan(ratios)]
-        whole = self.options.prior + len(known)
-        return math.sqrt((self.options.prior + known.sum()) / whole) if whole else 1.0
-
-    def _shares(self, typical: np.ndarray) -> np.ndarray:
-        """Weights (members,) from the errors on pseudo-gaps (members,), mm; all alike where nothing could be tried."""
-        known = np.isfinite(typical)
-        if self.options.weights in ("pma", "equal") or not known.any():
-            return np.ones(len(typical))
-        floored = np.maximum(np.where(known, typical, np.inf), self.options.error_mm)
-        shares = (floored.min() / floored) ** self.options.power
-        return np.where(floored <= self.options.worst * floored.min(), shares, 0)
+        """What to think of the members after errors on pseudo-gaps as from squared_errors."""
+        options, typical = self.options, typical_errors(errors)
+        if options.weights in ("pma", "equal"):
+            return Trust(typical, np.ones(len(typical)), 1.0, ())
+        weights = shares(typical, power=options.power, worst=options.worst, least=options.error_mm)
+        return Trust(typical, weights, 1.0, ())
 
     def _judges(self, scene: Scene, marker: int) -> tuple[np.ndarray, list[Density]]:
         """The marker's first references and the densities of their distances."""
@@ -236,7 +211,7 @@ class Ensemble:
             )
             weights = weights * likelihood
         positions, weights = weighted_mean(candidates.positions, weights)
-        errors = np.maximum(_expected(candidates.errors, trust.typical, weights), options.error_mm)
+        errors = np.maximum(expected_errors(candidates.errors, trust.typical, weights), options.error_mm)
         # The variance of a mixture: what the members state, and how far apart they are.
         apart = ((np.nan_to_num(candidates.positions) - positions) ** 2).mean(axis=2)
         variance = (weights * (errors**2 + np.where(weights > 0, apart, 0))).sum(axis=0)
@@ -258,28 +233,3 @@ def _train(members: Sequence[Predictor], jobs: Sequence[tuple[Scene, int]]) -> N
     for member in members:
         if isinstance(member, Trainable):
             member.train(jobs)
-
-
-def _errors(trials: Sequence[PseudoGap], tried: Sequence[_Candidates], members: int) -> np.ndarray:
-    """Sum of squared distances to the truth, mm^2, and samples that a member told: (pseudo-gaps, 2, members)."""
-    errors = np.zeros((len(trials), 2, members))
-    for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
-        square = ((candidates.positions - trial.truth) ** 2).sum(axis=2)
-        errors[k] = np.nansum(square, axis=1), np.count_nonzero(~np.isnan(square), axis=1)
-    return errors
-
-
-def _expected(stated: np.ndarray, typical: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Standard deviation per axis (members, n), mm, of members some of which do not state it (NaN).
-
-    These are taken to err as much as on pseudo-gaps, typical (members,), and when those that state something do. A
-    member that was never tried either is taken to be as good as the worst of the others.
-    """
-    usual = (typical / np.sqrt(3))[:, None]
-    told = np.where(np.isnan(stated) | np.isnan(usual), 0.0, weights)
-    known = told.sum(axis=0) > 0
-    share = told / np.where(known, told.sum(axis=0), 1.0)
-    course = np.where(known, (share * np.nan_to_num(stated)).sum(axis=0), 1.0)
-    level = np.where(known, (share * np.nan_to_num(usual)).sum(axis=0), 1.0)
-    errors = np.where(np.isnan(stated), usual * course / np.maximum(level, 1e-9), stated)
-    return np.where(np.isnan(errors), np.nanmax(errors, axis=0, initial=0.0), errors)

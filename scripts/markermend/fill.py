@@ -13,10 +13,11 @@ import numpy as np
 
 from markermend.calibration import RadiusOptions, radii
 from markermend.decisions import GAP, Decision, Ruling, rule
-from markermend.ensemble import Ensemble, Filling, Trust
+from markermend.ensemble import Ensemble, Filling
 from markermend.predictors import Scene
 from markermend.predictors.interpolation import KINDS
 from markermend.recording import FILLED, MEASURED, MISSING, Restored, runs
+from markermend.trust import Trust
 
 log = logging.getLogger("markermend")
 
