@@ -20,7 +20,6 @@ import yaml
 
 from markermend import events, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
 from markermend.contamination import Contamination, Recipe, integers, normal, one_at_a_time, poisson
-from markermend.events import CLASSES
 from markermend.formats import files
 from markermend.mesh import Mesh
 from markermend.predictors import Scene
@@ -30,6 +29,7 @@ from markermend.repair import RepairOptions, repair
 
 PROJECT = Path(__file__).resolve().parents[1]
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": slow}
+CLASSES = tuple(DETECTORS)
 SPREAD = 0.4
 """Standard deviation of the amplitude, as a part of its mean."""
 

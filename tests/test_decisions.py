@@ -3,7 +3,7 @@
 import pytest
 
 from markermend.decisions import EVER, GAP, STAGE_OF, Decision, Ruling, kind_of, protecting, read, rule
-from markermend.events import Event
+from markermend.events import CLASSES, Event
 
 STRETCH = (["LANK"], 10, 20)
 
@@ -44,12 +44,8 @@ def test_one_frame_in_common_is_enough(start, stop, shares):
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
-    assert [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in ("peaks", "noise", "steps", "slow")] == [
-        "peak",
-        "noise",
-        "step",
-        "slow",
-    ]
+    kinds = [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in CLASSES]
+    assert kinds == ["frozen", "peak", "noise", "step", "slow", "tail"]
     assert kind_of("steps", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
 
 

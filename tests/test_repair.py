@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import bodies
+from markermend.decisions import Decision
 from markermend.events import Event
 from markermend.predictors import Prediction
 from markermend.recording import MEASURED, MISSING, ORIGINS
@@ -170,6 +171,20 @@ def test_refusals_leave_every_sample(clean, changes, facts, reason):
     assert np.array_equal(result.positions, recording.positions)
     (left,) = result.facts["repairs_left"]
     assert reason in left["reason"] and not left["blanked"]
+
+
+@pytest.mark.parametrize(("stage", "kind"), [("frozen", "frozen"), ("tails", "tail")])
+def test_what_nobody_measured_is_missing_says_so_and_can_be_kept(clean, stage, kind):
+    recording = distorted(clean, 20.0)
+    found = {stage: [Event(MARKER, START, STOP, 4.0)]}
+    result = mend(recording, found)
+    assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
+    (left,) = result.facts["repairs_left"]
+    assert (left["class"], left["blanked"], left["reason"][:12]) == (kind, True, "not measured")
+    decided = [Decision(MARKER, START, STOP, "reject", kind)]
+    assert np.array_equal(mend(recording, found, decisions=decided).positions, recording.positions)
+    static = bodies.recording(clean.markers, recording.positions, kind="static")
+    assert np.array_equal(mend(static, found).positions, recording.positions)
 
 
 def test_missing_samples_inside_a_finding_stay_missing(clean):

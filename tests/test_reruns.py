@@ -16,7 +16,9 @@ import yaml
 from markermend import provenance
 from workflow_runs import Project, write_recording
 
-CHAIN = ["ingest", "mesh", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report"]
+CHAIN = [
+    "ingest", "mesh", "frozen", "peaks", "noise", "steps", "slow", "tails", "repair", "fill", "export_c3d", "qc", "report",
+]  # fmt: skip
 NOTHING = "Nothing to be done"
 FAULT = """
 import os, sys

@@ -15,7 +15,9 @@ import yaml
 
 from workflow_runs import PROJECT, Project, write_recording
 
-STAGES = ("ingest", "mesh", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report")
+STAGES = (
+    "ingest", "mesh", "frozen", "peaks", "noise", "steps", "slow", "tails", "repair", "fill", "export", "qc", "report",
+)  # fmt: skip
 PER_RECORDING = {"ingest": {"recording", "subject", "kind", "rate"}}
 NO_OPTIONS = {"mesh": {"files"}}
 CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text())
@@ -83,7 +85,7 @@ def test_a_folder_of_every_format_is_planned_whole(project):
         (project.recordings / name).parent.mkdir(parents=True, exist_ok=True)
         (project.recordings / name).touch()
     plan = project.plan()
-    every = dict.fromkeys((*STAGES[2:8], "qc", "ingest"), 4)
+    every = dict.fromkeys((*STAGES[2:10], "qc", "ingest"), 4)
     exports = dict.fromkeys(["export_c3d", "export_trc", "export_csv", "export_tsv"], 1)
     assert plan.jobs == {**every, **exports, "mesh": 2, "report": 1, "all": 1}
     assert "OMP_NUM_THREADS" not in plan.text

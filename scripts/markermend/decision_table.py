@@ -19,7 +19,7 @@ from markermend.decisions import GAP, LEAVE, STAGE_OF, VERBS, Decision, read
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
 
-NAMES = {"peaks": "peak", "steps": "step", "filled": GAP}
+NAMES = {"peaks": "peak", "steps": "step", "tails": "tail", "filled": GAP}
 """Classes by the names of their detectors, and what changes.tsv calls a gap that was filled."""
 
 LARGEST = 100_000

@@ -17,7 +17,10 @@ VERBS = ("accept", "reject", "protect", "class", "method", "missing")
 """What a person can decide: that a finding is one, that it is none, that samples stay as they are, that a stretch is an
 artifact of a class, how to mend or fill, and that samples count as missing."""
 
-STAGE_OF = {"peak": "peaks", "noise": "noise", "step": "steps", "swap": "steps", "slow": "slow"}
+STAGE_OF = {
+    "frozen": "frozen", "peak": "peaks", "noise": "noise", "step": "steps", "swap": "steps", "slow": "slow",
+    "tail": "tails",
+}  # fmt: skip
 """The classes of artifacts, and the detector of each."""
 
 GAP, LEAVE = "gap", "leave"

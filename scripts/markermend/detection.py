@@ -38,12 +38,8 @@ def preset(options: Mapping[str, Any], kinds: Mapping[str, type[Settings]]) -> S
 
 
 def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) -> Stage:
-    """A detector as a command: its files and its options, the same for each but for the presets it has."""
-    command = Stage(name, description)
-    command.reads("markers", "trajectories as ingested")
-    command.reads("mesh", "who the neighbours are")
-    command.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
-    command.writes("events", f"the {finds} found")
+    """A detector of artifacts as a command: its files and its options, the same for each but for the presets it has."""
+    command = files(name, description, finds=finds)
     command.option("preset", str, "which of the settings below to use", choices=list(presets))
     for preset in presets:
         command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
@@ -51,6 +47,16 @@ def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) ->
     command.option(
         "swaps", mapping, "what counts as swapped labels, which are undone before anything else is looked for"
     )
+    return command
+
+
+def files(name: str, description: str, *, finds: str) -> Stage:
+    """A detector as a command: its files alone."""
+    command = Stage(name, description)
+    command.reads("markers", "trajectories as ingested")
+    command.reads("mesh", "who the neighbours are")
+    command.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
+    command.writes("events", f"the {finds} found")
     return command
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from markermend.events import Event
 from markermend.recording import Recording, gaps
 
-KINDS = {"peaks": "peak", "steps": "step", "filled": "gap", "fill": "gap"}
+KINDS = {"peaks": "peak", "steps": "step", "tails": "tail", "filled": "gap", "fill": "gap"}
 """What a finding is called where it differs from the name of its stage or origin."""
 
 BLANKED = "blanked"

@@ -16,7 +16,13 @@ REFERENCES = {
 """What is cited, by the key that a sentence uses."""
 
 DETECTORS = {"peaks": "isolated peaks", "noise": "heavy noise", "steps": "steps and label swaps", "slow": "slow drifts"}
-"""What each detector looks for."""
+"""What each detector of artifacts looks for."""
+
+UNMEASURED = {
+    "frozen": "positions that repeat exactly while the neighbours tell that the marker moved",
+    "tails": "samples next to gaps that wander off",
+}
+"""What each detector of samples that nobody measured looks for."""
 
 
 PRESETS = {
@@ -77,6 +83,8 @@ def paragraph(stages: Mapping[str, Mapping[str, Any]], kind: str | None, version
                 f"They were repaired by class{limits(stages['repair'])}; samples for which no repair could be trusted "
                 "were set to missing."
             )
+    if unmeasured := [what for name, what in UNMEASURED.items() if name in stages]:
+        told.append(f"Taken as missing, too, were {' and '.join(unmeasured)}.")
     if "fill" in stages:
         told.append(_filling(stages["fill"], cite("averaging")))
     if stages.get("fill", {}).get("decisions"):

@@ -1,8 +1,8 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
 Swapped labels are exchanged first; what else was found was found in trajectories without swaps. A repair replaces the
-samples of its interval and says how and how surely; where none can be trusted, the samples become missing and say why.
-Samples outside the intervals are returned bit for bit.
+samples of its interval and says how and how surely; where none can be trusted, the samples become missing and say why; so do samples that nobody
+measured. Samples outside the intervals are returned bit for bit.
 """
 
 from __future__ import annotations
@@ -70,6 +70,12 @@ def repair(
         work.treat(marker, start, stop, members)
     return work.result.finished()
 
+
+UNMEASURED = {
+    "frozen": "not measured: the position repeats while the neighbours move on",
+    "tails": "not measured: the samples beside a gap wander off",
+}
+"""Findings that are missing samples in disguise and never repaired, by detector, and why."""
 
 Member = tuple[str, Event]
 """A finding with the detector that found it."""
@@ -163,6 +169,8 @@ class _Repairer:
         stages = [stage for stage, _ in members]
         if self.refusal and not ruling.confirmed:
             self.result.leave(event, stages, self.refusal, ruling, blank=False)
+        elif why := [UNMEASURED[name] for name in UNMEASURED if name in stages]:
+            self.result.leave(event, stages, "; ".join(why), ruling, blank=True)
         elif ruling.method and ruling.method not in METHODS:
             self.result.leave(event, stages, f"to be filled by {ruling.method}", ruling, blank=True)
         elif len(members) > 1 and not ruling.method:

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from markermend.decisions import Ruling
+from markermend.decisions import STAGE_OF, Ruling
 from markermend.events import Event
 from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
 from markermend.repair_methods import Proposal
 
-ORIGIN_OF = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
-"""What a repaired sample is called, by the detector that found it."""
+KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
+"""What is found, and a sample that is repaired, is called, by its detector; labels that are swapped back are a swap."""
 
 BALL68, BALL95 = 1.8724, 2.7955
 """Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
@@ -38,9 +38,9 @@ class Restoration:
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
-        self._origin[rows, m] = ORIGINS.index(ORIGIN_OF[stage])
+        self._origin[rows, m] = ORIGINS.index(KIND_OF[stage])
         self._error[rows, m] = proposal.error[seen]
-        self._note(event, ORIGIN_OF[stage], proposal.method, ruling)
+        self._note(event, KIND_OF[stage], proposal.method, ruling)
 
     def exchange(self, event: Event, ruling: Ruling) -> None:
         """Exchange the original samples of a marker and its partner over the interval."""
@@ -61,7 +61,7 @@ class Restoration:
             self.positions[span, m] = np.nan
             self._origin[span, m] = MISSING
             self._error[span, m] = np.nan
-        kinds = "+".join(ORIGIN_OF[stage] for stage in ORIGIN_OF if stage in stages)
+        kinds = "+".join(kind for stage, kind in KIND_OF.items() if stage in stages)
         note = {"marker": event.marker, "start": event.start, "stop": event.stop, "class": kinds, "score": event.score}
         self._left.append({**note, "reason": reason, "blanked": blank, **ruling.note})
 

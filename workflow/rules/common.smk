@@ -94,7 +94,9 @@ HERE = f"{SUBJECT}/{{recording}}"
 LOGS = f"{HERE}/logs"
 MESH = f"{SUBJECT}/mesh.json"
 MARKERS = f"{HERE}/01_markers.parquet"
-EVENTS = {stage: f"{HERE}/{number:02d}_{stage}.parquet" for number, stage in enumerate(CLASSES, 2)}
+# Names are an interface: detectors that came later share the number of the one beside them, and still sort in order.
+NUMBERS = {"frozen": 2, "peaks": 2, "noise": 3, "steps": 4, "slow": 5, "tails": 5}
+EVENTS = {stage: f"{HERE}/{NUMBERS[stage]:02d}_{stage}.parquet" for stage in CLASSES}
 REPAIRED = f"{HERE}/06_repaired.parquet"
 FILLED = f"{HERE}/07_filled.parquet"
 CHANGES = f"{HERE}/changes.tsv"
@@ -158,6 +160,11 @@ def kind(wildcards):
 def rate(wildcards):
     """What the table says of the recording's rate, as a flag."""
     return f"--rate={settings.text(entry(wildcards).rate)}"
+
+
+def detection(stage):
+    """What a detector's settings share with other stages."""
+    return ["local_ridge", *(["swaps"] if "preset" in config[stage] else []), *(LOOSE if stage == "slow" else [])]
 
 
 def decided(wildcards):
