@@ -46,9 +46,10 @@ def neighbours_of(recording):
     ]
 
 
-def mend(recording, found, *, extra=None, decisions=(), **changes):
+def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
     settings = {
         "methods": METHODS,
+        "prefer": 1.25,
         "protect": [],
         "max_altered_share": 0.3,
         "max_repair_s": 2.0,
@@ -61,7 +62,7 @@ def mend(recording, found, *, extra=None, decisions=(), **changes):
     return repair(
         recording,
         found=found,
-        neighbours=neighbours_of(recording),
+        neighbours=neighbours_of(recording) if near is None else near,
         predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
         options=RepairOptions(**{**settings, **changes}),
         decisions=decisions,

@@ -53,6 +53,7 @@ def restored(measured, *, step=True, blank=True):
         origin[5:9, 0], error[5:9, 0] = ORIGINS.index("step"), 0.5
         facts["repairs"].append(
             {"marker": "A", "start": 5, "stop": 9, "class": "step", "method": "offset", "score": 3.0, "axes": "xz"}
+            | {"alternatives": {"offset": 0.5, "local_ridge": 2.345}}
         )
     if blank:
         positions[30:32, 2], origin[30:32, 2], error[30:32, 2] = np.nan, MISSING, np.nan
@@ -107,6 +108,7 @@ def test_changes_are_in_the_capture_programs_frames(tmp_path):
     ]
     assert float(rows[0]["largest_change_mm"]) == pytest.approx(12 * np.sqrt(3), abs=0.001)
     assert float(rows[0]["expected_error_mm"]) == 0.5 and float(rows[1]["expected_error_mm"]) == 1.5
+    assert [row["alternatives"] for row in rows] == ["offset 0.5 mm; local_ridge 2.3 mm", "", ""]
     assert rows[0]["axes"] == "xz" and rows[1]["largest_change_mm"] == ""
 
 

@@ -17,7 +17,7 @@ from markermend.recording import FILLED, MEASURED, MISSING, BadRecording, Record
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
-    "method", "samples", "largest_change_mm", "expected_error_mm", "decision",
+    "method", "samples", "largest_change_mm", "expected_error_mm", "decision", "alternatives",
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
@@ -34,7 +34,7 @@ def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]
 
     The facts of the restored recording name the changes (`repairs`, `repairs_left`, `fills`). Where measured samples
     were blanked and then filled, the row has the class and evidence of the finding and the method of the fill. The
-    column decision has what a person decided about it.
+    column decision has what a person decided about it, alternatives what each method was expected to err by at worst.
     """
     differs, facts = changed(measured, restored), restored.facts
     filled = restored.origin == FILLED
@@ -61,9 +61,11 @@ def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]
 
 
 def _finding(blanked: list[dict[str, Any]], marker: str, frame: int) -> dict[str, Any]:
-    """Class, score and decisions of the finding for which a measured sample was blanked."""
+    """Class, score, decisions and offered repairs of the finding for which a measured sample was blanked."""
     covering = (left for left in blanked if left["marker"] == marker and left["start"] <= frame < left["stop"])
-    return {key: value for key, value in next(covering).items() if key in ("class", "score", "decisions")}
+    return {
+        key: value for key, value in next(covering).items() if key in ("class", "score", "decisions", "alternatives")
+    }
 
 
 def _row(
@@ -89,6 +91,7 @@ def _row(
         "largest_change_mm": _rounded(np.nanmax(moved) if np.isfinite(moved).any() else None),
         "expected_error_mm": _rounded(np.nanmax(error) if np.isfinite(error).any() else None),
         "decision": "; ".join(change.get("decisions", ())),
+        "alternatives": "; ".join(f"{name} {mm:.1f} mm" for name, mm in change.get("alternatives", {}).items()),
     }
 
 

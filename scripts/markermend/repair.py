@@ -1,14 +1,15 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Swapped labels are exchanged first; what else was found was found in trajectories without swaps. A repair replaces the
-samples of its interval and says how and how surely; where none can be trusted, the samples become missing and say why; so do samples that nobody
+Swapped labels are exchanged first; what else was found was found in trajectories without swaps. All methods of a class
+say what they would write and how surely; the surest is taken, provided that it brings the samples nearer to where the
+neighbours say they should be. Where none can be trusted, the samples become missing and say why; so do samples that nobody
 measured. Samples outside the intervals are returned bit for bit.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,33 +19,9 @@ from markermend.events import Event
 from markermend.judgement import judge
 from markermend.predictors import Predictor, Scene
 from markermend.recording import Recording, Restored
-from markermend.repair_methods import METHODS, Proposal, predicted, smoothed, without_offset
-from markermend.restoration import BALL68, Restoration
-from markermend.robust import samples
-
-
-@dataclass(frozen=True)
-class RepairOptions:
-    """Settings of the repair (config section `repair`).
-
-    methods: for each class the methods to try, best first: names of predictors, `savitzky_golay`, `offset` (subtract
-    a step), `swap` (swap back with the partner, before all other repairs) or `blank`. protect: marker name patterns never touched.
-    max_altered_share: with more than this share of the seen samples found, nothing is repaired. max_repair_s: longer
-    findings become missing. max_error_mm: likewise where the expected error (68 %) exceeds it. coherent_share: a step is
-    subtracted where what remains of it varies by less than this share of its size. savitzky_golay_order,
-    savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the error of a method is
-    told that does not state one.
-    """
-
-    methods: Mapping[str, Sequence[str]]
-    protect: Sequence[str]
-    max_altered_share: float
-    max_repair_s: float
-    max_error_mm: float
-    coherent_share: float
-    savitzky_golay_order: int
-    savitzky_golay_s: float
-    trials: int
+from markermend.repair_methods import METHODS
+from markermend.repair_offers import Offers, RepairOptions, choose
+from markermend.restoration import Restoration
 
 
 def repair(
@@ -61,7 +38,7 @@ def repair(
 
     neighbours, relatives: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
     a person says, against which no limit holds. The facts of the result gain `repairs` (marker, start, stop, class,
-    method, score, axes, partner), `repairs_left` (the same with a reason and whether the samples were blanked), each
+    method, score, axes, partner, and the `alternatives`: expected error in mm of each method that could be used), `repairs_left` (the same with a reason and whether the samples were blanked), each
     with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
     """
     work = _Repairer(recording, found, neighbours, relatives, predictors, options, decisions)
@@ -109,7 +86,8 @@ class _Repairer:
         self.found = {stage: list(events) for stage, events in found.items() if events}
         self.flagged = self._covered([event for events in self.found.values() for event in events])
         believed = np.where(self.flagged[..., None], np.nan, recording.positions)
-        self.scene = Scene(believed, recording.rate, self.neighbours, relatives=self.relatives)
+        scene = Scene(believed, recording.rate, self.neighbours, relatives=self.relatives)
+        self.offers = Offers(recording.positions, self.flagged, scene, self.predictors, self.options)
 
     def _covered(self, events: Sequence[Event]) -> np.ndarray:
         """Bool (frames, markers): the seen samples that the findings cover."""
@@ -144,9 +122,19 @@ class _Repairer:
                 rest.append(event)
             elif (partner, event.marker, event.start, event.stop) not in done:
                 done.add((event.marker, partner, event.start, event.stop))
-                self.result.exchange(event, ruling)
+                self._exchange(event, ruling)
         swapped = replace(self.recording, positions=self.result.positions.copy())
         self._look_at(swapped, {**self.found, "steps": rest})
+
+    def _exchange(self, event: Event, ruling: Ruling) -> None:
+        """Exchange the samples of two markers, unless that would leave them worse."""
+        pair = [self.recording.markers.index(name) for name in names(event)]
+        worse = None if ruling.confirmed else self.offers.worse_swapped(pair, event.start, event.stop)
+        if worse is None:
+            self.result.exchange(event, ruling)
+            return
+        for one in (event, replace(event, marker=str(event.partner), partner=event.marker)):
+            self.result.leave(one, ["steps"], f"no better with labels swapped: {worse}", ruling, blank=False)
 
     def findings(self) -> list[tuple[str, int, int, list[Member]]]:
         """The intervals to work on, by marker and time, each with the findings that overlap in it."""
@@ -180,47 +168,27 @@ class _Repairer:
             self._mend(stage, stages, event, ruling)
 
     def _mend(self, stage: str, stages: Sequence[str], event: Event, ruling: Ruling) -> None:
-        """Repair one finding by the first of its class's methods that can be trusted; blank it if none can.
+        """Repair one finding by the method that is expected to err least; blank it if none can be trusted.
 
-        A repair that is expected to err by more than it changes is none: then the samples stay as measured. Where a
-        person confirmed the finding, the best repair is trusted.
+        A repair that would leave the recording no better is none: then the samples stay as measured. Where a person
+        confirmed the finding, the best repair is trusted.
         """
-        if event.stop - event.start > self.options.max_repair_s * self.recording.rate and not ruling.confirmed:
-            self.result.leave(event, stages, f"longer than {self.options.max_repair_s:g} s", ruling, blank=True)
+        options = self.options
+        if event.stop - event.start > options.max_repair_s * self.recording.rate and not ruling.confirmed:
+            self.result.leave(event, stages, f"longer than {options.max_repair_s:g} s", ruling, blank=True)
             return
-        m, reasons, harmless = self.recording.markers.index(event.marker), [], False
-        doubtful: list[tuple[float, Proposal]] = []
-        for method in [ruling.method] if ruling.method else self.options.methods[stage]:
-            proposal = None if method == "swap" else self._propose(method, m, event.start, event.stop)
-            if proposal is None:
-                reasons += [f"{method}: not applicable"] if method != "swap" else []
-                continue
-            worst = float(np.max(proposal.error)) * BALL68
-            change = np.linalg.norm(proposal.positions - self.recording.positions[event.start : event.stop, m], axis=1)
-            largest = float(np.nanmax(change))
-            if worst <= min(self.options.max_error_mm, largest):
-                self.result.write(stage, event, proposal, ruling)
-                return
-            doubtful.append((worst, proposal))
-            harmless |= largest < worst
-            reasons.append(f"{method}: expected error {worst:.1f} mm for a change of {largest:.1f} mm")
-        if ruling.confirmed and doubtful:
-            self.result.write(stage, event, min(doubtful, key=lambda pair: pair[0])[1], ruling)
+        methods = [ruling.method] if ruling.method else options.methods[stage]
+        m = self.recording.markers.index(event.marker)
+        offers = self.offers.of(methods, m, event.start, event.stop)
+        best = min(offers, key=lambda offer: offer.expected, default=None)
+        taken = choose(offers, limit_mm=options.max_error_mm, prefer=options.prefer)
+        if taken is None and ruling.confirmed:
+            taken = best
+        if taken:
+            self.result.write(stage, event, taken, offers, ruling)
             return
-        reason = "no repair can be trusted (" + "; ".join(reasons) + ")"
-        self.result.leave(event, stages, reason, ruling, blank=not harmless)
-
-    def _propose(self, method: str, m: int, start: int, stop: int) -> Proposal | None:
-        """What a method would write, or None where it cannot tell for every sample."""
-        options, original = self.options, self.recording.positions[:, m]
-        if method == "blank":
-            return None
-        if method == "savitzky_golay":
-            window = samples(options.savitzky_golay_s, self.recording.rate, odd=True)
-            return smoothed(
-                original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
-            )
-        if method == "offset":
-            prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
-            return without_offset(original, prediction, start, stop, coherent_share=options.coherent_share)
-        return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)
+        able = {offer.proposal.method: offer.against(options.max_error_mm) for offer in offers}
+        told = [f"{method}: {able.get(method, 'not applicable')}" for method in methods if method != "swap"]
+        reason = f"no repair can be trusted ({'; '.join(told)})"
+        harmless = best is not None and best.doubt is not None
+        self.result.leave(event, stages, reason, ruling, blank=not harmless, offers=offers)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -11,13 +11,10 @@ import numpy as np
 from markermend.decisions import STAGE_OF, Ruling
 from markermend.events import Event
 from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
-from markermend.repair_methods import Proposal
+from markermend.repair_offers import BALL68, BALL95, Offer
 
 KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
 """What is found, and a sample that is repaired, is called, by its detector; labels that are swapped back are a swap."""
-
-BALL68, BALL95 = 1.8724, 2.7955
-"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
 
 
 class Restoration:
@@ -32,15 +29,15 @@ class Restoration:
         self._repairs: list[dict[str, Any]] = []
         self._left = list(left)
 
-    def write(self, stage: str, event: Event, proposal: Proposal, ruling: Ruling) -> None:
-        """Write a proposal where the marker was seen, and note the repair."""
-        m = self._recording.markers.index(event.marker)
+    def write(self, stage: str, event: Event, offer: Offer, offers: Iterable[Offer], ruling: Ruling) -> None:
+        """Write what is offered where the marker was seen, and note the repair and all the offers."""
+        m, proposal = self._recording.markers.index(event.marker), offer.proposal
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
         self._origin[rows, m] = ORIGINS.index(KIND_OF[stage])
         self._error[rows, m] = proposal.error[seen]
-        self._note(event, KIND_OF[stage], proposal.method, ruling)
+        self._note(event, KIND_OF[stage], proposal.method, ruling, alternatives(offers))
 
     def exchange(self, event: Event, ruling: Ruling) -> None:
         """Exchange the original samples of a marker and its partner over the interval."""
@@ -53,8 +50,17 @@ class Restoration:
         self._note(event, "swap", "swap", ruling)
         self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap", ruling)
 
-    def leave(self, event: Event, stages: Collection[str], reason: str, ruling: Ruling, *, blank: bool) -> None:
-        """Note that an interval was not repaired; with `blank`, its samples become missing."""
+    def leave(
+        self,
+        event: Event,
+        stages: Collection[str],
+        reason: str,
+        ruling: Ruling,
+        *,
+        blank: bool,
+        offers: Iterable[Offer] = (),
+    ) -> None:
+        """Note that an interval was not repaired, whatever was offered; with `blank`, its samples become missing."""
         span = slice(event.start, event.stop)
         if blank:
             m = self._recording.markers.index(event.marker)
@@ -63,7 +69,7 @@ class Restoration:
             self._error[span, m] = np.nan
         kinds = "+".join(kind for stage, kind in KIND_OF.items() if stage in stages)
         note = {"marker": event.marker, "start": event.start, "stop": event.stop, "class": kinds, "score": event.score}
-        self._left.append({**note, "reason": reason, "blanked": blank, **ruling.note})
+        self._left.append({**note, "reason": reason, "blanked": blank, **alternatives(offers), **ruling.note})
 
     def finished(self) -> Restored:
         """The repaired recording."""
@@ -71,6 +77,14 @@ class Restoration:
         common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame, facts)
         return Restored(*common, self._origin, self._error * BALL68, self._error * BALL95)
 
-    def _note(self, event: Event, origin: str, method: str, ruling: Ruling) -> None:
+    def _note(
+        self, event: Event, origin: str, method: str, ruling: Ruling, others: Mapping[str, Any] | None = None
+    ) -> None:
         """Note a repair."""
-        self._repairs.append({**vars(event), "class": origin, "method": method, **ruling.note})
+        self._repairs.append({**vars(event), "class": origin, "method": method, **(others or {}), **ruling.note})
+
+
+def alternatives(offers: Iterable[Offer]) -> dict[str, dict[str, float]]:
+    """What facts say about the offers for a finding: the expected error of each, mm; nothing where there is none."""
+    expected = {offer.proposal.method: round(offer.expected, 3) for offer in offers}
+    return {"alternatives": expected} if expected else {}
