@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter1d
 
 import bodies
 from markermend.decisions import Decision
@@ -171,3 +172,16 @@ def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
     assert np.array_equal(result.positions[~covered], recording.positions[~covered])
     (left,) = result.facts["repairs_left"]
     assert left["class"] == "peak+slow" and left["blanked"]
+
+
+def test_an_offset_is_subtracted_where_the_neighbours_tell_less_than_the_jumps(clean):
+    """A marker on loose skin: the prediction errs by millimetres, the jumps at both ends of a step do not."""
+    m, rng = clean.markers.index(MARKER), np.random.default_rng(8)
+    loose = gaussian_filter1d(rng.normal(0, 1, (clean.frames, 3)), 12, axis=0)
+    positions = clean.positions.copy()
+    positions[:, m] += 3.0 * loose / loose.std()
+    wobbly = bodies.recording(clean.markers, positions)
+    result = mend(distorted(wobbly, np.array([6.0, -5.0, 4.0])), {"steps": [Event(MARKER, START, STOP, 5.0)]})
+    (told,) = result.facts["repairs"]
+    assert told["method"] == "offset" and told["alternatives"]["local_ridge"] > 3
+    assert error(wobbly, result).max() < 0.8

@@ -60,8 +60,8 @@ def without_offset(
     """The measured samples less a constant offset, where they are otherwise coherent with the prediction.
 
     original: (frames, 3), the marker's course as measured. The offset is told by the jumps at both edges, which the
-    prediction's slow error does not touch. None where edges disagree, or where what remains varies, by more than
-    `coherent_share` of the offset.
+    prediction's slow error does not touch. None where edges disagree by more than `coherent_share` of the offset, or
+    where what remains varies by more than that and by more than the prediction may err.
     """
     rows = np.arange(start - 1, stop + 1)
     if rows[0] < 0 or rows[-1] >= len(original):
@@ -73,7 +73,9 @@ def without_offset(
     offset = edges.mean(axis=0)
     uneven = np.linalg.norm(edges[0] - edges[1]) / 2
     wobble = np.linalg.norm(np.std(residual[1:-1], axis=0))
-    if max(uneven, wobble) > coherent_share * np.linalg.norm(offset):
+    coherent = coherent_share * float(np.linalg.norm(offset))
+    unsure = np.sqrt(3 * np.mean(prediction.error[1:-1] ** 2))
+    if uneven > coherent or wobble > max(coherent, unsure):
         return None
     error = np.sqrt(uneven**2 + wobble**2 / (stop - start)) / np.sqrt(3)
     return Proposal("offset", original[start:stop] - offset, np.full(stop - start, max(error, 1e-6)))
