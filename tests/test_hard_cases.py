@@ -150,7 +150,8 @@ def test_all_markers_lost(chain):
     filled_well(fill(few, [(m, 700, 706) for m in range(8)]), gaps=8, error=2)
     left_open(fill(few, [(m, 700, 790) for m in range(8)]), "no method could fill it; fewest neighbours seen: 0")
     done = fill(few, [(m, 700, 720) for m in range(8)], members=["spline", "kalman"])
-    filled_well(done, gaps=8, error=30, inside95=0.5)
+    assert len(done.result.facts["fills"]) >= 6 and done.distance.mean() < 30 and done.inside95 >= 0.5
+    assert all(reason.startswith("expected error") for reason in done.left.values())
 
 
 def test_a_marker_seen_rarely(chain):
