@@ -84,12 +84,12 @@ def fill_case(folder, case, names, changes=()):
     positions = whole.positions.copy()
     for marker, start, stop in case["gaps"]:
         positions[start:stop, marker] = np.nan
-    started = time.perf_counter()
+    started = time.process_time()
     gapped = replace(whole, positions=positions)
     (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
-    inferred = time.perf_counter()
+    inferred = time.process_time()
     filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
-    seconds = inferred - started, time.perf_counter() - inferred
+    seconds = inferred - started, time.process_time() - inferred
     gaps = []
     for marker, start, stop in case["gaps"]:
         place = slice(start, stop), marker
@@ -155,6 +155,20 @@ def print_calibration(cases):
         print(f"{name:16} {condition:10} {low:6.1f} {high:6.1f} {len(joined):8}")
 
 
+def print_seconds(cases, programs):
+    """Per condition: our seconds of a core for the mesh and for filling, and the seconds of PMA where it was run."""
+    spent = defaultdict(list)
+    for case, seconds, _ in cases:
+        theirs = programs["pma5"].get(f"{case['seq']}/{case['cond']}_{case['it']}", {}).get("seconds", np.nan)
+        spent[case["cond"]].append((*seconds, theirs))
+    print(f"\nseconds per recording\n{'condition':10} {'mesh':>6} {'fill':>6} {'pma5':>6} {'times as long':>14}")
+    for condition, rows in sorted(spent.items()):
+        timed = np.array([row for row in rows if np.isfinite(row[2])]).reshape(-1, 3)
+        if len(timed):
+            mesh, fill, theirs = timed.mean(axis=0)
+            print(f"{condition:10} {mesh:6.2f} {fill:6.2f} {theirs:6.1f} {theirs / (mesh + fill):14.1f}")
+
+
 def main():
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -186,6 +200,7 @@ def main():
             ours[f"{case['seq']}/{condition}_{case['it']}"] = condition, score(condition, gaps)
         print_errors(ours, programs, title)
     print_calibration(done)
+    print_seconds(done, programs)
     mesh, fill = np.array([seconds for _, seconds, _ in done]).sum(axis=0)
     gaps = sum(len(own) for _, _, own in done)
     print(f"\n{len(done)} cases, {gaps} gaps: fill {fill:.0f} s ({fill / gaps:.2f} s per gap), mesh {mesh:.0f} s")

@@ -43,4 +43,4 @@ def test_members_that_state_nothing_err_when_the_others_do():
 def test_where_nobody_states_an_error_the_usual_one_stands():
     found = expected_errors(np.full((2, 3), NAN), np.sqrt(3) * np.array([1.0, 2.0]), np.full((2, 3), 0.5))
     assert found == pytest.approx(np.array([[1.0] * 3, [2.0] * 3]))
-    assert expected_errors(np.full((1, 2), NAN), np.array([NAN]), np.ones((1, 2))).tolist() == [[0, 0]]
+    assert np.isnan(expected_errors(np.full((1, 2), NAN), np.array([NAN]), np.ones((1, 2)))).all()

@@ -38,7 +38,8 @@ class EnsembleOptions:
     frames that make a reference. frames: most frames and samples used to learn distances. smoothing_s: moving average
     over the likelihoods. floor: least likelihood. spacing_references, spacing_low, spacing_high, spacing_rounds: see
     constrain_spacing (0 rounds: off). error_mm: least error of a member. prior: weight of the stated errors, in
-    pseudo-gaps, against what the pseudo-gaps of a gap tell. radius: see RadiusOptions.
+    pseudo-gaps, against what the pseudo-gaps of a gap tell. radius: see
+    RadiusOptions.
     """
 
     weights: str
@@ -115,7 +116,15 @@ class Ensemble:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
         options = self.options
-        trials = pseudo_gaps(hidden, marker, start, stop, count=options.pseudo_gaps, share=options.hidden_share)
+        trials = pseudo_gaps(
+            hidden,
+            marker,
+            start,
+            stop,
+            count=options.pseudo_gaps,
+            share=options.hidden_share,
+            company=options.similar_neighbours,
+        )
         _train(self.trial_members, list({id(trial.scene): (trial.scene, marker) for trial in trials}.values()))
         tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
         errors = squared_errors(
@@ -141,8 +150,17 @@ class Ensemble:
         judges = self._judges(hidden, marker)
         positions, stated, means = self._average(hidden, judges, start, candidates, trust)
         deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
+        if scene.doubt is not None:
+            deviation = np.hypot(deviation, self._inherited(hidden, marker, start, stop, scene.doubt))
         named = {member.name: float(share) for member, share in zip(self.members, means, strict=True) if share > 0}
         return Filling(positions, deviation, named)
+
+    def _inherited(self, scene: Scene, marker: int, start: int, stop: int, doubt: np.ndarray) -> np.ndarray:
+        """Mean doubt (n,), mm, of the nearest neighbours seen in each frame: what filled neighbours have in common."""
+        near = np.asarray(scene.neighbours[marker], int)
+        seen = scene.present[start:stop, near]
+        used = seen & (np.cumsum(seen, axis=1) <= self.options.references)
+        return np.where(used, doubt[start:stop, near], 0.0).sum(axis=1) / np.maximum(used.sum(axis=1), 1)
 
     def _candidates(
         self, members: Sequence[Predictor], scene: Scene, marker: int, start: int, stop: int

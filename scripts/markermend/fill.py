@@ -180,8 +180,11 @@ class _Filler:
         self.left: dict[Gap, str] = {}
         self._ensemble, self._options = ensemble, options
         self._radius = RadiusOptions(**ensemble.options.radius)
+        if before:
+            before._accept()
         self._references: np.ndarray = before._references.copy() if before else scene.positions.copy()
         self._doubt: np.ndarray = before._doubt.copy() if before else np.zeros(scene.present.shape)
+        self._new: list[Gap] = []
         self._scene = scene
         self._trust: dict[tuple[Hashable, ...], Trust] = {}
         self._marker: int | None = None
@@ -194,23 +197,31 @@ class _Filler:
         """
         if gap.marker != self._marker:
             measured = self._scene.measured or self._scene
-            self._scene = replace(
-                self._scene, positions=self._references.copy(), measured=measured, doubt=self._doubt.copy()
-            )
+            self._accept()
+            self._scene = replace(self._scene, positions=self._references, measured=measured, doubt=self._doubt)
             self._marker = gap.marker
         filling = self._ensemble.fill(self._scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
-        if np.isnan(filling.positions).any() or np.isnan(filling.deviation).any():
+        if np.isnan(filling.positions).any():
             near = self._scene.present[gap.start : gap.stop, self._scene.neighbours[gap.marker]]
             fewest = int(near.sum(axis=1).min())
             self.left[gap] = f"no method could fill it; fewest neighbours seen: {fewest}"
+            return
+        if np.isnan(filling.deviation).any():
+            self.left[gap] = "nothing tells how far off a filling would be"
             return
         self.filled[gap] = filling
         # A course drawn in time alone knows nothing of the body: it is no reference, nor is what will not be believed.
         told = not set(filling.weights) <= set(KINDS)
         if self._options.reuse and told and self._refusal(filling, self._radius.inner) is None:
+            self._new.append(gap)
+
+    def _accept(self) -> None:
+        """Let what was filled of the last marker be seen in the scenes to come; those of before are not used again."""
+        for gap in self._new:
             place = slice(gap.start, gap.stop), gap.marker
-            self._references[place] = filling.positions
-            self._doubt[place] = filling.deviation
+            self._references[place] = self.filled[gap].positions
+            self._doubt[place] = self.filled[gap].deviation
+        self._new.clear()
 
     def finish(self, old: Restored) -> Restored:
         """A recording with all gaps that could be filled well enough besides, and their expected errors."""

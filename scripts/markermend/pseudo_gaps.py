@@ -21,10 +21,13 @@ class PseudoGap:
     truth: np.ndarray
 
 
-def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int, share: float) -> list[PseudoGap]:
+def pseudo_gaps(
+    scene: Scene, marker: int, start: int, stop: int, *, count: int, share: float, company: int
+) -> list[PseudoGap]:
     """Hide stretches as long as the gap [start, stop), spread over where the marker is seen with both borders.
 
-    Where the marker is not seen that long, they are two thirds of its longest stretch.
+    Where the marker is not seen that long, they are two thirds of its longest stretch. If there is room for it they lie
+    where no more of the `company` nearest neighbours are missing than during the real gap.
 
     A gap at an end of the recording has but one border: on the other side its trials hide as much again, at least 1 s.
     What neighbours miss during the real gap they miss at the same offsets of the trial, and where they were filled they
@@ -40,6 +43,11 @@ def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int,
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
     begins = np.arange(1, len(scene.positions) - length)
     begins = begins[seen[begins + length + 1] - seen[begins - 1] == length + 2]
+    near = np.asarray(scene.neighbours[marker], int)[:company]
+    there = near[scene.present[start:stop, near].all(axis=0)]
+    lost = np.concatenate([[0], np.cumsum(~scene.present[:, there].all(axis=1))])
+    alike = begins[lost[begins + length] == lost[begins]]
+    begins = alike if len(alike) >= count else begins
     # The same gap gets the same trials in every run, other gaps other ones: what all have in common is no accident.
     rng = np.random.default_rng([marker, start, stop])
     chosen = begins[np.unique(((np.arange(count) + rng.random(count)) / count * len(begins)).astype(int))]
@@ -49,10 +57,8 @@ def pseudo_gaps(scene: Scene, marker: int, start: int, stop: int, *, count: int,
     before, after = beyond * (start == 0), beyond * (stop == len(scene.positions))
     hidden = before + length + after
     doubt = np.zeros((length, scene.positions.shape[1])) if scene.doubt is None else scene.doubt[rows]
-    # The same gap gets the same trials in every run; an error of filling lasts about as long as the gap.
-    directions = np.random.default_rng([marker, start, stop]).standard_normal(
-        (len(chosen), scene.positions.shape[1], 3)
-    )
+    # An error of filling lasts about as long as the gap.
+    directions = rng.standard_normal((len(chosen), scene.positions.shape[1], 3))
     every = _scenes(chosen, room=2 * hidden, most=int(share * seen[-1] / hidden))
     trials: dict[int, PseudoGap] = {}
     for first in range(every):

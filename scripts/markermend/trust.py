@@ -67,7 +67,7 @@ def expected_errors(stated: np.ndarray, typical: np.ndarray, weights: np.ndarray
     """Standard deviation per axis (members, n), mm, of members some of which do not state it (NaN).
 
     These are taken to err as much as on pseudo-gaps, typical (members,), and when those that state something do. A
-    member that was never tried either is taken to be as good as the worst of the others.
+    member that was never tried either is taken to be as good as the worst of the others; NaN where nothing is known.
     """
     usual = (typical / np.sqrt(3))[:, None]
     told = np.where(np.isnan(stated) | np.isnan(usual), 0.0, weights)
@@ -76,4 +76,5 @@ def expected_errors(stated: np.ndarray, typical: np.ndarray, weights: np.ndarray
     course = np.where(known, (share * np.nan_to_num(stated)).sum(axis=0), 1.0)
     level = np.where(known, (share * np.nan_to_num(usual)).sum(axis=0), 1.0)
     errors = np.where(np.isnan(stated), usual * course / np.maximum(level, 1e-9), stated)
-    return np.where(np.isnan(errors), np.nanmax(errors, axis=0, initial=0.0), errors)
+    worst = np.nan_to_num(errors).max(axis=0)
+    return np.where(np.isnan(errors), np.where(worst > 0, worst, np.nan), errors)
