@@ -19,19 +19,18 @@ import numpy as np
 import yaml
 
 from markermend import events, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
-from markermend.contamination import Contamination, Recipe, integers, normal, one_at_a_time, poisson
+from markermend.contamination import Contamination
 from markermend.formats import files
 from markermend.mesh import Mesh
 from markermend.predictors import Scene
 from markermend.predictors.registry import REGISTRY, SHARED, members
+from markermend.procedures import one_at_a_time, recipes
 from markermend.recording import Recording
 from markermend.repair import RepairOptions, repair
 
 PROJECT = Path(__file__).resolve().parents[1]
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": slow}
 CLASSES = tuple(DETECTORS)
-SPREAD = 0.4
-"""Standard deviation of the amplitude, as a part of its mean."""
 
 
 @dataclass
@@ -58,11 +57,9 @@ def nothing() -> Outcome:
 
 def damage(clean: Recording, *, amplitude: float, share: float, seed: int) -> Contamination:
     """Contaminate a recording."""
-    size = normal(amplitude, SPREAD * amplitude)
-    recipes = {kind: Recipe(size, poisson(50), 3) for kind in ("noise", "steps", "slow")}
-    recipes["peaks"] = Recipe(size, integers(1, 5), 3)
     rng = np.random.default_rng(seed)
-    return one_at_a_time(clean.positions, clean.markers, recipes=recipes, share=share, margin=10, rng=rng)
+    given = {"recipes": recipes(amplitude), "share": share, "margin": 10, "rng": rng}
+    return one_at_a_time(clean.positions, clean.markers, **given)
 
 
 def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:

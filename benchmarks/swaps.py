@@ -16,7 +16,8 @@ import numpy as np
 import yaml
 
 from markermend import mesh_inference, mesh_statistics
-from markermend.contamination import Contamination, integers
+from markermend.contamination import Contamination
+from markermend.damage import integers
 from markermend.formats import files
 from markermend.predictors import Scene
 from markermend.swaps import SwapSettings, detect_swaps, undone

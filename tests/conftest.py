@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from markermend.contamination import Contamination, Recipe, integers, uniform
+from markermend.contamination import Contamination
+from markermend.damage import Recipe, integers, uniform
 from markermend.events import Event
 from markermend.recording import Recording
 from markermend.walker import Walker, make_body, walk

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from markermend import events
-from markermend.contamination import Contamination, Recipe, integers, normal, one_at_a_time, poisson, shape, uniform
+from markermend.contamination import Contamination
+from markermend.damage import SHAPES, Recipe, integers, normal, poisson, shape, uniform
+from markermend.procedures import in_practice, one_at_a_time
 
 FRAMES, MARKERS = 13000, [f"M{m}" for m in range(6)]
 
@@ -70,13 +72,16 @@ def test_gaps_of_every_sort(contaminated):
     assert sum(len(markers) == 3 for markers in together.values()) == 2
 
 
-@pytest.mark.parametrize("kind", events.CLASSES)
+@pytest.mark.parametrize("kind", SHAPES)
 def test_shapes(kind):
     for length in (1, 2, 5, 50):
         course = shape(kind, length)
         assert course.max() == 1
         assert course.min() > 0
-        np.testing.assert_allclose(course, course[::-1])
+        if kind == "tails":
+            assert (np.diff(course) > 0).all()
+        else:
+            np.testing.assert_allclose(course, course[::-1])
     if kind == "slow":
         assert np.ptp(np.diff(course)[:24]) < 1e-12
 
@@ -104,6 +109,7 @@ def test_the_papers_procedure(share):
     found = masks(result, FRAMES)
     distorted = sum(mask.sum(axis=1) for mask in found.values())
     assert distorted.max() == 1
+    assert not found.pop("frozen").any() and not found.pop("tails").any()
     for mask in found.values():
         assert mask.sum() == pytest.approx(share / 4 * FRAMES, abs=26)
     assert np.array_equal((result.positions != still()).any(axis=(1, 2)), distorted > 0)
@@ -161,3 +167,47 @@ def test_no_room_is_an_error():
         damage.gap(length=integers(201, 201), markers=1, at="anywhere", count=1)
     with pytest.raises(ValueError, match="cannot be distorted"):
         one_at_a_time(still(300), MARKERS, recipes=paper(), share=0.9, margin=40, rng=np.random.default_rng(0))
+
+
+@pytest.fixture(scope="module")
+def practice(walker):
+    clean = walker.recording
+    given = {"rate": clean.rate, "amplitude": 15.0, "share": 0.1, "rng": np.random.default_rng(11)}
+    return in_practice(clean.positions, clean.markers, **given)
+
+
+def test_damage_in_practice_is_of_every_sort(walker, practice):
+    found = practice.events
+    assert all(found[kind] for kind in events.CLASSES)
+    assert {len(artifact.event.axes) for artifact in practice.artifacts} == {1, 2, 3}
+    assert {event.stop - event.start for event in found["steps"] if event.partner} & {1, 2}
+    starts = [(artifact.kind, artifact.start, artifact.stop) for artifact in practice.artifacts if not artifact.partner]
+    assert {kind for kind, *_ in starts if starts.count((kind, *_)) == 3} >= {"noise", "steps", "slow"}
+    names = [event.marker for event in found["peaks"]]
+    bursts = [name for name in set(names) if names.count(name) >= 3]
+    assert bursts
+
+
+def test_damage_in_practice_is_where_it_says(walker, practice):
+    clean = walker.recording.positions
+    covered = sum(events.mask(own, len(clean), practice.markers).astype(int) for own in practice.events.values())
+    gaps = events.mask([events.Event(*gap, 1.0) for gap in practice.gaps], len(clean), practice.markers)
+    assert (covered + gaps).max() == 1
+    assert np.array_equal(np.isnan(practice.positions).any(axis=2), gaps)
+    assert np.array_equal((practice.positions != clean).any(axis=2), (covered + gaps) == 1)
+
+
+def test_frozen_markers_repeat_and_tails_wander_off_towards_their_gaps(walker, practice):
+    for event in practice.events["frozen"]:
+        m = practice.markers.index(event.marker)
+        held = practice.positions[event.start - 1 : event.stop, m]
+        assert (held == held[0]).all()
+        assert np.linalg.norm(walker.recording.positions[event.stop - 1, m] - held[0]) > 15
+    size = 0
+    for event in practice.events["tails"]:
+        m = practice.markers.index(event.marker)
+        away = np.linalg.norm((practice.positions - walker.recording.positions)[event.start : event.stop, m], axis=1)
+        before, after = (np.isnan(practice.positions[frame, m]).all() for frame in (event.start - 1, event.stop))
+        assert before != after
+        size += (away[-1] - away[0]) * (1 if after else -1)
+    assert size > 0

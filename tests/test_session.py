@@ -60,9 +60,16 @@ def test_a_subject_does_not_depend_on_the_others():
 def test_damage_is_of_every_sort():
     daily = list(session(seed=3, subject=1, duration=15.0, rate=100.0))[1]
     assert {kind: len(found) for kind, found in daily.truth.items()} == {
-        "peaks": 15, "noise": 5, "steps": 9, "slow": 5, "gaps": 24,
+        "frozen": 3, "peaks": 15, "noise": 5, "steps": 9, "slow": 5, "tails": 3, "gaps": 27,
     }  # fmt: skip
     assert sum(event.partner is not None for event in daily.truth["steps"]) == 4
-    for kind, shortest, longest in (("peaks", 1, 5), ("noise", 40, 100), ("slow", 60, 200), ("steps", 20, 199)):
+    for kind, shortest, longest in (
+        ("peaks", 1, 5),
+        ("noise", 40, 100),
+        ("slow", 60, 200),
+        ("steps", 20, 199),
+        ("frozen", 10, 50),
+        ("tails", 2, 8),
+    ):
         lengths = [event.stop - event.start for event in daily.truth[kind]]
         assert shortest <= min(lengths) <= max(lengths) <= longest

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from markermend import swaps
-from markermend.contamination import Contamination, integers
+from markermend.contamination import Contamination
+from markermend.damage import integers
 from markermend.events import Event
 from markermend.formats import files
 from markermend.predictors import Scene

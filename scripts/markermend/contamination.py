@@ -1,82 +1,16 @@
-"""Known damage to clean trajectories: artifacts of the four classes, swapped labels and gaps, with the truth about each.
+"""Known damage to clean trajectories: artifacts of every class, swapped labels and gaps, with the truth about each.
 
-No two of them ever meet on one marker. The shapes and the procedure `one_at_a_time` are those of the artifact detection
-paper (skurowski2022, section 4.1.3).
+No two of them ever meet on one marker, but for a noisy tail and its gap.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
+from markermend.damage import Artifact, Draw, Recipe, added
 from markermend.events import CLASSES, Event
-
-Draw = Callable[[np.random.Generator], float]
-"""How an amplitude (mm) or a length (frames) is drawn."""
-
-
-@dataclass(frozen=True)
-class Recipe:
-    """How the artifacts of one class are drawn: amplitude in mm, length in frames, and how many axes they hit."""
-
-    amplitude: Draw
-    length: Draw
-    axes: int
-
-
-@dataclass(frozen=True)
-class Artifact:
-    """One artifact as it was put in: class, marker, half-open interval, and its amplitude along x, y and z in mm.
-
-    For noise the amplitude is the standard deviation. A swap has class steps, a partner and no amplitude.
-    """
-
-    kind: str
-    marker: str
-    start: int
-    stop: int
-    amplitude: tuple[float, float, float]
-    partner: str | None = None
-
-    @property
-    def event(self) -> Event:
-        """The artifact as a detector ought to report it."""
-        axes = "".join(axis for axis, size in zip("xyz", self.amplitude, strict=True) if size or self.partner)
-        return Event(self.marker, self.start, self.stop, 1.0, axes, self.partner)
-
-
-def uniform(low: float, high: float) -> Draw:
-    """Draw evenly from [low, high)."""
-    return lambda rng: rng.uniform(low, high)
-
-
-def integers(low: int, high: int) -> Draw:
-    """Draw a whole number evenly from low to high, both included."""
-    return lambda rng: int(rng.integers(low, high + 1))
-
-
-def normal(mean: float, deviation: float) -> Draw:
-    """Draw from a normal distribution."""
-    return lambda rng: rng.normal(mean, deviation)
-
-
-def poisson(mean: float) -> Draw:
-    """Draw a length of at least one frame from a Poisson distribution."""
-    return lambda rng: max(1, int(rng.poisson(mean)))
-
-
-def shape(kind: str, length: int) -> np.ndarray:
-    """Course of an artifact of amplitude 1 over its frames: a bump, a rectangle or a triangle; noise has amplitude 1."""
-    at = (np.arange(length) + 0.5) / length
-    course = {
-        "peaks": np.sin(np.pi * at),
-        "noise": np.ones(length),
-        "steps": np.ones(length),
-        "slow": 1 - np.abs(2 * at - 1),
-    }[kind]
-    return course / course.max()
 
 
 class Contamination:
@@ -116,20 +50,57 @@ class Contamination:
             self.put(kind, recipe, marker=m, start=start, stop=start + length)
 
     def put(self, kind: str, recipe: Recipe, *, marker: int, start: int, stop: int) -> None:
-        """Put in one artifact at a given place; its amplitude goes in a random direction along as many axes as asked."""
-        size = float(recipe.amplitude(self._rng))
-        direction = np.zeros(3)
-        axes = self._rng.choice(3, recipe.axes, replace=False)
-        direction[axes] = self._rng.normal(0.0, 1.0, recipe.axes)
-        amplitude = size * direction / np.linalg.norm(direction)
-        change = shape(kind, stop - start)[:, None] * amplitude
-        if kind == "noise":
-            amplitude = np.abs(size * (direction != 0))
-            change = self._rng.normal(0.0, 1.0, (stop - start, 3)) * amplitude
+        """Put in one artifact of a class that adds something, at a given place."""
+        change, amplitude = added(kind, recipe, stop - start, self._rng)
         self.positions[start:stop, marker] += change
-        self._take([marker], start, stop)
-        x, y, z = amplitude.tolist()
-        self.artifacts.append(Artifact(kind, self.markers[marker], start, stop, (x, y, z)))
+        self._note(kind, marker, start, stop, amplitude)
+
+    def together(self, kind: str, recipe: Recipe, *, markers: int, count: int) -> None:
+        """Put in artifacts of one class on several markers at once: a random one and its nearest, in their own directions."""
+        order = np.argsort(self._distances(), axis=1, kind="stable")
+        for _ in range(count):
+            length = int(recipe.length(self._rng))
+            room = self._room(length, ends=False)
+            groups = [row[:markers] for row in order]
+            free = np.stack([room[:, group].all(axis=1) for group in groups], axis=1)
+            start, m = self._draw(free)
+            for marker in groups[m].tolist():
+                self.put(kind, recipe, marker=marker, start=start, stop=start + length)
+
+    def burst(self, recipe: Recipe, *, peaks: Draw, pause: Draw, count: int) -> None:
+        """Put in peaks in quick succession on one marker; pause: frames between two of them."""
+        for _ in range(count):
+            lengths = [max(1, int(recipe.length(self._rng))) for _ in range(int(peaks(self._rng)))]
+            pauses = [int(pause(self._rng)) for _ in lengths]
+            start, m = self._draw(self._room(sum(lengths) + sum(pauses), ends=False))
+            for length, rest in zip(lengths, pauses, strict=True):
+                self.put("peaks", recipe, marker=m, start=start, stop=start + length)
+                start += length + rest
+
+    def freeze(self, *, length: Draw, moving_mm: float, count: int) -> None:
+        """Repeat a position for some frames in which the marker really moves away by more than `moving_mm`."""
+        for _ in range(count):
+            frames = int(length(self._rng))
+            room = self._room(frames, ends=False)
+            last = np.arange(max(1, self._margin), len(room) - self._margin)
+            gone = np.linalg.norm(self._clean[last + frames - 1] - self._clean[last - 1], axis=2)
+            moves = np.zeros_like(room)
+            moves[last] = gone > moving_mm
+            start, m = self._draw(room & moves)
+            self.positions[start : start + frames, m] = self.positions[start - 1, m]
+            self._note("frozen", m, start, start + frames, np.zeros(3))
+
+    def tail(self, recipe: Recipe, *, gap: Draw, count: int) -> None:
+        """Put in gaps before or after which the marker wanders off."""
+        for _ in range(count):
+            hole, length = int(gap(self._rng)), int(recipe.length(self._rng))
+            start, m = self._draw(self._room(hole + length, ends=False))
+            before = bool(self._rng.integers(2))
+            change, amplitude = added("tails", recipe, length, self._rng)
+            first, begin = (start, start + length) if before else (start + hole, start)
+            self.positions[first : first + length, m] += change if before else change[::-1]
+            self._note("tails", m, first, first + length, amplitude)
+            self._remove([m], begin, begin + hole)
 
     def swap(self, *, length: Draw, within: float, count: int) -> None:
         """Swap the labels of pairs of markers whose median distance is below `within` mm."""
@@ -169,9 +140,7 @@ class Contamination:
             start = int(self._rng.choice(rows))
             if isinstance(markers, int):
                 chosen = sorted(self._rng.choice(np.flatnonzero(room[start]), markers, replace=False).tolist())
-            self.positions[start : start + frames, chosen] = np.nan
-            self._take(chosen, start, start + frames)
-            self.gaps += [(self.markers[m], start, start + frames) for m in chosen]
+            self._remove(chosen, start, start + frames)
 
     def _room(self, length: int, *, ends: bool) -> np.ndarray:
         """Bool (starts, markers): True where `length` frames from a start, and the margin around, are free.
@@ -194,6 +163,16 @@ class Contamination:
         start, m = np.unravel_index(self._rng.choice(places), room.shape)
         return int(start), int(m)
 
+    def _note(self, kind: str, m: int, start: int, stop: int, amplitude: np.ndarray) -> None:
+        self._take([m], start, stop)
+        x, y, z = amplitude.tolist()
+        self.artifacts.append(Artifact(kind, self.markers[m], start, stop, (x, y, z)))
+
+    def _remove(self, markers: Sequence[int], start: int, stop: int) -> None:
+        self.positions[start:stop, markers] = np.nan
+        self._take(markers, start, stop)
+        self.gaps += [(self.markers[m], start, stop) for m in markers]
+
     def _take(self, markers: Sequence[int], start: int, stop: int) -> None:
         self._taken[start:stop, markers] = True
 
@@ -201,55 +180,3 @@ class Contamination:
         """Median distance in mm of every two markers, over some frames; that of a marker to itself does not matter."""
         some = self._clean[:: max(1, len(self._clean) // 50)]
         return np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
-
-
-def one_at_a_time(
-    positions: np.ndarray,
-    markers: Sequence[str],
-    *,
-    recipes: Mapping[str, Recipe],
-    share: float,
-    margin: int,
-    rng: np.random.Generator,
-) -> Contamination:
-    """Distort a share of the time, one marker at a time, with equal shares of the classes that have a recipe.
-
-    First noise, steps and slow changes in random order: their lengths are drawn, and the intervals between them are
-    Poisson counts given their sum. Then peaks in between. (skurowski2022, section 4.1.3.) Raises ValueError where the
-    recording is too short.
-    """
-    contamination = Contamination(positions, markers, margin=margin, alone=True, rng=rng)
-    frames = len(positions)
-    bulk: list[tuple[str, int]] = []
-    for kind in ("noise", "steps", "slow"):
-        if kind in recipes:
-            bulk += [(kind, length) for length in _lengths(recipes[kind].length, share * frames / len(recipes), rng)]
-    bulk = [bulk[i] for i in rng.permutation(len(bulk))]
-    rest = frames - sum(length for _, length in bulk) - margin * (len(bulk) + 1)
-    if rest < 0:
-        raise ValueError(f"{share:.0%} of {frames} frames cannot be distorted with {margin} frames between")
-    pauses = margin + rng.multinomial(rest, np.full(len(bulk) + 1, 1 / (len(bulk) + 1)))
-    present = ~np.isnan(positions).any(axis=2)
-    at = 0
-    for (kind, length), pause in zip(bulk, pauses[:-1], strict=True):
-        start = at + int(pause)
-        at = start + length
-        whole = np.flatnonzero(present[start:at].all(axis=0))
-        if not len(whole):
-            raise ValueError(f"no marker is complete in frames {start} to {at}")
-        contamination.put(kind, recipes[kind], marker=int(rng.choice(whole)), start=start, stop=at)
-    if "peaks" in recipes:
-        for length in _lengths(recipes["peaks"].length, share * frames / len(recipes), rng):
-            recipe = recipes["peaks"]
-            contamination.add("peaks", Recipe(recipe.amplitude, integers(length, length), recipe.axes), count=1)
-    return contamination
-
-
-def _lengths(draw: Draw, total: float, rng: np.random.Generator) -> list[int]:
-    """Lengths drawn until their sum is as near to the total as it gets."""
-    lengths: list[int] = []
-    while True:
-        length = int(draw(rng))
-        if sum(lengths) + length / 2 > total:
-            return lengths
-        lengths.append(length)

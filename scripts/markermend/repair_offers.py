@@ -93,7 +93,7 @@ class Offers:
     """Asks the methods what they offer.
 
     positions: (frames, markers, 3), mm, as measured. flagged: bool (frames, markers), samples that were found. scene: all
-    that was not. predictors: by name, `local_ridge` among them, which tells where the neighbours say a marker is.
+    that was not. predictors: by name; `local_ridge` tells where the neighbours say a marker is, without it nothing does.
     """
 
     positions: np.ndarray
@@ -120,6 +120,8 @@ class Offers:
 
     def expected(self, m: int, start: int, stop: int) -> np.ndarray:
         """Where the neighbours, and the marker's own course around, say that marker m is over [start, stop): (n, 3), mm."""
+        if "local_ridge" not in self.predictors:
+            return np.full((stop - start, 3), np.nan)
         return self.predictors["local_ridge"].predict(self.scene, m, start, stop).positions[1:-1]
 
     def worse_swapped(self, pair: Sequence[int], start: int, stop: int) -> str | None:

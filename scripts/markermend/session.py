@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.contamination import Contamination, Recipe, integers, uniform
+from markermend.contamination import Contamination
+from markermend.damage import Recipe, integers, uniform
 from markermend.events import Event
 from markermend.recording import Recording
 from markermend.walker import make_body, walk
@@ -80,3 +81,6 @@ def damage(harm: Contamination, *, rate: float, share: float) -> None:
         length = uniform(seconds[0] * rate, seconds[1] * rate)
         harm.add(kind, Recipe(uniform(*amplitude), length, 3), count=round(count * share))
     harm.add("peaks", Recipe(uniform(10.0, 50.0), integers(1, 5), 3), count=round(15 * share))
+    harm.freeze(length=uniform(0.1 * rate, 0.5 * rate), moving_mm=20.0, count=round(3 * share))
+    wander = Recipe(uniform(15.0, 30.0), uniform(0.02 * rate, 0.08 * rate), 3)
+    harm.tail(wander, gap=uniform(0.1 * rate, 0.5 * rate), count=round(3 * share))

@@ -1,0 +1,47 @@
+"""Damage recordings in known ways, for tests and experiments, with the truth beside them.
+
+Writes: FOLDER/{subject}/{file}, copies of the recordings in which only damaged samples differ; TRUTH/{subject}/{recording}/
+with {class}.parquet for each class of artifacts, and gaps.parquet, the damage as events; TRUTH/truth.tsv, all of it as a
+table.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from markermend import dataset, storage
+from markermend.procedures import PROCEDURES
+from markermend.truth import Damaged, table
+
+
+def main(argv: list[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(
+        prog="contaminate.py",
+        description=__doc__,
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--recordings", required=True, help="a folder of recordings, as the workflow takes it")
+    parser.add_argument("--folder", type=Path, required=True, help="where the damaged copies go")
+    parser.add_argument("--truth", type=Path, required=True, help="where the truth goes, outside of the copies")
+    parser.add_argument("--seed", type=int, required=True, help="equal seeds give equal files")
+    parser.add_argument("--procedure", choices=list(PROCEDURES), default="paper", help="see markermend/procedures.py")
+    parser.add_argument("--amplitude-mm", type=float, default=10.0, help="mean amplitude, mm")
+    parser.add_argument("--share", type=float, default=0.1, help="share of the time distorted (procedure paper)")
+    parser.add_argument(
+        "--unlabelled", nargs="*", default=[], help="regular expressions, as in config ingest.unlabelled"
+    )
+    flags = parser.parse_args(argv)
+    settings = {"amplitude": flags.amplitude_mm, "share": flags.share, "unlabelled": flags.unlabelled}
+    rows = []
+    for number, entry in enumerate(dataset.find(flags.recordings, str(flags.folder))):
+        rng = np.random.default_rng([flags.seed, number])
+        damaged = Damaged.of(entry, PROCEDURES[flags.procedure], rng=rng, **settings)
+        damaged.write(flags.folder, flags.truth)
+        rows += damaged.rows
+    storage.write_text(flags.truth / "truth.tsv", table(rows))
+
+
+if __name__ == "__main__":
+    main()
