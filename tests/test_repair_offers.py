@@ -37,7 +37,7 @@ class Vague:
 
 
 def offer(method, expected, **changes):
-    told = {"change": 50.0, "before": 40.0, "after": 1.0, **changes}
+    told = {"change": 50.0, "before": 40.0, "after": 1.0, "blur": 3.0, **changes}
     return Offer(type("Named", (), {"method": method})(), expected, **told)
 
 
@@ -48,6 +48,7 @@ def offer(method, expected, **changes):
         ([offer("a", 1.3), offer("b", 1.0)], "b"),
         ([offer("a", 1.0), offer("b", 1.0)], "a"),
         ([offer("a", 1.3), offer("b", 1.0, after=41.0)], "a"),
+        ([offer("a", 1.3), offer("b", 1.0, after=41.0, blur=50.0)], "b"),
         ([offer("a", 1.3), offer("b", 1.0, change=0.5)], "a"),
         ([offer("a", 1.3), offer("b", 1.0, before=np.nan, after=np.nan)], "b"),
         ([offer("a", 6.0)], None),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.predictors import Predictor, Scene
+from markermend.predictors import Prediction, Predictor, Scene
 from markermend.repair_methods import Proposal, predicted, smoothed, without_offset
 from markermend.robust import samples
 
@@ -47,7 +47,7 @@ class Offer:
 
     expected: the largest expected error, mm (68 %). change: the largest change to what was measured, mm. before, after:
     root mean square distance, mm, of what was measured and of what is proposed from where the neighbours say; NaN where
-    they cannot tell.
+    they cannot tell. blur: how far from there the true position may well be (95 %), mm.
     """
 
     proposal: Proposal
@@ -55,13 +55,14 @@ class Offer:
     change: float
     before: float
     after: float
+    blur: float
 
     @property
     def doubt(self) -> str | None:
         """Why the recording would be no better for it, or None."""
         if self.expected > self.change:
             return f"expected error {self.expected:.1f} mm for a change of {self.change:.1f} mm"
-        if self.after > self.before:
+        if self.after > max(self.before, self.blur):
             return f"{self.after:.1f} mm from where the neighbours say, measured {self.before:.1f} mm"
         return None
 
@@ -104,7 +105,8 @@ class Offers:
 
     def of(self, methods: Iterable[str], m: int, start: int, stop: int) -> list[Offer]:
         """The offers for marker m over [start, stop), of the methods that can tell, in their order."""
-        measured, expected = self.positions[start:stop, m], self.expected(m, start, stop)
+        measured, told = self.positions[start:stop, m], self._told(m, start, stop)
+        expected, blur = told.positions, BALL95 * float(np.sqrt(np.mean(told.error**2)))
         proposals = [self._propose(method, m, start, stop) for method in methods if method not in ("swap", "blank")]
         return [
             Offer(
@@ -113,20 +115,22 @@ class Offers:
                 float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
                 misfit(measured, expected),
                 misfit(np.where(np.isnan(measured), np.nan, proposal.positions), expected),
+                blur,
             )
             for proposal in proposals
             if proposal is not None
         ]
 
-    def expected(self, m: int, start: int, stop: int) -> np.ndarray:
-        """Where the neighbours, and the marker's own course around, say that marker m is over [start, stop): (n, 3), mm."""
+    def _told(self, m: int, start: int, stop: int) -> Prediction:
+        """Where the neighbours, and the marker's own course around, say that marker m is over [start, stop)."""
         if "local_ridge" not in self.predictors:
-            return np.full((stop - start, 3), np.nan)
-        return self.predictors["local_ridge"].predict(self.scene, m, start, stop).positions[1:-1]
+            return Prediction(np.full((stop - start, 3), np.nan), np.full(stop - start, np.nan))
+        told = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
+        return Prediction(told.positions[1:-1], told.error[1:-1])
 
     def worse_swapped(self, pair: Sequence[int], start: int, stop: int) -> str | None:
         """Why two markers would be no nearer to where they should be with their samples exchanged, or None."""
-        expected = np.concatenate([self.expected(m, start, stop) for m in pair])
+        expected = np.concatenate([self._told(m, start, stop).positions for m in pair])
         measured = [self.positions[start:stop, m] for m in pair]
         both = np.isnan(np.concatenate(measured) + np.concatenate(measured[::-1]) + expected)
         # Where a sample has no counterpart, the exchange is judged by those that have; if none has, by what there is.
