@@ -16,6 +16,10 @@ METHODS = ("swap", "offset", "savitzky_golay", "blank", "local_ridge", *LOOSE, *
 """The ways of repair by the names that a config may use."""
 
 
+BALL68, BALL95 = 1.8724, 2.7955
+"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
+
+
 @dataclass(frozen=True)
 class Proposal:
     """New samples over [start, stop): positions (n, 3), mm, and their standard deviation per axis (n,), mm."""
@@ -61,7 +65,7 @@ def without_offset(
 
     original: (frames, 3), the marker's course as measured. The offset is told by the jumps at both edges, which the
     prediction's slow error does not touch. None where edges disagree by more than `coherent_share` of the offset, or
-    where what remains varies by more than that and by more than the prediction may err.
+    where what remains varies by more than that and by more than the prediction may well err (95 %).
     """
     rows = np.arange(start - 1, stop + 1)
     if rows[0] < 0 or rows[-1] >= len(original):
@@ -74,7 +78,7 @@ def without_offset(
     uneven = np.linalg.norm(edges[0] - edges[1]) / 2
     wobble = np.linalg.norm(np.std(residual[1:-1], axis=0))
     coherent = coherent_share * float(np.linalg.norm(offset))
-    unsure = np.sqrt(3 * np.mean(prediction.error[1:-1] ** 2))
+    unsure = BALL95 * np.sqrt(np.mean(prediction.error[1:-1] ** 2))
     if uneven > coherent or wobble > max(coherent, unsure):
         return None
     error = np.sqrt(uneven**2 + wobble**2 / (stop - start)) / np.sqrt(3)

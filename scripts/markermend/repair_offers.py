@@ -8,11 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
-from markermend.repair_methods import Proposal, predicted, smoothed, without_offset
+from markermend.repair_methods import BALL68, BALL95, Proposal, predicted, smoothed, without_offset
 from markermend.robust import samples
-
-BALL68, BALL95 = 1.8724, 2.7955
-"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
 
 
 @dataclass(frozen=True)

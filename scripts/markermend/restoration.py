@@ -11,7 +11,8 @@ import numpy as np
 from markermend.decisions import STAGE_OF, Ruling
 from markermend.events import Event
 from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
-from markermend.repair_offers import BALL68, BALL95, Offer
+from markermend.repair_methods import BALL68, BALL95
+from markermend.repair_offers import Offer
 
 KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
 """What is found, and a sample that is repaired, is called, by its detector; labels that are swapped back are a swap."""
