@@ -21,7 +21,8 @@ import torch
 import yaml
 
 from markermend.predictors import Scene
-from markermend.predictors.networks import KINDS, Network, NetworkOptions
+from markermend.predictors.network_options import NetworkOptions
+from markermend.predictors.networks import KINDS, Network
 from markermend.walker import make_body, walk
 
 PROJECT = Path(__file__).resolve().parents[1]

@@ -17,7 +17,8 @@ from markermend import settings as workflow_settings
 from markermend.dataset import BadDataSet
 from markermend.predictors import Scene, Trainable, networks
 from markermend.predictors.network_inputs import chosen, completed, features, stretches
-from markermend.predictors.networks import KINDS, Network, NetworkOptions
+from markermend.predictors.network_options import NetworkOptions
+from markermend.predictors.networks import KINDS, Network
 from markermend.predictors.registry import members
 from markermend.stage import flag
 

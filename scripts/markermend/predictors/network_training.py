@@ -9,13 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import torch
 
-if TYPE_CHECKING:
-    from markermend.predictors.networks import NetworkOptions
+from markermend.predictors.network_options import NetworkOptions
 
 GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
 """The recurrent kinds and how many weighted sums a recurrent unit has."""
