@@ -1,7 +1,7 @@
 """Detect noisy tails: samples beside a gap that wander off.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
-Writes: 05_tails.parquet.
+Writes: 02_tails.parquet.
 """
 
 from markermend import detection, storage, unmeasured

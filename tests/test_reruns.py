@@ -17,7 +17,7 @@ from markermend import provenance
 from workflow_runs import Project, write_recording
 
 CHAIN = [
-    "ingest", "mesh", "frozen", "peaks", "noise", "steps", "slow", "tails", "repair", "fill", "export_c3d", "qc", "report",
+    "ingest", "mesh", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report",
 ]  # fmt: skip
 NOTHING = "Nothing to be done"
 FAULT = """

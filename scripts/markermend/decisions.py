@@ -18,8 +18,8 @@ VERBS = ("accept", "reject", "protect", "class", "method", "missing")
 artifact of a class, how to mend or fill, and that samples count as missing."""
 
 STAGE_OF = {
-    "frozen": "frozen", "peak": "peaks", "noise": "noise", "step": "steps", "swap": "steps", "slow": "slow",
-    "tail": "tails",
+    "frozen": "frozen", "tail": "tails",
+    "peak": "peaks", "noise": "noise", "step": "steps", "swap": "steps", "slow": "slow",
 }  # fmt: skip
 """The classes of artifacts, and the detector of each."""
 

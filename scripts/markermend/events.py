@@ -9,7 +9,7 @@ import numpy as np
 
 from markermend.recording import runs
 
-CLASSES = ("frozen", "peaks", "noise", "steps", "slow", "tails")
+CLASSES = ("frozen", "tails", "peaks", "noise", "steps", "slow")
 """The detectors in their strict order; each is a stage, and its file holds the class."""
 
 

@@ -26,11 +26,11 @@ TEMPLATES = Path(__file__).resolve().parents[2] / "workflow" / "report"
 
 DETECTORS = {
     "frozen": "frozen markers: a stretch repeats one position while the neighbours move on",
+    "tails": "noisy tails: the samples beside a gap wander off",
     "peaks": "isolated peaks: a few frames jump away and back",
     "noise": "heavy noise: a stretch that trembles far beyond the ordinary",
     "steps": "steps and label swaps: a stretch stands aside from where it belongs",
     "slow": "slow drifts: a stretch leaves its place against the neighbours, and comes back",
-    "tails": "noisy tails: the samples beside a gap wander off",
 }
 """What a person is told that each detector finds."""
 

@@ -94,8 +94,8 @@ HERE = f"{SUBJECT}/{{recording}}"
 LOGS = f"{HERE}/logs"
 MESH = f"{SUBJECT}/mesh.json"
 MARKERS = f"{HERE}/01_markers.parquet"
-# Names are an interface: detectors that came later share the number of the one beside them, and still sort in order.
-NUMBERS = {"frozen": 2, "peaks": 2, "noise": 3, "steps": 4, "slow": 5, "tails": 5}
+# Names are an interface: the two detectors of samples that nobody measured came later, and share a number.
+NUMBERS = {"frozen": 2, "tails": 2, "peaks": 2, "noise": 3, "steps": 4, "slow": 5}
 EVENTS = {stage: f"{HERE}/{NUMBERS[stage]:02d}_{stage}.parquet" for stage in CLASSES}
 REPAIRED = f"{HERE}/06_repaired.parquet"
 FILLED = f"{HERE}/07_filled.parquet"
