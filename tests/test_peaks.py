@@ -90,7 +90,7 @@ def test_coordinates_are_merged_with_the_axes_that_fired(walker):
 
 
 def test_settings_are_those_of_the_preset():
-    assert isinstance(settings("peaks", "default"), peaks.NeighbourPeaks)
+    assert isinstance(settings("peaks", "default"), peaks.ExcursionSettings)
     assert isinstance(settings("peaks", "paper"), peaks.CoordinatePeaks)
     with pytest.raises(ValueError, match="preset"):
         settings("peaks", "other")

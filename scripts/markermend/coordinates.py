@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from markermend import events
+from markermend import events, robust
 from markermend.events import Event
-from markermend.robust import bridge
+from markermend.predictors import Scene
 
 Find = Callable[[np.ndarray, str], tuple[np.ndarray, np.ndarray]]
 """A detector of one signal (frames,), NaN = missing, given with the name of its marker: returns a mask and a score in
@@ -22,7 +22,7 @@ def bridged(positions: np.ndarray, earlier: np.ndarray, reach: int) -> np.ndarra
     """
     out = positions.copy()
     for marker, axis in np.argwhere(earlier.any(axis=0)):
-        out[:, marker, axis] = bridge(positions[:, marker, axis], earlier[:, marker, axis], reach)
+        out[:, marker, axis] = robust.bridge(positions[:, marker, axis], earlier[:, marker, axis], reach)
     return out
 
 
@@ -40,3 +40,13 @@ def find_in_each(signals: np.ndarray, find: Find, *, markers: Sequence[str], ear
     fired &= ~earlier.any(axis=2, keepdims=True)
     found: np.ndarray = np.any(fired, axis=2)
     return events.from_mask(found, np.where(fired, score, 0.0).max(axis=2), fired, markers)
+
+
+def detect(scene: Scene, find: Find, *, markers: Sequence[str], earlier: np.ndarray, bridge_s: float) -> list[Event]:
+    """Run a detector on each coordinate, with what detectors before claimed replaced by curves.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing. earlier: bool, likewise. bridge_s: slopes of the curves are
+    taken over this time.
+    """
+    signals = bridged(scene.positions, earlier, robust.samples(bridge_s, scene.rate))
+    return find_in_each(signals, find, markers=markers, earlier=earlier)

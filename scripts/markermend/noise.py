@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from markermend import detection, events, robust, sudden
+from markermend import coordinates, detection, events, robust, sudden
 from markermend.blame import ResidualSource
 from markermend.events import Event
 from markermend.predictors import Scene
@@ -122,13 +122,21 @@ def detect_noise(
     detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
+    rate = scene.rate
+    if isinstance(settings, CoordinateNoise):
+        return coordinates.detect(
+            scene,
+            lambda signal, _: find_noise(signal, rate=rate, settings=settings),
+            markers=markers,
+            earlier=earlier,
+            bridge_s=settings.bridge_s,
+        )
     found, _ = sudden.detect(
         scene,
         markers=markers,
         earlier=earlier,
         settings=settings,
         predictor=predictor,
-        in_coordinate=lambda signal, _, own: find_noise(signal, rate=scene.rate, settings=own),
-        judge=judge_noise,
+        judge=lambda changes, m: judge_noise(changes, m, name=markers[m], rate=rate, settings=settings),
     )
     return found

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from markermend import detection, events, robust, sudden
+from markermend import coordinates, courses, detection, events, excursions, robust
 from markermend.blame import ResidualSource
+from markermend.courses import Courses
 from markermend.events import Event
+from markermend.excursions import ExcursionSettings
 from markermend.predictors import Scene
 from markermend.recording import runs
-from markermend.sudden import Changes, SuddenSettings
 
 
 @dataclass(frozen=True)
@@ -75,50 +76,9 @@ def find_peaks(signal: np.ndarray, *, rate: float, settings: CoordinatePeaks) ->
     return mask, score
 
 
-@dataclass(frozen=True)
-class NeighbourPeaks(SuddenSettings):
-    """Settings of the detector against the neighbours (config peaks.default), beside those of sudden changes.
-
-    longest_s: longest peak. isolation_s: no other sudden change so near. weak: changes above this part of the threshold
-    belong to a peak too. remainder: the changes of a peak sum to at most this part of their absolute sum. border_score:
-    beside a gap, or the end of the recording, one change is enough if it is so many times above the threshold.
-    """
-
-    longest_s: float
-    isolation_s: float
-    weak: float
-    remainder: float
-    border_score: float
-
-
-def judge_peaks(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourPeaks) -> list[Event]:
-    """Find the isolated peaks of one marker among its sudden changes; next to a gap, one change may be all there is."""
-    score, vector = changes.score[:, marker], changes.vector[:, marker]
-    longest, apart = robust.samples(settings.longest_s, rate), robust.samples(settings.isolation_s, rate)
-    strong = np.flatnonzero(score > 1)
-    found = []
-    for start, stop in runs(~np.isnan(changes.residual[:, marker, 0])):
-        weak = start + np.flatnonzero(score[start:stop] > settings.weak)
-        for group in sudden.clusters(weak, longest):
-            first, last = int(group[0]), int(group[-1])
-            best = float(score[group].max())
-            lonely = np.searchsorted(strong, last + apart, side="right") - np.searchsorted(strong, first - apart)
-            if best <= 1 or lonely > (score[group] > 1).sum() or last - first > longest:
-                continue
-            rest = np.linalg.norm(vector[group].sum(axis=0)) / np.linalg.norm(vector[group], axis=1).sum()
-            if rest > settings.remainder:
-                if first - start > longest and stop - last > longest:
-                    continue
-                first, last = (start, last) if first - start <= stop - last else (first, stop)
-                if last - first > longest or best < settings.border_score:
-                    continue
-            found.append(Event(name, first, last, best, events.carrying(vector[group])))
-    return found
-
-
-def settings(options: Mapping[str, Any]) -> CoordinatePeaks | NeighbourPeaks:
+def settings(options: Mapping[str, Any]) -> CoordinatePeaks | ExcursionSettings:
     """The settings of the preset that the config section `peaks` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": NeighbourPeaks, "coordinates": CoordinatePeaks, "paper": CoordinatePeaks}
+    kinds = {"default": ExcursionSettings, "coordinates": CoordinatePeaks, "paper": CoordinatePeaks}
     return detection.preset(options, kinds)
 
 
@@ -127,7 +87,7 @@ def detect_peaks(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CoordinatePeaks | NeighbourPeaks,
+    settings: CoordinatePeaks | ExcursionSettings,
     predictor: ResidualSource,
 ) -> list[Event]:
     """Find the isolated peaks of a recording.
@@ -136,13 +96,27 @@ def detect_peaks(
     detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
-    found, _ = sudden.detect(
+    rate = scene.rate
+    if isinstance(settings, CoordinatePeaks):
+        return coordinates.detect(
+            scene,
+            lambda signal, _: find_peaks(signal, rate=rate, settings=settings),
+            markers=markers,
+            earlier=earlier,
+            bridge_s=settings.bridge_s,
+        )
+
+    def judge(course: Courses, m: int) -> list[Event]:
+        found = excursions.find(course, m, rate=rate, settings=settings)
+        return [Event(markers[m], one.start, one.stop, one.score, events.carrying(one.off)) for one in found]
+
+    found, _ = courses.detect(
         scene,
         markers=markers,
         earlier=earlier,
         settings=settings,
+        maps=excursions.of_longest(rate, settings),
         predictor=predictor,
-        in_coordinate=lambda signal, _, own: find_peaks(signal, rate=scene.rate, settings=own),
-        judge=judge_peaks,
+        judge=judge,
     )
     return found

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from markermend import detection, events, robust, sudden
+from markermend import coordinates, courses, detection, edges, events, robust
 from markermend.blame import ResidualSource
+from markermend.courses import Courses, CourseSettings
 from markermend.events import Event
 from markermend.noise import difference_high_pass
 from markermend.predictors import Scene
-from markermend.sudden import Changes, SuddenSettings
 
 
 @dataclass(frozen=True)
@@ -73,41 +73,19 @@ def find_steps(
 
 
 @dataclass(frozen=True)
-class NeighbourSteps(SuddenSettings):
-    """Settings of the detector against the neighbours (config steps.default), beside those of sudden changes.
+class NeighbourSteps(CourseSettings):
+    """Settings of the detector against the neighbours (config steps.default), beside those of courses.
 
     shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. border_s: before and after
-    a jump. displaced: the median over that time changes by at least this part of the jump, at both. held: the
-    median of all samples in between differs from that of as many outside by at least this part of it.
+    cosine: of the angle between one jump and the reverse of the other, at least. held: the median of all samples in
+    between differs from that of as many outside by at least this part of the jump.
     """
 
     shortest_s: float
     longest_s: float
     ratio: float
     cosine: float
-    border_s: float
-    displaced: float
     held: float
-
-
-def jumps(changes: Changes, marker: int, *, rate: float, settings: NeighbourSteps) -> tuple[np.ndarray, np.ndarray]:
-    """Frames of a marker's sudden changes, neighbouring frames taken together, and their vectors (n, 3), mm."""
-    score, vector = changes.score[:, marker], changes.vector[:, marker]
-    groups = sudden.clusters(np.flatnonzero(score > 1), 1)
-    frames = np.array([group[np.argmax(score[group])] for group in groups], int)
-    return frames, np.array([vector[group].sum(axis=0) for group in groups]).reshape(-1, 3)
-
-
-def lasting(residual: np.ndarray, at: int, border: int, other: int) -> np.ndarray:
-    """How far the marker is displaced at a jump, (3,), mm: the median after it less the median before, over the border.
-
-    residual: (frames, 3), mm. other: the other jump; the border does not reach beyond it.
-    """
-    before = residual[max(at - border, 0 if other > at else other) : at]
-    after = residual[at : min(at + border, other if other > at else len(residual))]
-    jump: np.ndarray = np.nan_to_num(np.nanmedian(after, axis=0) - np.nanmedian(before, axis=0))
-    return jump
 
 
 def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
@@ -121,12 +99,13 @@ def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) 
     return float(moved @ jump / (jump @ jump))
 
 
-def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
+def judge_steps(course: Courses, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between."""
-    frames, vector = jumps(changes, marker, rate=rate, settings=settings)
-    residual = changes.residual[:, marker]
+    found_edges = edges.find(course, marker, rate=rate, settings=settings)
+    frames = np.array([edge.frame for edge in found_edges], int)
+    vector = np.array([edge.jump for edge in found_edges]).reshape(-1, 3)
+    residual = course.residual[:, marker]
     shortest, longest = robust.samples(settings.shortest_s, rate), robust.samples(settings.longest_s, rate)
-    border = robust.samples(settings.border_s, rate)
     size = np.linalg.norm(vector, axis=1)
     gone = np.cumsum(np.isnan(residual[:, 0]))
     candidates = []
@@ -137,34 +116,28 @@ def judge_steps(changes: Changes, marker: int, *, name: str, rate: float, settin
             balanced = settings.ratio <= size[k] / size[j] <= 1 / settings.ratio
             if n2 - n1 < shortest or not opposite or not balanced or gone[n1] != gone[n2]:
                 continue
-            mean = (vector[k] - vector[j]) / 2
-            sides = (lasting(residual, n1, border, n2), -lasting(residual, n2, border, n1))
-            if min(side @ mean for side in sides) < settings.displaced * (mean @ mean):
-                continue
-            if displacement(residual, n1, n2, mean) >= settings.held:
+            if displacement(residual, n1, n2, (vector[k] - vector[j]) / 2) >= settings.held:
                 candidates.append((n2 - n1, k, j))
     found, used = [], np.zeros(len(frames), bool)
     for _, k, j in sorted(candidates):
         if not used[k : j + 1].any():
             used[k : j + 1] = True
-            best = float(min(changes.score[frames[k], marker], changes.score[frames[j], marker]))
-            found.append(Event(name, int(frames[k]), int(frames[j]), max(1.0, best), events.carrying(vector[[k, j]])))
+            best = min(found_edges[k].score, found_edges[j].score)
+            found.append(Event(name, int(frames[k]), int(frames[j]), best, events.carrying(vector[[k, j]])))
     return found
 
 
 def open_steps(
-    changes: Changes, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: NeighbourSteps
+    course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: NeighbourSteps
 ) -> list[OpenStep]:
     """List the jumps that no event begins or ends with, by marker and frame."""
     used = {(event.marker, frame) for event in found for frame in range(event.start, event.stop + 1)}
-    left = []
-    for m, marker in enumerate(markers):
-        frames, vector = jumps(changes, m, rate=rate, settings=settings)
-        size = np.linalg.norm(vector, axis=1)
-        left += [
-            OpenStep(marker, int(n), float(s)) for n, s in zip(frames, size, strict=True) if (marker, n) not in used
-        ]
-    return left
+    return [
+        OpenStep(marker, edge.frame, float(np.linalg.norm(edge.jump)))
+        for m, marker in enumerate(markers)
+        for edge in edges.find(course, m, rate=rate, settings=settings)
+        if (marker, edge.frame) not in used
+    ]
 
 
 def settings(options: Mapping[str, Any]) -> CoordinateSteps | NeighbourSteps:
@@ -187,26 +160,35 @@ def detect_steps(
     detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
-    alone: dict[tuple[str, int], float] = {}
-
-    def in_coordinate(signal: np.ndarray, marker: str, own: CoordinateSteps) -> tuple[np.ndarray, np.ndarray]:
-        mask, score, left = find_steps(signal, rate=scene.rate, settings=own)
-        change = robust.difference(signal)
-        change -= robust.moving_median(change, robust.samples(own.window_s, scene.rate, odd=True))
-        for frame in left.tolist():
-            alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
-        return mask, score
-
-    found, changes = sudden.detect(
+    if isinstance(settings, CoordinateSteps):
+        return _detect_in_coordinates(scene, markers=markers, earlier=earlier, settings=settings)
+    rate = scene.rate
+    found, course = courses.detect(
         scene,
         markers=markers,
         earlier=earlier,
         settings=settings,
+        maps=edges.central(rate, settings),
         predictor=predictor,
-        in_coordinate=in_coordinate,
-        judge=judge_steps,
+        judge=lambda course, m: judge_steps(course, m, name=markers[m], rate=rate, settings=settings),
     )
-    if changes is not None and isinstance(settings, NeighbourSteps):
-        return found, open_steps(changes, found, markers=markers, rate=scene.rate, settings=settings)
+    return found, open_steps(course, found, markers=markers, rate=rate, settings=settings)
+
+
+def _detect_in_coordinates(
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: CoordinateSteps
+) -> tuple[list[Event], list[OpenStep]]:
+    """See detect_steps: coordinate by coordinate."""
+    alone: dict[tuple[str, int], float] = {}
+
+    def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
+        change = robust.difference(signal)
+        change -= robust.moving_median(change, robust.samples(settings.window_s, scene.rate, odd=True))
+        for frame in left.tolist():
+            alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
+        return mask, score
+
+    found = coordinates.detect(scene, find, markers=markers, earlier=earlier, bridge_s=settings.bridge_s)
     within = events.mask(found, len(scene.positions), markers)
     return found, [OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]]

@@ -1,4 +1,4 @@
-"""Sudden changes of markers against their neighbours: what isolated peaks, heavy noise and steps are made of.
+"""Sudden changes of markers against their neighbours: what heavy noise is made of.
 
 A sudden change is one that the neighbours cannot explain (it is in the residual) and that the marker itself makes (it is
 in the trajectory as recorded, in the same direction). A neighbour's artifact is only in the residual, natural motion
@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from scipy import ndimage
 
-from markermend import blame, coordinates, detection, events, robust
+from markermend import blame, detection, events, robust
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.recording import runs
@@ -23,7 +22,7 @@ from markermend.recording import runs
 
 @dataclass(frozen=True)
 class SuddenSettings:
-    """What counts as a sudden change (part of config peaks.default, noise.default and steps.default).
+    """What counts as a sudden change (part of config noise.default).
 
     window_s: of the moving median that is taken off the differences, as short as an edge is sharp. activity_s: over
     which the usual size of changes is taken. activity_ratio: a marker may be livelier than its nearest neighbours by
@@ -103,57 +102,29 @@ def measure(
     return Changes(vector, own, np.nan_to_num(own / level), residual, tail)
 
 
-def find(
+def detect(
     scene: Scene,
     *,
-    judge: Callable[[Changes, int], list[Event]],
     markers: Sequence[str],
-    predictor: blame.ResidualSource,
+    earlier: np.ndarray,
     settings: SuddenSettings,
+    predictor: blame.ResidualSource,
+    judge: Callable[[Changes, int], list[Event]],
 ) -> tuple[list[Event], Changes]:
-    """Find events among the sudden changes of each marker; rivals among neighbours are judged again, see blame.find."""
-    return blame.find(
-        scene,
+    """Find one class of artifacts among the sudden changes of each marker, and the changes.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. judge: finds among the changes of a marker (index). Rivals among neighbours are judged
+    again, see blame.find.
+    """
+    found, changes = blame.find(
+        detection.without(scene, earlier),
         measure=partial(measure, settings=settings),
         judge=judge,
         markers=markers,
         predictor=predictor,
         rounds=settings.rounds,
         reach=settings.rivals,
-    )
-
-
-def detect(
-    scene: Scene,
-    *,
-    markers: Sequence[str],
-    earlier: np.ndarray,
-    settings: Any,
-    predictor: blame.ResidualSource,
-    in_coordinate: Callable[[np.ndarray, str, Any], tuple[np.ndarray, np.ndarray]],
-    judge: Callable[..., list[Event]],
-) -> tuple[list[Event], Changes | None]:
-    """Find one class of artifacts in the way that the settings belong to; and the changes, if judged against neighbours.
-
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. in_coordinate: finds in one coordinate, given with its marker's name and the settings, see
-    coordinates.Find; for settings of that kind. judge: finds among the changes of a marker, given (changes, marker) and
-    its name, the rate and the settings. predictor: source of the residuals, for judging alone.
-    """
-    if not isinstance(settings, SuddenSettings):
-        reach = robust.samples(settings.bridge_s, scene.rate)
-
-        def find_in(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-            return in_coordinate(signal, marker, settings)
-
-        bridged = coordinates.bridged(scene.positions, earlier, reach)
-        return coordinates.find_in_each(bridged, find_in, markers=markers, earlier=earlier), None
-    found, changes = find(
-        detection.without(scene, earlier),
-        judge=lambda changes, m: judge(changes, m, name=markers[m], rate=scene.rate, settings=settings),
-        markers=markers,
-        predictor=predictor,
-        settings=settings,
     )
     return events.tidy(found), changes
 
