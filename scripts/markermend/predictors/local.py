@@ -78,14 +78,36 @@ class LocalRidge:
         trained on all frames with robust weights.
         """
         out = np.full(scene.positions.shape, np.nan)
+        for marker, _, _, _, rows, residual in self._judged(scene, markers):
+            out[rows, marker] = residual
+        return out
+
+    def scaled_residuals(
+        self, scene: Scene, markers: np.ndarray | None = None, *, blocks: int
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """As `residuals`; and by how much the novelty of the pose widens each, (frames, markers), NaN likewise.
+
+        blocks: so many equal parts of the recording are left out in turn to learn that.
+        """
+        out, wider = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
+        for marker, model, used, learned, rows, residual in self._judged(scene, markers):
+            out[rows, marker] = residual
+            block = model.training * blocks // len(scene.positions)
+            novelty, _ = self._learn_novelty(model, used, learned, block)
+            wider[rows, marker] = self._novel(novelty, model, scene, used, rows)
+        return out, wider
+
+    def _judged(
+        self, scene: Scene, markers: np.ndarray | None
+    ) -> Iterator[tuple[int, RidgeModel, np.ndarray, Any, np.ndarray, np.ndarray]]:
+        """Yield marker, model, inputs used, what was learned, frames and the residual (n, 3) there, laboratory axes."""
         for marker in range(scene.positions.shape[1]) if markers is None else markers:
             frames = np.flatnonzero(scene.present[:, marker])
             for model, used, rows in self._models(scene, marker, frames):
                 learned = self._learn(model, used)
                 local, rotation, origin = self._evaluate(model, scene.positions, used, learned, rows)
                 predicted = np.einsum("nj,nij->ni", local, rotation) + origin
-                out[rows, marker] = scene.positions[rows, marker] - predicted
-        return out
+                yield marker, model, used, learned, rows, scene.positions[rows, marker] - predicted
 
     def _learn(self, model: RidgeModel, used: np.ndarray) -> Any:
         """What _evaluate needs to predict from the inputs marked in `used`: here the coefficients."""
@@ -244,6 +266,21 @@ class LocalRidge:
         """The factor (n,) by which the novelty of the pose widens the error at rows."""
         return novelty.factor(inputs_at(model, scene.positions, used, rows)[0])
 
+    def _learn_novelty(
+        self, model: RidgeModel, used: np.ndarray, learned: Any, block: np.ndarray
+    ) -> tuple[Novelty, np.ndarray]:
+        """How errors grow with the novelty of the pose; and left-out residuals (training, 3) divided by that."""
+        left = np.where(model.weights[:, None] > 0.5, self._left_out(model, used, learned, block), np.nan)
+        novelty, factor = learn_novelty(
+            model.local[:, np.flatnonzero(np.repeat(used, 3))],
+            model.weights,
+            left,
+            block,
+            ridge=self.options.ridge_mm2,
+            most=self.options.novelty,
+        )
+        return novelty, left / factor[:, None]
+
     def _covariance(
         self, scene: Scene, model: RidgeModel, used: np.ndarray, learned: Any, blocks: int
     ) -> tuple[Covariance, Novelty]:
@@ -253,19 +290,9 @@ class LocalRidge:
         novelty.
         """
         span = len(scene.positions)
-        block = model.training * blocks // span
-        left = np.where(model.weights[:, None] > 0.5, self._left_out(model, used, learned, block), np.nan)
-        columns = np.flatnonzero(np.repeat(used, 3))
-        novelty, factor = learn_novelty(
-            model.local[:, columns],
-            model.weights,
-            left,
-            block,
-            ridge=self.options.ridge_mm2,
-            most=self.options.novelty,
-        )
+        novelty, left = self._learn_novelty(model, used, learned, model.training * blocks // span)
         residual = np.full((span, 3), np.nan)
-        residual[model.training] = left / factor[:, None]
+        residual[model.training] = left
         covariance = fit_covariance(
             residual,
             rate=scene.rate,
