@@ -1,7 +1,7 @@
 """Damage clean recordings in known ways, find and repair the damage, and print how well that went.
 
-Reads: the clean recordings named on the command line, the workflow's config.
-Writes: tables to stdout, one set for each condition (amplitude, share, preset), over all recordings and seeds.
+Reads: the clean recordings named on the command line, the workflow's config, confirmed_glitches.tsv beside this file.
+Writes: tables to stdout, one set for each condition (amplitude, share, preset) and group of recordings, over all seeds.
 
     PYTHONPATH=scripts .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --amplitudes 10 --shares 0.1
 
@@ -9,9 +9,14 @@ Damage is the procedure of skurowski2022 (section 4.1.3): a share of the time di
 shares peaks, heavy noise, steps and slow changes of 50 samples on average. Amplitudes are normal, of 10 mm with a
 deviation of 4, and of 5 with 2. Counts are of samples. RMSE is over the distorted samples that have a value after
 repair (the share that has none is told), and, as `all`, over all samples.
+
+Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its course and that
+predicted from its neighbours, at once and alike, and the neighbours do not) are listed in confirmed_glitches.tsv, frames
+in the capture program's numbering. Their samples, and two on either side, count neither as clean nor as false.
 """
 
 import argparse
+import csv
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -31,6 +36,11 @@ from markermend.repair import RepairOptions, repair
 PROJECT = Path(__file__).resolve().parents[1]
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": slow}
 CLASSES = tuple(DETECTORS)
+GLITCHES = Path(__file__).with_name("confirmed_glitches.tsv")
+BORDER = 2
+"""Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
+GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02", "85_12")}
+"""Recordings by how much goes on in them; all others are in a group by themselves."""
 
 
 @dataclass
@@ -101,15 +111,29 @@ def classes(found: dict, recording: Recording) -> np.ndarray:
     return out
 
 
-def judge(clean: Recording, config: dict, *, amplitude: float, share: float, seed: int, presets: list) -> dict:
-    """Damage one recording once, and judge each preset on it."""
+def glitches(path: Path, recording: Recording) -> np.ndarray:
+    """Bool (frames, markers): True where a glitch of the recording itself is confirmed, and beside it."""
+    out = np.zeros(recording.missing.shape, bool)
+    with GLITCHES.open(encoding="utf-8", newline="") as stream:
+        for row in csv.DictReader(stream, delimiter="\t"):
+            if row["recording"] == path.stem:
+                start = int(row["first_frame"]) - recording.first_frame - BORDER
+                stop = int(row["last_frame"]) - recording.first_frame + 1 + BORDER
+                out[max(0, start) : stop, recording.markers.index(row["marker"])] = True
+    return out
+
+
+def judge(
+    clean: Recording, config: dict, *, ignored: np.ndarray, amplitude: float, share: float, seed: int, presets: list
+) -> dict:
+    """Damage one recording once, and judge each preset on it. ignored: samples (frames, markers) that do not count."""
     harm = damage(clean, amplitude=amplitude, share=share, seed=seed)
     harmed = replace(clean, positions=harm.positions, facts={"recording": "benchmark"})
     settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
     thinned = mesh_statistics.thin(harmed, frames=settings["frames"])
     body = mesh_inference.infer_mesh([thinned], **settings)
     neighbours = body.neighbour_indices(harmed.markers)
-    truth, seen, out = classes(harm.events, harmed), ~harmed.missing, {}
+    truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
     perfect, _ = mend(harmed, neighbours, harm.events, config)
     for preset in presets:
         found = detect(harmed, body, config, preset)
@@ -180,20 +204,19 @@ def main() -> None:
     config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
     for amplitude in arguments.amplitudes:
         for share in arguments.shares:
-            totals = {preset: nothing() for preset in arguments.presets}
+            totals: dict[tuple[str, str], Outcome] = {}
             for path in arguments.recordings:
                 clean = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
-                own = {preset: nothing() for preset in arguments.presets}
+                group = next((name for name, members in GROUPS.items() if path.stem in members), "others")
+                names = (path.stem, group, "all recordings") if arguments.each else (group, "all recordings")
+                condition = {"amplitude": amplitude, "share": share, "presets": arguments.presets}
                 for seed in arguments.seeds:
-                    condition = {"amplitude": amplitude, "share": share, "seed": seed, "presets": arguments.presets}
-                    for preset, outcome in judge(clean, config, **condition).items():
-                        own[preset].add(outcome)
-                for preset, outcome in own.items():
-                    totals[preset].add(outcome)
-                    if arguments.each:
-                        print_outcome(f"{path.name}: {amplitude:g} mm, {share:.0%}, {preset}", outcome)
-            for preset, outcome in totals.items():
-                print_outcome(f"all recordings: {amplitude:g} mm, {share:.0%}, {preset}", outcome)
+                    judged = judge(clean, config, ignored=glitches(path, clean), seed=seed, **condition)
+                    for preset, outcome in judged.items():
+                        for name in names:
+                            totals.setdefault((name, preset), nothing()).add(outcome)
+            for (name, preset), outcome in totals.items():
+                print_outcome(f"{name}: {amplitude:g} mm, {share:.0%}, {preset}", outcome)
 
 
 if __name__ == "__main__":
