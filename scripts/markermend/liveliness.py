@@ -49,7 +49,7 @@ def expected(
     from scipy.optimize import nnls  # slow to import
 
     local = np.sqrt(np.maximum(mean_over(size**2, window), 1e-6))
-    level = np.nan_to_num(np.nanmedian(local, axis=0), nan=1.0)
+    level = np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in local.T)])
     relative = np.nan_to_num(local / level, nan=1.0)
     kinds = [np.ones(size.shape), *(mean_over(kind, window) + 1.0 for kind in moving)]
     for m, around in enumerate(neighbours):

@@ -1,0 +1,145 @@
+"""How clearly do slow changes stand out, on each marker and at each moment, from what is to be expected there?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from markermend import bumps, liveliness, robust
+from markermend.predictors import Scene
+
+
+@dataclass(frozen=True)
+class NeighbourSlow:
+    """Settings of the detector on all coordinates together (config slow.default).
+
+    lengths_s: of the bumps that are looked for. flank: so much of their length is looked at on either side. taps: finest
+    detail, in parts of the length. scales_s, longest_s: correlation lengths and longest lag of the residual's covariance.
+    clip_sigmas: residuals beyond so many robust sigmas do not count in it. blocks: parts of the recording left out in turn to
+    learn how novelty widens residuals. neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units
+    of that. floor_mm: least height. noise_mm: where the expected level amounts to more than this, nothing is found.
+    least: and no less is ever expected, in standard deviations. rest: just before and after, the residual is no further from
+    its usual level than this part of the height. shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
+    missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
+    height are left out in turn; without them, this part of the threshold must still be reached.
+    """
+
+    lengths_s: tuple[float, ...]
+    flank: float
+    taps: int
+    scales_s: tuple[float, ...]
+    longest_s: float
+    clip_sigmas: float
+    blocks: int
+    neighbours: int
+    sigmas: float
+    floor_mm: float
+    noise_mm: float
+    least: float
+    rest: float
+    shortest_s: float
+    brief_s: float
+    rivals: int
+    suspect: float
+    kept: float
+
+
+class ScaledResidualSource(Protocol):
+    """A predictor that also tells how its errors grow with the novelty of the pose."""
+
+    def scaled_residuals(
+        self, scene: Scene, markers: np.ndarray | None = None, *, blocks: int
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Observed minus predicted (frames, markers, 3), mm, and the factor (frames, markers) that novelty widens it by."""
+        ...
+
+
+@dataclass(frozen=True)
+class Matches:
+    """How clearly bumps stand out.
+
+    residual: (frames, markers, 3), mm. score: (frames, markers), that of the best length, in units of the threshold; 0
+    where nothing is known. length: of that bump, frames. noise: the height to expect of it, mm. expected: (lengths, frames, markers), see
+    liveliness.expected. level: (lengths, markers), the median strength.
+    """
+
+    residual: np.ndarray
+    score: np.ndarray
+    length: np.ndarray
+    noise: np.ndarray
+    expected: np.ndarray
+    level: np.ndarray
+
+
+def match(
+    residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, settings: NeighbourSlow
+) -> tuple[np.ndarray, np.ndarray]:
+    """Strength of bumps of each length (lengths, frames) in one marker's residual, and the deviation of their height, mm.
+
+    residual: (frames, 3), mm. wider: (frames,), what it is divided by, so that its covariance is the same throughout.
+    """
+    strength = np.full((len(lengths), len(residual)), np.nan, np.float32)
+    deviation = np.full(strength.shape, np.nan, np.float32)
+    if np.isnan(residual).all():
+        return strength, deviation
+    signal = bumps.bridged(residual / wider[:, None], robust.samples(settings.brief_s, rate))
+    covariance = bumps.usual_covariance(
+        signal,
+        sigmas=settings.clip_sigmas,
+        rate=rate,
+        scales_s=np.array(settings.scales_s),
+        longest_s=settings.longest_s,
+    )
+    for number, length in enumerate(lengths):
+        bump = bumps.make_filter(covariance, length=length, flank=settings.flank, taps=settings.taps, rate=rate)
+        strength[number] = bumps.strength(signal, bump)
+        deviation[number] = bump.deviation * wider
+    return strength, deviation
+
+
+def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: NeighbourSlow) -> Matches:
+    """Measure how clearly bumps stand out in the residuals of all markers; wider: see `match`."""
+    rate, lengths = scene.rate, frames(settings, scene.rate)
+    each = [match(residual[:, m], wider[:, m], lengths, rate=rate, settings=settings) for m in range(residual.shape[1])]
+    strength = np.stack([own for own, _ in each], axis=2)
+    smooth = max(3, robust.samples(settings.brief_s, rate, odd=True))
+    moving = liveliness.motion(scene.positions, scene.neighbours, rate=rate, near=settings.neighbours, smooth=smooth)
+    expected = np.stack(
+        [
+            liveliness.expected(
+                own, scene.neighbours, moving, near=settings.neighbours, window=length, least=settings.least
+            ).astype(np.float32)
+            for own, length in zip(strength, lengths, strict=True)
+        ]
+    )
+    clearest = [best(*own, expected[:, :, m], lengths, settings=settings) for m, own in enumerate(each)]
+    score, length, noise = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
+    return Matches(residual, score, length, noise, expected, np.stack([level(own) for own, _ in each], axis=1))
+
+
+def level(strength: np.ndarray) -> np.ndarray:
+    """Median (lengths,) of what is known of strengths (lengths, frames); 1 where nothing is."""
+    return np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in strength)])
+
+
+def frames(settings: NeighbourSlow, rate: float) -> list[int]:
+    """The lengths of the bumps to look for, in frames: long enough to have a shape."""
+    return [max(5, robust.samples(length, rate)) for length in settings.lengths_s]
+
+
+def best(
+    strength: np.ndarray,
+    deviation: np.ndarray,
+    expected: np.ndarray,
+    lengths: Sequence[int],
+    *,
+    settings: NeighbourSlow,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Score, length and expected height (frames,) of the bump that stands out most from that; given (lengths, frames)."""
+    score = np.nan_to_num(strength / (settings.sigmas * expected))
+    first = score.argmax(axis=0)[None]
+    noise = np.take_along_axis(deviation * expected, first, axis=0)[0]
+    return np.take_along_axis(score, first, axis=0)[0], np.asarray(lengths)[first[0]], noise
