@@ -58,7 +58,7 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, l
 
     residual: (frames, axes), mm, NaN = missing. rate: Hz. longest_s: lags beyond it are not looked at.
     """
-    from scipy.optimize import nnls  # 0.2 s to import, and the detectors, which predict without kriging, never get here
+    from scipy.optimize import nnls  # 0.2 s to import, and most detectors never get here
 
     lags = int(np.clip(round(longest_s * rate), 2, max(2, len(residual) // 2)))
     # Lags are thinned towards the long ones, so that the short ones, which matter at the borders, are not outvoted.
