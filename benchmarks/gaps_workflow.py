@@ -51,7 +51,7 @@ def run(recordings, results, cores):
     path = results.with_suffix(".yaml")
     path.write_text(yaml.safe_dump(study), encoding="utf-8")
     command = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--configfile", path]
-    subprocess.run([*command, "--quiet", "all"], cwd=PROJECT, check=True)
+    subprocess.run([*command, "--quiet", "rules", "progress"], cwd=PROJECT, check=True)
 
 
 def compare(folder, case, results):

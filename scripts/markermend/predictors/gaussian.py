@@ -12,7 +12,7 @@ import numpy as np
 
 from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.predictors.references import thinned
-from markermend.predictors.ridge_model import RidgeModel, inputs_at
+from markermend.predictors.ridge_model import RidgeModel
 
 
 @dataclass(frozen=True)
@@ -133,11 +133,8 @@ class LocalGaussian(LocalRidge):
             options=self.gaussian,
         )
 
-    def _evaluate(
-        self, model: RidgeModel, positions: np.ndarray, used: np.ndarray, learned: GaussianProcess, rows: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        local, rotation, origin = inputs_at(model, positions, used, rows)
-        return learned.predict(local) + model.centre[-3:], rotation, origin
+    def _respond(self, model: RidgeModel, learned: GaussianProcess, inputs: np.ndarray) -> np.ndarray:
+        return learned.predict(inputs) + model.centre[-3:]
 
     def _left_out(self, model: RidgeModel, used: np.ndarray, learned: GaussianProcess, block: np.ndarray) -> np.ndarray:
         columns = np.flatnonzero(np.repeat(used, 3))

@@ -90,10 +90,6 @@ def inputs_at(
     return local, rotation, origin
 
 
-def evaluate(
-    model: RidgeModel, positions: np.ndarray, used: np.ndarray, beta: np.ndarray, rows: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Local prediction (n, 3) at rows, with the rotation and origin that take it to the laboratory."""
-    local, rotation, origin = inputs_at(model, positions, used, rows)
-    predicted = np.concatenate([np.ones((len(rows), 1)), local], axis=1) @ beta + model.centre[-3:]
-    return predicted, rotation, origin
+def response(model: RidgeModel, beta: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+    """Local prediction (n, 3) by the coefficients from local inputs (n, 3 u)."""
+    return np.concatenate([np.ones((len(inputs), 1)), inputs], axis=1) @ beta + model.centre[-3:]
