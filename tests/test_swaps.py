@@ -89,11 +89,39 @@ def test_a_step_to_where_another_marker_is_is_no_swap(walker):
     assert find(replace(walker.recording, positions=positions)) == []
 
 
-def test_three_markers_that_change_places_in_a_ring_are_left(walker):
-    positions = walker.recording.positions.copy()
-    ring = [walker.recording.markers.index(name) for name in ("LTHI", "LKNE", "LTIB")]
-    positions[600:650, ring] = positions[600:650, [ring[1], ring[2], ring[0]]]
-    assert find(replace(walker.recording, positions=positions)) == []
+def turned(recording, ring, start, stop):
+    """The recording with what belongs to each marker of the ring under the label of the next; and the events."""
+    positions = recording.positions.copy()
+    own = [recording.markers.index(name) for name in ring]
+    positions[start:stop, np.roll(own, -1)] = recording.positions[start:stop, own]
+    told = sorted((ring[k], start, stop, ring[(k + 1) % len(ring)]) for k in range(len(ring)))
+    return replace(recording, positions=positions), told
+
+
+@pytest.mark.parametrize("ring", [("LTHI", "LKNE", "LTIB"), ("LTIB", "LKNE", "LTHI"), ("LASI", "RASI", "LPSI", "RPSI")])
+@pytest.mark.parametrize("span", [(600, 601), (600, 650), (900, 1200), (0, 300)])
+def test_markers_that_change_places_in_a_ring(walker, ring, span):
+    recording, told = turned(walker.recording, ring, *span)
+    found = find(recording)
+    assert intervals(found) == told
+    assert np.array_equal(swaps.undone(recording.positions, found, recording.markers), walker.recording.positions)
+
+
+def test_a_ring_that_turns_on_and_on(walker):
+    once, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 400, 450)
+    twice, more = turned(once, ("LTIB", "LKNE", "LTHI"), 450, 480)
+    found = find(twice)
+    assert intervals(found) == sorted(told + more)
+    assert np.array_equal(swaps.undone(twice.positions, found, twice.markers), walker.recording.positions)
+
+
+def test_a_ring_is_undone_by_the_repair(walker):
+    recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
+    options = RepairOptions(**CONFIG["repair"], protect=[])
+    around = neighbours(recording.positions)
+    mended = repair(recording, found={"steps": find(recording)}, neighbours=around, predictors={}, options=options)
+    assert np.array_equal(mended.positions, walker.recording.positions)
+    assert sorted((e["marker"], e["start"], e["stop"], e["partner"]) for e in mended.facts["repairs"]) == told
 
 
 def test_of_a_step_and_a_swap_at_once_the_swap_is_told():

@@ -110,30 +110,43 @@ class _Repairer:
         return rule(self.decisions, kinds, markers, start, stop)
 
     def swap_back(self) -> None:
-        """Exchange the samples of swapped markers that may be touched; all else is judged and repaired after that."""
-        done: set[tuple[str, str, int, int]] = set()
+        """Give swapped markers that may be touched their own samples; all else is judged and repaired after that."""
+        done: set[tuple[str, int, int]] = set()
         rest = []
         usual = self.refusal is None and "swap" in self.options.methods.get("steps", ())
         for event in self.found.get("steps", []):
-            partner = str(event.partner)
             ruling = self._ruling([("steps", event)])
             wanted = ruling.method == "swap" if ruling.method else usual or ruling.confirmed
-            if partner not in self.recording.markers or not wanted:
+            if event.partner not in self.recording.markers or not wanted:
                 rest.append(event)
-            elif (partner, event.marker, event.start, event.stop) not in done:
-                done.add((event.marker, partner, event.start, event.stop))
-                self._exchange(event, ruling)
+            elif (event.marker, event.start, event.stop) not in done:
+                ring = self._ring(event)
+                done |= {(one.marker, one.start, one.stop) for one in ring}
+                self._exchange(ring, ruling)
         swapped = replace(self.recording, positions=self.result.positions.copy())
         self._look_at(swapped, {**self.found, "steps": rest})
 
-    def _exchange(self, event: Event, ruling: Ruling) -> None:
-        """Exchange the samples of two markers, unless that would leave them worse."""
-        pair = [self.recording.markers.index(name) for name in names(event)]
-        worse = None if ruling.confirmed else self.offers.worse_swapped(pair, event.start, event.stop)
+    def _ring(self, event: Event) -> list[Event]:
+        """The swaps that belong together: from partner to partner and back to the first; at least a marker and its partner."""
+        along = {
+            e.marker: e for e in self.found["steps"] if e.partner and (e.start, e.stop) == (event.start, event.stop)
+        }
+        ring = [event]
+        while len(ring) <= len(along) and (onward := along.get(str(ring[-1].partner))) and onward is not event:
+            ring.append(onward)
+        closed = ring[-1].partner == event.marker
+        return ring if closed else [event, replace(event, marker=str(event.partner), partner=event.marker)]
+
+    def _exchange(self, ring: list[Event], ruling: Ruling) -> None:
+        """Give each marker of a ring the samples of its partner, unless that would leave them worse."""
+        index = self.recording.markers.index
+        members, partners = [index(one.marker) for one in ring], [index(str(one.partner)) for one in ring]
+        start, stop = ring[0].start, ring[0].stop
+        worse = None if ruling.confirmed else self.offers.worse_swapped(members, partners, start, stop)
         if worse is None:
-            self.result.exchange(event, ruling)
+            self.result.exchange(ring, ruling)
             return
-        for one in (event, replace(event, marker=str(event.partner), partner=event.marker)):
+        for one in ring:
             self.result.leave(one, ["steps"], f"no better with labels swapped: {worse}", ruling, blank=False)
 
     def findings(self) -> list[tuple[str, int, int, list[Member]]]:

@@ -125,14 +125,16 @@ class Offers:
         told = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
         return Prediction(told.positions[1:-1], told.error[1:-1])
 
-    def worse_swapped(self, pair: Sequence[int], start: int, stop: int) -> str | None:
-        """Why two markers would be no nearer to where they should be with their samples exchanged, or None."""
-        expected = np.concatenate([self._told(m, start, stop).positions for m in pair])
-        measured = [self.positions[start:stop, m] for m in pair]
-        both = np.isnan(np.concatenate(measured) + np.concatenate(measured[::-1]) + expected)
+    def worse_swapped(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> str | None:
+        """Why markers would be no nearer to where they should be with the samples of their partners, or None."""
+        expected = np.concatenate([self._told(m, start, stop).positions for m in members])
+        measured, exchanged = (
+            np.concatenate([self.positions[start:stop, m] for m in own]) for own in (members, partners)
+        )
+        both = np.isnan(measured + exchanged + expected)
         # Where a sample has no counterpart, the exchange is judged by those that have; if none has, by what there is.
         expected = expected if both.all() else np.where(both, np.nan, expected)
-        before, after = (misfit(np.concatenate(part), expected) for part in (measured, measured[::-1]))
+        before, after = (misfit(part, expected) for part in (measured, exchanged))
         if after > before:
             return f"exchanged, they are {after:.1f} mm from where the neighbours say, measured {before:.1f} mm"
         return None

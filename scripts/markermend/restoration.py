@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -40,16 +39,17 @@ class Restoration:
         self._error[rows, m] = proposal.error[seen]
         self._note(event, KIND_OF[stage], proposal.method, ruling, alternatives(offers))
 
-    def exchange(self, event: Event, ruling: Ruling) -> None:
-        """Exchange the original samples of a marker and its partner over the interval."""
-        span = slice(event.start, event.stop)
-        pair = [self._recording.markers.index(name) for name in (event.marker, event.partner)]
-        self.positions[span, pair] = self._recording.positions[span, pair[::-1]]
-        missing = np.isnan(self.positions[span, pair]).any(axis=2)
-        self._origin[span, pair] = np.where(missing, MISSING, ORIGINS.index("swap"))
-        self._error[span, pair] = np.where(missing, np.nan, 0.0)
-        self._note(event, "swap", "swap", ruling)
-        self._note(replace(event, marker=str(event.partner), partner=event.marker), "swap", "swap", ruling)
+    def exchange(self, ring: Sequence[Event], ruling: Ruling) -> None:
+        """Give each marker of a ring the original samples of its partner; all over the same interval."""
+        span = slice(ring[0].start, ring[0].stop)
+        index = self._recording.markers.index
+        own, partners = [index(event.marker) for event in ring], [index(str(event.partner)) for event in ring]
+        self.positions[span, own] = self._recording.positions[span, partners]
+        missing = np.isnan(self.positions[span, own]).any(axis=2)
+        self._origin[span, own] = np.where(missing, MISSING, ORIGINS.index("swap"))
+        self._error[span, own] = np.where(missing, np.nan, 0.0)
+        for event in ring:
+            self._note(event, "swap", "swap", ruling)
 
     def leave(
         self,

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend import robust
+from markermend import rings, robust
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.recording import runs
@@ -75,16 +75,14 @@ def jumping(positions: np.ndarray, *, window: int, settings: SwapSettings) -> np
     return out
 
 
-def exchanges(scene: Scene, *, settings: SwapSettings) -> list[Exchange]:
+def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: SwapSettings) -> list[Exchange]:
     """Find the frames at which two markers change places, in time; a marker takes part in one at a time.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing.
+    scene: positions (frames, markers, 3), mm, NaN = missing. sudden, window: see jumping.
     """
     positions, present = scene.positions, scene.present
     before, now = np.roll(present, 1, axis=0), present
     before[0] = False
-    window = max(5, robust.samples(settings.window_s, scene.rate, odd=True))
-    sudden = jumping(positions, window=window, settings=settings)
     found: list[Exchange] = []
     for a in range(positions.shape[1]):
         rows = np.flatnonzero(sudden[:, a])
@@ -190,25 +188,38 @@ def swapped(
 
 
 def detect_swaps(scene: Scene, *, markers: Sequence[str], settings: SwapSettings) -> list[Event]:
-    """Find the swaps of a recording: two events each, with the other marker as partner and the same interval.
+    """Find the swaps of a recording: one event for each marker, with that under whose label it is as partner.
+
+    Two markers are each other's partners; three and more form a ring of partners. All have the same interval.
 
     scene: positions (frames, markers, 3), mm, NaN = missing. Of swaps of one marker that overlap, the surer one is told.
     """
+    window = max(5, robust.samples(settings.window_s, scene.rate, odd=True))
+    sudden = jumping(scene.positions, window=window, settings=settings)
     by_pair: dict[tuple[int, int], list[Exchange]] = {}
-    for exchange in exchanges(scene, settings=settings):
+    for exchange in exchanges(scene, sudden, window=window, settings=settings):
         by_pair.setdefault((exchange.first, exchange.second), []).append(exchange)
-    candidates = [
-        (score, pair, start, stop)
+    in_rings = rings.swapped(
+        scene,
+        sudden,
+        ratio=settings.ratio,
+        floor_mm=settings.floor_mm,
+        near=settings.near,
+        trust=settings.trust,
+    )
+    candidates = [(score, tuple(under), under, start, stop) for start, stop, under, score in in_rings]
+    candidates += [
+        (score, pair, dict(zip(pair, pair[::-1], strict=True)), start, stop)
         for pair, own in by_pair.items()
         for start, stop, score in swapped(scene, *pair, own, settings=settings)
     ]
     taken = np.zeros(scene.present.shape, bool)
     found = []
-    for score, pair, start, stop in sorted(candidates, key=lambda c: (-c[0], c[1], c[2])):
-        if not taken[start:stop, pair].any():
-            taken[start:stop, pair] = True
-            for one, other in (pair, pair[::-1]):
-                found.append(Event(markers[one], start, stop, max(1.0, score), "xyz", markers[other]))
+    # A ring says more than a pair: two of its members may look like one.
+    for score, ring, under, start, stop in sorted(candidates, key=lambda c: (-len(c[1]), -c[0], c[1], c[3])):
+        if not taken[start:stop, ring].any():
+            taken[start:stop, ring] = True
+            found += [Event(markers[m], start, stop, max(1.0, score), "xyz", markers[under[m]]) for m in ring]
     return sorted(found, key=lambda event: event.order)
 
 
