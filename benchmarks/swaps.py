@@ -1,10 +1,14 @@
 """Swap labels in clean recordings, find the swaps and undo them, and print how often that was exact.
 
 Reads: the clean recordings named on the command line, the workflow's config.
-Writes: a table to stdout: by distance of the two markers and by length of the swap, how many were found with partner
-and exact bounds, and undone bit for bit; and how many were found that are none, there and in the recordings as they are.
+Writes: tables to stdout: by kind of swap and distance of the markers, and for pairs by length, how many were found with
+the right partners over the right frames, and undone bit for bit; and how many were found that are none, there and in the
+recordings as they are.
 
     PYTHONPATH=scripts .venv/bin/python benchmarks/swaps.py ../shared/data/clean/*
+
+Kinds: a pair; a pair that never swaps back; a pair of which the other marker is missing meanwhile; three markers in a
+ring. Distances are medians over the recording, of a ring that of its first two.
 """
 
 import argparse
@@ -16,8 +20,6 @@ import numpy as np
 import yaml
 
 from markermend import mesh_inference, mesh_statistics
-from markermend.contamination import Contamination
-from markermend.damage import integers
 from markermend.formats import files
 from markermend.predictors import Scene
 from markermend.swaps import SwapSettings, detect_swaps, undone
@@ -26,6 +28,9 @@ PROJECT = Path(__file__).resolve().parents[1]
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
 BANDS = (60.0, 150.0, 400.0, np.inf)
 """Upper ends of the distances that are told apart, mm."""
+KINDS = ("pair", "lasting", "missing", "ring")
+MARGIN = 5
+"""Frames without gaps on either side of a swap."""
 
 
 def read(path: Path, config: dict) -> tuple[tuple[str, ...], Scene]:
@@ -37,43 +42,73 @@ def read(path: Path, config: dict) -> tuple[tuple[str, ...], Scene]:
     return recording.markers, Scene(recording.positions, recording.rate, mesh.neighbour_indices(recording.markers))
 
 
+def swap(
+    positions: np.ndarray, apart: np.ndarray, kind: str, length: int, within: float, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray, list[int], int, int] | None:
+    """Swapped positions, what they are without the swap, the markers in their order, and the frames; None without room."""
+    frames = len(positions)
+    pairs = np.argwhere(apart < within)
+    if not len(pairs) or frames < 3 * length:
+        return None
+    ring = rng.permutation(pairs[rng.integers(len(pairs))]).tolist()
+    start = int(rng.integers(MARGIN, frames - length - MARGIN))
+    start, stop = (
+        (int(rng.integers(2 * frames // 3, frames - MARGIN)), frames) if kind == "lasting" else (start, start + length)
+    )
+    if kind == "ring":
+        near = np.argsort(np.nan_to_num(apart[ring[0]], nan=np.inf))
+        ring.append(int(next(m for m in near if m not in ring)))
+    if np.isnan(positions[start - MARGIN : stop + MARGIN, ring]).any():
+        return None
+    original, swapped = positions.copy(), positions.copy()
+    swapped[start:stop, np.roll(ring, -1)] = positions[start:stop, ring]
+    if kind == "missing":
+        swapped[start:stop, ring[0]] = np.nan
+        original[start:stop, ring[1]] = np.nan
+    return swapped, original, ring, start, stop
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
-    parser.add_argument("--trials", type=int, default=30, help="swaps of each length in each recording")
+    parser.add_argument("--trials", type=int, default=12, help="swaps of each kind and length in each recording")
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
     arguments = parser.parse_args()
     config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
     settings = SwapSettings(**config["swaps"])
-    tried: Counter[tuple[int, int]] = Counter()
-    right: Counter[tuple[int, int]] = Counter()
+    tried: Counter[tuple[str, int, int]] = Counter()
+    right: Counter[tuple[str, int, int]] = Counter()
     false = in_clean = 0
     for path in arguments.recordings:
         markers, scene = read(path, config)
         in_clean += len(detect_swaps(scene, markers=markers, settings=settings))
-        for length in (length for length in LENGTHS if 3 * length < len(scene.positions)):
-            for trial in range(arguments.trials):
-                rng = np.random.default_rng([length, trial])
-                harm = Contamination(scene.positions, markers, margin=2, alone=True, rng=rng)
-                band = trial % len(BANDS)
-                try:
-                    harm.swap(length=integers(length, length), within=BANDS[band], count=1)
-                except ValueError:
-                    continue
-                one, other = harm.artifacts[0].marker, harm.artifacts[0].partner
-                a, b = markers.index(one), markers.index(str(other))
-                apart = np.nanmedian(np.linalg.norm(scene.positions[:, a] - scene.positions[:, b], axis=1))
-                key = int(np.searchsorted(BANDS, apart)), length
-                found = detect_swaps(replace(scene, positions=harm.positions), markers=markers, settings=settings)
-                truth = {(event.marker, event.start, event.stop, event.partner) for event in harm.events["steps"]}
-                told = {(event.marker, event.start, event.stop, event.partner) for event in found}
-                mended = undone(harm.positions, found, markers)
-                tried[key] += 1
-                right[key] += truth == told and np.array_equal(mended, scene.positions, equal_nan=True)
-                false += len(told - truth)
-    print(f"{'mm apart, frames':>18}" + "".join(f"{length:>9}" for length in LENGTHS))
-    for band, high in enumerate(BANDS):
-        cells = [f"{right[band, length]}/{tried[band, length]}" for length in LENGTHS]
-        print(f"{'up to ' + format(high, 'g'):>18}" + "".join(f"{cell:>9}" for cell in cells))
+        some = scene.positions[:: max(1, len(scene.positions) // 50)]
+        apart = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
+        np.fill_diagonal(apart, np.nan)
+        for kind in arguments.kinds:
+            for length in LENGTHS if kind != "lasting" else LENGTHS[:1]:
+                for trial in range(arguments.trials):
+                    rng = np.random.default_rng([KINDS.index(kind), length, trial])
+                    case = swap(scene.positions, apart, kind, length, BANDS[trial % len(BANDS)], rng)
+                    if case is None:
+                        continue
+                    positions, original, ring, start, stop = case
+                    found = detect_swaps(replace(scene, positions=positions), markers=markers, settings=settings)
+                    onward = [*ring[1:], ring[0]]
+                    truth = {(markers[m], start, stop, markers[n]) for m, n in zip(ring, onward, strict=True)}
+                    told = {(event.marker, event.start, event.stop, event.partner) for event in found}
+                    key = kind, int(np.searchsorted(BANDS, apart[ring[0], ring[1]])), length
+                    tried[key] += 1
+                    same = np.array_equal(undone(positions, found, markers), original, equal_nan=True)
+                    right[key] += truth == told and same
+                    false += len(told - truth)
+    for kind in arguments.kinds:
+        lengths = LENGTHS if kind != "lasting" else LENGTHS[:1]
+        heads = [f"{length:>9}" for length in lengths] if kind != "lasting" else ["   to end"]
+        print(f"{kind + ': mm, frames':>18}" + "".join(heads))
+        for band, high in enumerate(BANDS):
+            cells = [f"{right[kind, band, length]}/{tried[kind, band, length]}" for length in lengths]
+            print(f"{'up to ' + format(high, 'g'):>18}" + "".join(f"{cell:>9}" for cell in cells))
     print(f"false events: {false} beside swaps, {in_clean} in the recordings as they are")
 
 
