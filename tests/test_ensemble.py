@@ -276,6 +276,22 @@ def test_what_pseudo_gaps_miss_is_judged_without_themselves(walker):
     assert alone.scale == pytest.approx(np.sqrt((2 + square) / 3))
 
 
+def test_a_fallback_is_asked_only_where_no_other_can_tell(walker):
+    positions = walker.recording.positions[:800].copy()
+    near = [int(other) for other in scene(positions).neighbours[7]]
+    names = ["local_ridge", "linear_regression"]
+    last, alike = (ensemble(names, fallback=each) for each in (["linear_regression"], []))
+    alone = scene(positions)
+    usual = last.fill(alone, 7, 300, 330, last.try_out(alone, 7, 300, 330))
+    assert list(usual.weights) == ["local_ridge"]
+    assert len(alike.fill(alone, 7, 300, 330, alike.try_out(alone, 7, 300, 330)).weights) == 2
+    positions[300:330, near[2:]] = np.nan
+    few = scene(positions)
+    found = last.fill(few, 7, 300, 330, last.try_out(few, 7, 300, 330))
+    assert list(found.weights) == ["linear_regression"]
+    assert np.isfinite(found.deviation).all()
+
+
 def test_a_rigid_body_is_filled_exactly():
     positions = rigid_body()
     seen, own = scene(positions), ensemble()

@@ -18,6 +18,7 @@ from markermend.averaging import pma_likelihood, weighted_mean
 from markermend.constraints import constrain_spacing, constrain_time
 from markermend.density import Density, kernel_density
 from markermend.predictors import Predictor, Scene, Trainable
+from markermend.predictors.interpolation import KINDS
 from markermend.predictors.references import references, thinned
 from markermend.pseudo_gaps import pseudo_gaps
 from markermend.trust import Trust, expected_errors, shares, squared_errors, stated_scale, typical_errors
@@ -30,7 +31,8 @@ WEIGHTS = ("error", "pma", "both", "equal")
 class EnsembleOptions:
     """Settings of the averaging (config section `fill`, key `ensemble`).
 
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. power: weights fall with this power of the error. pseudo_gaps: so many are tried. hidden_share: share of
+    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s.
+    fallback: members that are asked only where no other that looks at the body can tell. power: weights fall with this power of the error. pseudo_gaps: so many are tried. hidden_share: share of
     a marker's samples that are hidden at once for trials, which then share what is learned without them.
     similar_length, similar_neighbours: gaps of a marker share their pseudo-gaps if their lengths differ by less than this
     factor and the same of so many nearest neighbours are missing. worst: members whose error exceeds
@@ -44,6 +46,7 @@ class EnsembleOptions:
 
     weights: str
     longest_s: Mapping[str, float]
+    fallback: Sequence[str]
     power: float
     pseudo_gaps: int
     hidden_share: float
@@ -172,8 +175,11 @@ class Ensemble:
         for side, frame in enumerate((start - 1, stop)):
             if 0 <= frame < len(scene.positions):
                 borders[side] = scene.positions[frame, marker]
-        for k, member in enumerate(members):
+        body = [member.name not in KINDS for member in members]
+        for k, member in sorted(enumerate(members), key=lambda pair: pair[1].name in self.options.fallback):
             if stop - start > self.options.longest_s.get(member.name, np.inf) * scene.rate:
+                continue
+            if member.name in self.options.fallback and not np.isnan(positions[body]).any(axis=(1, 2)).all():
                 continue
             predicted = member.predict(scene, marker, start, stop)
             course = predicted.positions if member.continuous else constrain_time(predicted.positions, borders)
