@@ -76,7 +76,7 @@ def test_the_published_order_of_median_and_difference_is_there():
 
 
 def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
-    recording = put(walker.recording, PLACES, lambda length: np.ones((length, 1)) * [8, 3, -6])
+    recording = put(walker.recording, PLACES, lambda length: np.ones((length, 1)) * [12, 4, -9])
     recording.positions[600:620, recording.markers.index("LELB")] = np.nan
     found, _ = detect(recording, only=("peaks",))
     assert [(e.marker, e.start, e.stop) for e in found["peaks"]] == sorted(PLACES)
