@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from markermend.predictors.frames import align, mean_shape, width
+from markermend.predictors.frames import align, mean_shape, nearest_rotations, width
 
 SHAPE = np.array([[0.0, 0, 0], [100, 0, 0], [0, 60, 0], [10, 20, 40]])
 
@@ -62,3 +62,24 @@ def test_the_mean_shape_is_the_shape_and_bears_outliers():
 def test_width_is_nothing_on_a_line():
     assert width(np.array([[0.0, 0, 0], [1, 1, 1], [5, 5, 5]])) == pytest.approx(0, abs=1e-9)
     assert width(np.array([[0.0, 0, 0], [2, 0, 0], [0, 2, 0], [2, 2, 0]])) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("rank", [1, 2, 3])
+def test_nearest_rotations_equal_singular_values(rank):
+    rng = np.random.default_rng(rank)
+    matrices = rng.normal(size=(500, 3, rank)) @ rng.normal(size=(500, rank, 3))
+    found = nearest_rotations(100 * matrices)
+    assert np.allclose(found @ found.transpose(0, 2, 1), np.eye(3), atol=1e-12)
+    assert np.allclose(np.linalg.det(found), 1)
+    left, _, right = np.linalg.svd(matrices)
+    left[:, :, 2] *= np.sign(np.linalg.det(left @ right))[:, None]
+    if rank > 1:
+        assert np.abs(found - left @ right).max() < 1e-7
+    # Where many are equally near, as with rank 1, any of them will do.
+    reached = [np.einsum("nij,nij->n", each, matrices) for each in (found, left @ right)]
+    assert np.allclose(*reached)
+
+
+def test_points_without_extent_still_get_a_rotation():
+    found = nearest_rotations(np.zeros((2, 3, 3)))
+    assert np.allclose(np.linalg.det(found), 1)
