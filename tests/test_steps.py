@@ -72,3 +72,10 @@ def test_coordinates_tell_open_steps_of_markers(walker):
     _, left = detect(recording, preset="coordinates", only=("steps",))
     [step] = [step for step in left if (step.marker, step.frame) == ("C7", 700)]
     assert step.size_mm == pytest.approx(50, rel=0.1)
+
+
+def test_a_step_that_motion_hides_is_told_by_jumps_that_cancel(walker):
+    t = np.arange(60) / 60
+    drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the course beside it, smoothly
+    found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]

@@ -78,7 +78,8 @@ class NeighbourSteps(CourseSettings):
 
     shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
     cosine: of the angle between one jump and the reverse of the other, at least. held: the median of all samples in
-    between differs from that of as many outside by at least this part of the jump.
+    between differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for
+    this part of them: motion may hide that the marker is displaced.
     """
 
     shortest_s: float
@@ -86,6 +87,7 @@ class NeighbourSteps(CourseSettings):
     ratio: float
     cosine: float
     held: float
+    alike: float
 
 
 def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
@@ -116,7 +118,9 @@ def judge_steps(course: Courses, marker: int, *, name: str, rate: float, setting
             balanced = settings.ratio <= size[k] / size[j] <= 1 / settings.ratio
             if n2 - n1 < shortest or not opposite or not balanced or gone[n1] != gone[n2]:
                 continue
-            if displacement(residual, n1, n2, (vector[k] - vector[j]) / 2) >= settings.held:
+            mean = (vector[k] - vector[j]) / 2
+            alike = np.linalg.norm(vector[k] + vector[j]) <= settings.alike * np.linalg.norm(mean)
+            if alike or displacement(residual, n1, n2, mean) >= settings.held:
                 candidates.append((n2 - n1, k, j))
     found, used = [], np.zeros(len(frames), bool)
     for _, k, j in sorted(candidates):
