@@ -27,7 +27,8 @@ def made(request, tmp_path_factory, walker):
 def run(folder, procedure, damaged, truth):
     given = {"recordings": "clean", "folder": damaged, "truth": truth}
     flags = [word for name, place in given.items() for word in (f"--{name}", str(folder / place))]
-    contaminate.main([*flags, "--seed", "3", "--procedure", procedure])
+    share = {"paper": "0.1", "practice": "0.6"}[procedure]
+    contaminate.main([*flags, "--seed", "3", "--procedure", procedure, "--share", share])
 
 
 def read(path):

@@ -118,6 +118,19 @@ def test_the_papers_procedure(share):
     assert abs(lengths.mean() - 50) < 3 * np.sqrt(50 / len(lengths))
 
 
+@pytest.mark.parametrize("frames", [340, 810])
+def test_no_class_is_left_out_of_short_recordings(frames):
+    """Where there is room for less than one, it is put in by chance, so that on average there is as much as asked."""
+    counts = {kind: 0 for kind in paper()}
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        result = one_at_a_time(still(frames), MARKERS, recipes=paper(), share=0.1, margin=2, rng=rng)
+        for kind, mask in masks(result, frames).items():
+            counts[kind] = counts.get(kind, 0) + mask.sum()
+    for kind in paper():
+        assert counts[kind] / 300 == pytest.approx(0.1 / 4 * frames, rel=0.3)
+
+
 def test_the_papers_amplitudes():
     rng = np.random.default_rng(1)
     recipes = {"steps": paper(10.0)["steps"]}
@@ -172,29 +185,77 @@ def test_no_room_is_an_error():
 @pytest.fixture(scope="module")
 def practice(walker):
     clean = walker.recording
-    given = {"rate": clean.rate, "amplitude": 15.0, "share": 0.1, "rng": np.random.default_rng(11)}
+    given = {"rate": clean.rate, "amplitude": 15.0, "share": 0.6, "rng": np.random.default_rng(11)}
     return in_practice(clean.positions, clean.markers, **given)
 
 
-def test_damage_in_practice_is_of_every_sort(walker, practice):
-    found = practice.events
-    assert all(found[kind] for kind in events.CLASSES)
+def test_damage_in_practice_is_of_every_sort(practice):
+    assert all(practice.events[kind] for kind in events.CLASSES)
     assert {len(artifact.event.axes) for artifact in practice.artifacts} == {1, 2, 3}
-    assert {event.stop - event.start for event in found["steps"] if event.partner} & {1, 2}
-    starts = [(artifact.kind, artifact.start, artifact.stop) for artifact in practice.artifacts if not artifact.partner]
-    assert {kind for kind, *_ in starts if starts.count((kind, *_)) == 3} >= {"noise", "steps", "slow"}
-    names = [event.marker for event in found["peaks"]]
-    bursts = [name for name in set(names) if names.count(name) >= 3]
-    assert bursts
+    forms = {(artifact.kind, artifact.form) for artifact in practice.artifacts}
+    bulk = ("peaks", "noise", "steps", "slow")
+    assert forms >= {
+        (kind, form) for kind in bulk for form in ("alone", "together", "combined", "beside a gap", "at an end")
+    }
+    assert forms - {(kind, form) for kind in bulk for form in ("alone", "together", "combined", "beside a gap", "at an end")} == {
+        ("peaks", "burst"), ("steps", "2 markers"), ("steps", "3 markers"), ("steps", "for good"),
+        ("frozen", "alone"), ("tails", "beside a gap"),
+    }  # fmt: skip
+
+
+def of_form(practice, form):
+    """The artifacts that were put in so, by marker and start."""
+    chosen = [artifact for artifact in practice.artifacts if artifact.form == form]
+    assert chosen
+    return sorted(chosen, key=lambda artifact: (artifact.kind, artifact.start, artifact.marker))
+
+
+def test_every_form_is_what_it_is_called(walker, practice):
+    frames, lost = walker.recording.frames, np.isnan(practice.positions).any(axis=2)
+    assert all(artifact.start == 0 or artifact.stop == frames for artifact in of_form(practice, "at an end"))
+    assert all(artifact.stop == frames for artifact in of_form(practice, "for good"))
+    for artifact in of_form(practice, "beside a gap"):
+        own = lost[:, practice.markers.index(artifact.marker)]
+        assert own[artifact.start - 1] != own[artifact.stop]
+    together = [(artifact.kind, artifact.start, artifact.stop) for artifact in of_form(practice, "together")]
+    assert {together.count(one) for one in together} == {3}
+    names = [artifact.marker for artifact in of_form(practice, "burst")]
+    assert min(names.count(name) for name in names) >= 3
+    combined = of_form(practice, "combined")
+    for over in (artifact for artifact in combined if artifact.kind in ("peaks", "noise")):
+        assert any(
+            under.kind in ("slow", "steps") and under.start <= over.start and over.stop <= under.stop
+            for under in combined
+            if under.marker == over.marker
+        )
+
+
+@pytest.mark.parametrize(("form", "length"), [("2 markers", 2), ("3 markers", 3), ("for good", 2)])
+def test_the_samples_of_a_swapped_marker_are_its_partners(walker, practice, form, length):
+    """And from partner to partner one comes back to the first."""
+    clean, swapped = walker.recording.positions, of_form(practice, form)
+    for artifact in swapped:
+        span, ring = slice(artifact.start, artifact.stop), [artifact.marker]
+        other = practice.markers.index(artifact.partner)
+        assert np.array_equal(practice.positions[span, other], clean[span, practice.markers.index(artifact.marker)])
+        onward = {
+            one.marker: one.partner for one in swapped if (one.start, one.stop) == (artifact.start, artifact.stop)
+        }
+        while onward[ring[-1]] != artifact.marker:
+            ring.append(onward[ring[-1]])
+        assert len(ring) == length
 
 
 def test_damage_in_practice_is_where_it_says(walker, practice):
     clean = walker.recording.positions
     covered = sum(events.mask(own, len(clean), practice.markers).astype(int) for own in practice.events.values())
     gaps = events.mask([events.Event(*gap, 1.0) for gap in practice.gaps], len(clean), practice.markers)
-    assert (covered + gaps).max() == 1
+    combined = [artifact.event for artifact in practice.artifacts if artifact.form == "combined"]
+    alone = ~events.mask(combined, len(clean), practice.markers)
+    assert covered[alone].max() == 1 and covered.max() == 2
+    assert not (gaps & (covered > 0)).any()
     assert np.array_equal(np.isnan(practice.positions).any(axis=2), gaps)
-    assert np.array_equal((practice.positions != clean).any(axis=2), (covered + gaps) == 1)
+    assert np.array_equal((practice.positions != clean).any(axis=2), (covered > 0) | gaps)
 
 
 def test_frozen_markers_repeat_and_tails_wander_off_towards_their_gaps(walker, practice):

@@ -21,6 +21,9 @@ PRACTICE = (
 )
 """Class, duration in s, and number in a minute of 40 markers, in `in_practice`."""
 
+NEAR_MM = 250.0
+"""Markers nearer to each other than this are swapped in `in_practice`."""
+
 
 def recipes(amplitude: float) -> dict[str, Recipe]:
     """The paper's recipes: normal amplitudes (mm), 50 samples on average, peaks of 1 to 5; on all axes."""
@@ -40,33 +43,41 @@ def in_practice(
 ) -> Contamination:
     """Damage trajectories in the ways that the paper leaves out; with a share of 0.1, as much as is common in raw data.
 
-    Artifacts hit one to three axes, come alone, on three neighbouring markers at once and as bursts of peaks; labels are
-    swapped for a frame up to two seconds; markers freeze; gaps come alone, on three markers and with noisy tails.
-    positions: (frames, markers, 3), mm. rate: Hz. amplitude: mean, mm. Raises ValueError where there is no room.
+    Artifacts hit one to three axes, come alone, on three neighbouring markers at once, as bursts of peaks, beside gaps, at
+    the ends of the recording, and as peaks and noise upon slow changes and steps. Labels of two and three markers are
+    swapped for a frame up to two seconds, and for good; markers freeze; gaps come alone, on three markers and with noisy
+    tails. positions: (frames, markers, 3), mm. rate: Hz. amplitude: mean, mm. Raises ValueError where there is no room.
     """
     harm = Contamination(positions, markers, margin=round(0.15 * rate), alone=False, rng=rng)
     often = share / 0.1 * len(positions) / rate / 60 * len(markers) / 40
     size = normal(amplitude, SPREAD * amplitude)
 
     def number(count: float) -> int:
-        return max(1, round(count * often))
+        return int(count * often + rng.random())
 
     def lasting(low: float, high: float) -> Draw:
         return integers(max(1, round(low * rate)), max(1, round(high * rate)))
 
+    rest = integers(len(positions) // 10, len(positions) // 3)
+    harm.swap(length=rest, within=NEAR_MM, at="stop", count=number(1))
+    harm.swap(length=lasting(0.1, 1.0), within=NEAR_MM, markers=3, count=number(1))
+    for length in (lasting(0.0, 0.02), lasting(0.1, 2.0)):
+        harm.swap(length=length, within=NEAR_MM, count=number(2))
     for length, width, count in ((lasting(0.05, 1.0), 1, 6), (lasting(0.1, 0.5), 3, 2)):
         harm.gap(length=length, markers=width, at="anywhere", count=number(count))
-    harm.swap(length=lasting(0.0, 0.02), within=250.0, count=number(2))
-    harm.swap(length=lasting(0.1, 2.0), within=250.0, count=number(2))
-    harm.tail(Recipe(size, lasting(0.02, 0.1), 3), gap=lasting(0.05, 0.5), count=number(6))
+    harm.beside_gaps("tails", Recipe(size, lasting(0.02, 0.1), 3), gap=lasting(0.05, 0.5), count=number(6))
     harm.freeze(length=lasting(0.05, 0.5), moving_mm=amplitude, count=number(4))
-    peak = Recipe(size, lasting(0.0, 0.05), 3)
-    harm.burst(peak, peaks=integers(3, 5), pause=lasting(0.12, 0.3), count=number(2))
-    for kind, seconds, count in PRACTICE:
-        recipe = Recipe(size, lasting(*seconds), 3)
-        harm.together(kind, recipe, markers=3, count=number(1))
+    usual = {kind: Recipe(size, lasting(*seconds), 3) for kind, seconds, _ in PRACTICE}
+    harm.burst(usual["peaks"], peaks=integers(3, 5), pause=lasting(0.12, 0.3), count=number(2))
+    for under in ("slow", "steps"):
+        for over in ("peaks", "noise"):
+            harm.combined(under, usual[under], over, usual[over], count=number(1))
+    for kind, _, count in PRACTICE:
+        harm.beside_gaps(kind, usual[kind], gap=lasting(0.05, 0.5), count=number(1))
+        harm.add(kind, usual[kind], at=str(rng.choice(["start", "stop"])), count=number(1))
+        harm.together(kind, usual[kind], markers=3, count=number(1))
         for _ in range(number(count)):
-            harm.add(kind, replace(recipe, axes=int(rng.integers(1, 4))), count=1)
+            harm.add(kind, replace(usual[kind], axes=int(rng.integers(1, 4))), count=1)
     return harm
 
 
@@ -113,12 +124,12 @@ def one_at_a_time(
 
 
 def _lengths(draw: Draw, total: float, rng: np.random.Generator) -> list[int]:
-    """Lengths drawn until their sum is as near to the total as it gets."""
+    """Lengths drawn until their sum is as near to the total as it gets; if that is 0, one by chance."""
     lengths: list[int] = []
     while True:
         length = int(draw(rng))
         if sum(lengths) + length / 2 > total:
-            return lengths
+            return lengths if lengths or rng.random() > total / length else [length]
         lengths.append(length)
 
 

@@ -83,4 +83,4 @@ def damage(harm: Contamination, *, rate: float, share: float) -> None:
     harm.add("peaks", Recipe(uniform(10.0, 50.0), integers(1, 5), 3), count=round(15 * share))
     harm.freeze(length=uniform(0.1 * rate, 0.5 * rate), moving_mm=20.0, count=round(3 * share))
     wander = Recipe(uniform(15.0, 30.0), uniform(0.02 * rate, 0.08 * rate), 3)
-    harm.tail(wander, gap=uniform(0.1 * rate, 0.5 * rate), count=round(3 * share))
+    harm.beside_gaps("tails", wander, gap=uniform(0.1 * rate, 0.5 * rate), count=round(3 * share))
