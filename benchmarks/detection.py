@@ -3,12 +3,18 @@
 Reads: the clean recordings named on the command line, the workflow's config, confirmed_glitches.tsv beside this file.
 Writes: tables to stdout, one set for each condition (amplitude, share, preset) and group of recordings, over all seeds.
 
-    PYTHONPATH=scripts .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --amplitudes 10 --shares 0.1
+    .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --amplitudes 10 --shares 0.1 --jobs 2
+    .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --procedure practice --presets default --seeds 10 11 12
 
 Damage is the procedure of skurowski2022 (section 4.1.3): a share of the time distorted, one marker at a time, in equal
-shares peaks, heavy noise, steps and slow changes of 50 samples on average. Amplitudes are normal, of 10 mm with a
-deviation of 4, and of 5 with 2. Counts are of samples. RMSE is over the distorted samples that have a value after
-repair (the share that has none is told), and, as `all`, over all samples.
+shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--procedure practice`, what that
+leaves out (markermend.procedures.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
+
+Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
+What frozen and tails find is a class like the others, though the published damage has neither: a sample of a peak that
+they take away is found (`any`), but as what it is not. Swapped labels are told from the other steps. The preset `paper`
+is the published detector alone, without frozen, tails and swaps. Macro F1 is over the classes that were put in. RMSE is
+over the distorted samples that have a value after repair (the share that has none is told), and, as `all`, over all.
 
 Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its course and that
 predicted from its neighbours, at once and alike, and the neighbours do not) are listed in confirmed_glitches.tsv, frames
@@ -17,25 +23,38 @@ in the capture program's numbering. Their samples, and two on either side, count
 
 import argparse
 import csv
-from dataclasses import dataclass, replace
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import yaml
+from detection_outcome import CLASSES, Outcome, print_outcome
 
-from markermend import events, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps
+from markermend import events, frozen, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps, tails
 from markermend.contamination import Contamination
 from markermend.formats import files
 from markermend.mesh import Mesh
 from markermend.predictors import Scene
 from markermend.predictors.registry import REGISTRY, SHARED, members
-from markermend.procedures import one_at_a_time, recipes
+from markermend.procedures import PROCEDURES
 from markermend.recording import Recording
 from markermend.repair import RepairOptions, repair
 
 PROJECT = Path(__file__).resolve().parents[1]
+UNMEASURED = {
+    "frozen": (frozen.detect_frozen, frozen.FrozenSettings),
+    "tails": (tails.detect_tails, tails.TailSettings),
+}
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": slow}
-CLASSES = tuple(DETECTORS)
 GLITCHES = Path(__file__).with_name("confirmed_glitches.tsv")
 BORDER = 2
 """Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
@@ -43,72 +62,77 @@ GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02",
 """Recordings by how much goes on in them; all others are in a group by themselves."""
 
 
-@dataclass
-class Outcome:
-    """What is counted over recordings and seeds.
-
-    confusion: samples by true and by found class, (5, 5), clean first. squares: sum of squared errors, mm^2, and number
-    of samples, (stages of repair, classes, 2): before, after repair of the true and of the found events.
-    """
-
-    confusion: np.ndarray
-    squares: np.ndarray
-    refused: int = 0
-
-    def add(self, other: "Outcome") -> None:
-        self.confusion += other.confusion
-        self.squares += other.squares
-        self.refused += other.refused
-
-
-def nothing() -> Outcome:
-    return Outcome(np.zeros((5, 5), int), np.zeros((3, 5, 2)))
-
-
-def damage(clean: Recording, *, amplitude: float, share: float, seed: int) -> Contamination:
+def damage(clean: Recording, *, amplitude: float, share: float, seed: int, procedure: str = "paper") -> Contamination:
     """Contaminate a recording."""
-    rng = np.random.default_rng(seed)
-    given = {"recipes": recipes(amplitude), "share": share, "margin": 10, "rng": rng}
-    return one_at_a_time(clean.positions, clean.markers, **given)
+    given = {"amplitude": amplitude, "share": share, "rng": np.random.default_rng(seed)}
+    return PROCEDURES[procedure](clean.positions, clean.markers, rate=clean.rate, **given)
 
 
 def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
-    """Find the events of each class as the workflow does: swaps undone, each detector after the ones before."""
+    """Find the events of each class as the workflow does: swaps undone, each detector after the ones before.
+
+    What frozen and tails find is missing for all that come later.
+    """
     near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
     scene, swapped = Scene(recording.positions, recording.rate, near, relatives=relatives), []
-    if preset != "paper":
-        swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=swaps.SwapSettings(**config["swaps"]))
-        scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
     claimed, found = np.zeros(recording.positions.shape, bool), {}
+    if preset != "paper":
+        for kind, (look, settings) in UNMEASURED.items():
+            given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
+            found[kind] = look(scene, settings=settings(**config[kind]), **given)
+            claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
+        swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=swaps.SwapSettings(**config["swaps"]))
+        scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
     for kind, module in DETECTORS.items():
         settings = module.settings({**config[kind], "preset": preset})
         if isinstance(settings, hills.CoordinateSlow):
             predictor = hills.predictor(settings, config)
-        arguments = {"markers": recording.markers, "earlier": claimed, "settings": settings, "predictor": predictor}
-        result = getattr(module, f"detect_{kind}")(scene, **arguments)
+        given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
+        result = getattr(module, f"detect_{kind}")(scene, settings=settings, **given)
         found[kind] = result[0] if kind == "steps" else result
         claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
     return {**found, "steps": swaps.among(found["steps"], swapped)}
 
 
-def mend(recording: Recording, neighbours: list[np.ndarray], found: dict, config: dict) -> tuple[np.ndarray, bool]:
+def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[np.ndarray, bool]:
     """Positions after repair of what was found, and whether the repair refused."""
     options = RepairOptions(**config["repair"], protect=config["protect"])
     names = {name for methods in options.methods.values() for name in methods if name in REGISTRY} | {"local_ridge"}
     settings = {name: config[name] for name in SHARED}
     predictors = {predictor.name: predictor for predictor in members(sorted(names), settings)}
-    result = repair(recording, found=found, neighbours=neighbours, predictors=predictors, options=options)
+    near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
+    given = {"neighbours": near, "relatives": relatives, "predictors": predictors, "options": options}
+    result = repair(recording, found=found, **given)
     refused = bool(result.facts["repairs_left"]) and not result.facts["repairs"]
     return result.positions, refused
 
 
+def class_of(kind: str, partner: str | None) -> int:
+    """Number of the class of an event of a detector; 0 is clean."""
+    return 1 + CLASSES.index("swaps" if partner else kind)
+
+
 def classes(found: dict, recording: Recording) -> np.ndarray:
     """Class of each sample (frames, markers): 0 clean, else 1 + its place in CLASSES; the detector that was first wins."""
+    own = [(class_of(kind, event.partner), event) for kind in found for event in found[kind]]
     out = np.zeros(recording.missing.shape, int)
-    for kind in reversed(CLASSES):
-        out[events.mask(found[kind], recording.frames, recording.markers)] = 1 + CLASSES.index(kind)
+    for number in range(len(CLASSES), 0, -1):
+        some = [event for other, event in own if other == number]
+        out[events.mask(some, recording.frames, recording.markers)] = number
     return out
+
+
+def forms(harm: Contamination, seen: np.ndarray, told: np.ndarray) -> Counter[tuple[str, str, str]]:
+    """Artifacts and samples by class and form, and what was found of them. seen: which samples count; told: their classes."""
+    count: Counter[tuple[str, str, str]] = Counter()
+    for artifact in harm.artifacts:
+        number, m = class_of(artifact.kind, artifact.partner), harm.markers.index(artifact.marker)
+        own = told[artifact.start : artifact.stop, m][seen[artifact.start : artifact.stop, m]]
+        key = CLASSES[number - 1], artifact.form
+        count.update({(*key, "artifacts"): 1, (*key, "samples"): own.size})
+        count.update({(*key, "any"): int((own > 0).sum()), (*key, "right"): int((own == number).sum())})
+    return count
 
 
 def glitches(path: Path, recording: Recording) -> np.ndarray:
@@ -123,76 +147,54 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     return out
 
 
-def judge(
-    clean: Recording, config: dict, *, ignored: np.ndarray, amplitude: float, share: float, seed: int, presets: list
-) -> dict:
-    """Damage one recording once, and judge each preset on it. ignored: samples (frames, markers) that do not count."""
-    harm = damage(clean, amplitude=amplitude, share=share, seed=seed)
+def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:
+    """Damage one recording once, and judge each preset on it.
+
+    ignored: samples (frames, markers) that do not count. condition: see `damage`.
+    """
+    harm = damage(clean, **condition)
     harmed = replace(clean, positions=harm.positions, facts={"recording": "benchmark"})
     settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    thinned = mesh_statistics.thin(harmed, frames=settings["frames"])
-    body = mesh_inference.infer_mesh([thinned], **settings)
-    neighbours = body.neighbour_indices(harmed.markers)
+    body = mesh_inference.infer_mesh([mesh_statistics.thin(harmed, frames=settings["frames"])], **settings)
     truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
-    perfect, _ = mend(harmed, neighbours, harm.events, config)
+    perfect, _ = mend(harmed, body, harm.events, config)
     for preset in presets:
         found = detect(harmed, body, config, preset)
-        outcome = out[preset] = nothing()
-        np.add.at(outcome.confusion, (truth[seen], classes(found, harmed)[seen]), 1)
-        actual, outcome.refused = mend(harmed, neighbours, found, config)
+        told, outcome = classes(found, harmed), Outcome()
+        np.add.at(outcome.confusion, (truth[seen], told[seen]), 1)
+        outcome.forms = forms(harm, seen, told)
+        actual, outcome.refused = mend(harmed, body, found, config)
         for stage, positions in enumerate((harmed.positions, perfect, actual)):
             squared = ((positions - clean.positions) ** 2).sum(axis=2)
             known = seen & ~np.isnan(squared)
-            for kind in range(5):
+            for kind in range(1 + len(CLASSES)):
                 own = squared[known & (truth == kind)]
                 outcome.squares[stage, kind] += own.sum(), own.size
+        out[preset] = outcome
     return out
 
 
-def correlation(confusion: np.ndarray) -> float:
-    """Matthews' correlation coefficient of several classes (Gorodkin 2004)."""
-    true, found, total = confusion.sum(axis=1), confusion.sum(axis=0), confusion.sum()
-    spread = np.sqrt(float(total**2 - found @ found)) * np.sqrt(float(total**2 - true @ true))
-    return float(np.trace(confusion) * total - true @ found) / spread if spread else 0.0
+def run(path: Path, presets: list, condition: dict) -> dict[str, Outcome]:
+    """Judge one recording under one condition."""
+    config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+    clean = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
+    return judge(clean, config, ignored=glitches(path, clean), presets=presets, **condition)
 
 
-def root(squares: np.ndarray) -> float:
-    """Root mean square from sums and counts (..., 2); NaN without any."""
-    total, count = squares.reshape(-1, 2).sum(axis=0)
-    return float(np.sqrt(total / count)) if count else float("nan")
+def group_of(path: Path) -> str:
+    return next((name for name, recordings in GROUPS.items() if path.stem in recordings), "others")
 
 
-def print_outcome(title: str, outcome: Outcome) -> None:
-    """The tables of one condition."""
-    confusion, squares = outcome.confusion, outcome.squares
-    print(f"\n{title}" + (f" (repair of what was found refused {outcome.refused} times)" if outcome.refused else ""))
-    names = ("clean", *CLASSES)
-    print(f"{'samples: true, found':>22}" + "".join(f"{name:>9}" for name in names))
-    for name, row in zip(names, confusion, strict=True):
-        print(f"{name:>22}" + "".join(f"{count:9}" for count in row))
-    columns = ("TPR", "PPV", "F1", "any", "before", "perfect", "actual", "blank p", "blank a")
-    print(f"{'class':>22}" + "".join(f"{name:>9}" for name in columns))
-    scores = []
-    for k, name in enumerate(names[1:], 1):
-        right, true, found = confusion[k, k], max(1, confusion[k].sum()), max(1, confusion[:, k].sum())
-        scores.append(2 * right / (true + found))
-        errors = [root(squares[stage, k]) for stage in range(3)]
-        blank = [1 - squares[stage, k, 1] / max(1, squares[0, k, 1]) for stage in (1, 2)]
-        rates = (right / true, right / found, scores[-1], confusion[k, 1:].sum() / true)
-        print(f"{name:>22}" + "".join(f"{value:9.3f}" for value in (*rates, *errors, *blank)))
-    overall = [root(squares[stage, 1:]) for stage in range(3)]
-    print(f"{'distorted':>22}{'':36}" + "".join(f"{value:9.3f}" for value in overall))
-    print(f"{'all':>22}{'':36}" + "".join(f"{root(squares[stage]):9.3f}" for stage in range(3)))
-    false = confusion[0, 1:] / max(1, confusion[0].sum())
-    each = ", ".join(f"{name} {share:.4%}" for name, share in zip(CLASSES, false, strict=True))
-    print(
-        f"macro F1 {np.mean(scores):.3f}, MCC {correlation(confusion):.3f}, false per clean {false.sum():.4%} ({each})"
-    )
+def conditions(arguments: argparse.Namespace) -> Iterator[dict]:
+    """What `damage` is asked for, but for the seed."""
+    for amplitude, share in product(arguments.amplitudes, arguments.shares):
+        yield {"procedure": arguments.procedure, "amplitude": amplitude, "share": share}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
+    parser.add_argument("--procedure", choices=PROCEDURES, default="paper", help="how to damage them")
     parser.add_argument("--amplitudes", type=float, nargs="+", default=[5, 10], help="mean amplitudes, mm")
     parser.add_argument(
         "--shares", type=float, nargs="+", default=[0.05, 0.1, 0.2], help="shares of the time distorted"
@@ -200,23 +202,22 @@ def main() -> None:
     parser.add_argument("--presets", nargs="+", default=["default", "paper"], help="presets of the detectors")
     parser.add_argument("--seeds", type=int, nargs="+", default=[0], help="seeds; one contamination each")
     parser.add_argument("--each", action="store_true", help="print the tables of each recording too")
+    parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     arguments = parser.parse_args()
-    config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
-    for amplitude in arguments.amplitudes:
-        for share in arguments.shares:
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        for condition in conditions(arguments):
             totals: dict[tuple[str, str], Outcome] = {}
-            for path in arguments.recordings:
-                clean = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
-                group = next((name for name, members in GROUPS.items() if path.stem in members), "others")
-                names = (path.stem, group, "all recordings") if arguments.each else (group, "all recordings")
-                condition = {"amplitude": amplitude, "share": share, "presets": arguments.presets}
-                for seed in arguments.seeds:
-                    judged = judge(clean, config, ignored=glitches(path, clean), seed=seed, **condition)
-                    for preset, outcome in judged.items():
-                        for name in names:
-                            totals.setdefault((name, preset), nothing()).add(outcome)
-            for (name, preset), outcome in totals.items():
-                print_outcome(f"{name}: {amplitude:g} mm, {share:.0%}, {preset}", outcome)
+            tasks = [(path, seed) for path in arguments.recordings for seed in arguments.seeds]
+            waiting = [pool.submit(run, path, arguments.presets, {**condition, "seed": seed}) for path, seed in tasks]
+            for (path, seed), result in zip(tasks, waiting, strict=True):
+                names = (group_of(path), "all recordings", *([path.stem] if arguments.each else []))
+                for (preset, outcome), name in product(result.result().items(), names):
+                    totals.setdefault((name, preset), Outcome()).add(outcome)
+                told = ", ".join(f"{key} {value}" for key, value in condition.items())
+                print(f"{path.stem}, seed {seed}, {told}", file=sys.stderr)
+            for name, preset in sorted(totals, key=lambda key: key[0] == "all recordings"):
+                title = f"{name}: {condition['procedure']}, {condition['amplitude']:g} mm, {condition['share']:.0%}, {preset}"
+                print_outcome(title, totals[name, preset])
 
 
 if __name__ == "__main__":

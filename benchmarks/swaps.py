@@ -5,16 +5,19 @@ Writes: tables to stdout: by kind of swap and distance of the markers, and for p
 the right partners over the right frames, and undone bit for bit; and how many were found that are none, there and in the
 recordings as they are.
 
-    PYTHONPATH=scripts .venv/bin/python benchmarks/swaps.py ../shared/data/clean/*
+    .venv/bin/python benchmarks/swaps.py ../shared/data/clean/*
 
 Kinds: a pair; a pair that never swaps back; a pair of which the other marker is missing meanwhile; three markers in a
 ring. Distances are medians over the recording, of a ring that of its first two.
 """
 
 import argparse
+import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import yaml
