@@ -26,6 +26,9 @@ STAGE.option("coherent_share", float, "a step is subtracted if what remains of i
 STAGE.option("savitzky_golay_order", int, "order of the method savitzky_golay")
 STAGE.option("savitzky_golay_s", float, "window of the method savitzky_golay, s")
 STAGE.option("trials", int, "hidden stretches that tell the error of a method that does not state one")
+STAGE.option(
+    "separation", mapping, "what the methods separate_noise, separate_step, separate_slow believe of artifacts"
+)
 for family in SHARED:
     STAGE.option(family, mapping, f"settings of {FAMILIES[family]}")
 

@@ -58,6 +58,7 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         "savitzky_golay_order": 13,
         "savitzky_golay_s": 1.01,
         "trials": 5,
+        "separation": {"amplitudes_mm": [3, 10, 30], "roughness_mm": [0.1, 1], "border_s": 0.15},
     }
     return repair(
         recording,

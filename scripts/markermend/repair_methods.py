@@ -1,18 +1,22 @@
-"""Ways to mend one marker over one interval: predict it, subtract a step, or smooth it; each says how sure it is."""
+"""Ways to mend one marker over one interval: predict it, part it from its artifact, or smooth it; each says how sure it is."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
 from markermend.predictors.interpolation import KINDS
+from markermend.predictors.kriging import Covariance, fit_covariance
+from markermend.predictors.local import LocalRidge
 from markermend.predictors.loose import LOOSE
 from markermend.recording import runs
 from markermend.robust import high_pass
+from markermend.separation import COURSES, SeparationOptions, artifacts, pinned, separate
 
-METHODS = ("swap", "offset", "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
+METHODS = ("swap", "offset", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
 """The ways of repair by the names that a config may use."""
 
 
@@ -83,6 +87,44 @@ def without_offset(
         return None
     error = np.sqrt(uneven**2 + wobble**2 / (stop - start)) / np.sqrt(3)
     return Proposal("offset", original[start:stop] - offset, np.full(stop - start, max(error, 1e-6)))
+
+
+def separated(
+    method: str,
+    original: np.ndarray,
+    ridge: LocalRidge,
+    scene: Scene,
+    marker: int,
+    start: int,
+    stop: int,
+    *,
+    options: SeparationOptions,
+) -> Proposal | None:
+    """The measured samples without the artifact that a method of COURSES tells apart from the error of the prediction.
+
+    original: (frames, 3), the marker's course as measured, NaN = missing. None where the neighbours cannot tell for
+    every sample.
+    """
+    prediction = ridge.predict(scene, marker, start, stop)
+    positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
+    if np.isnan(positions).any() or np.isnan(deviation).any() or np.isnan(original[start:stop]).all():
+        return None
+    around = np.arange(start - round(options.border_s * scene.rate), stop + round(options.border_s * scene.rate))
+    around = around[(around >= 0) & (around < len(original)) & ((around < start) | (around >= stop))]
+    around = around[scene.present[around, marker]]
+    covariance = scene.remember((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
+    together = pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(start, stop) / scene.rate)
+    error = together * deviation * deviation[:, None]
+    tried = artifacts(method, stop - start, options)
+    mean, remaining = separate(original[start:stop] - positions, error, tried)
+    return Proposal(method, positions + mean, remaining)
+
+
+def residual_covariance(ridge: LocalRidge, scene: Scene, marker: int) -> Covariance:
+    """How the residual of a marker goes together over time, over the whole recording."""
+    residual = ridge.residuals(scene, np.array([marker]))[:, marker]
+    scales_s = np.array(ridge.options.scales_s)
+    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, longest_s=ridge.options.longest_s)
 
 
 def smoothed(

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
-from markermend.repair_methods import BALL68, BALL95, Proposal, predicted, smoothed, without_offset
+from markermend.predictors.local import LocalRidge
+from markermend.repair_methods import BALL68, BALL95, Proposal, predicted, separated, smoothed, without_offset
 from markermend.robust import samples
+from markermend.separation import COURSES, SeparationOptions
 
 
 @dataclass(frozen=True)
@@ -17,13 +20,14 @@ class RepairOptions:
     """Settings of the repair (config section `repair`).
 
     methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`, `offset`
-    (subtract a step), `swap` (swap back with the partner, before all other repairs) or `blank`. prefer: of two methods
+    (subtract a step), `separate_noise`, `separate_step`, `separate_slow` (part prediction and artifact), `swap` (swap
+    back with the partner, before all other repairs) or `blank`. prefer: of two methods
     whose expected errors (68 %) differ by less than this factor the preferred one is taken, else the one that errs less.
     protect: marker name patterns never touched. max_altered_share: with more than this share of the seen samples found,
     nothing is repaired. max_repair_s: longer findings become missing. max_error_mm: likewise where the expected error
     exceeds it. coherent_share: a step is subtracted where what remains of it varies by less than this share of its size.
     savitzky_golay_order, savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the
-    error of a method is told that does not state one.
+    error of a method is told that does not state one. separation: see SeparationOptions.
     """
 
     methods: Mapping[str, Sequence[str]]
@@ -36,6 +40,7 @@ class RepairOptions:
     savitzky_golay_order: int
     savitzky_golay_s: float
     trials: int
+    separation: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -150,4 +155,10 @@ class Offers:
         if method == "offset":
             prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
             return without_offset(original, prediction, start, stop, coherent_share=options.coherent_share)
+        if method in COURSES:
+            ridge = self.predictors["local_ridge"]
+            if not isinstance(ridge, LocalRidge):
+                return None
+            settings = SeparationOptions(**options.separation)
+            return separated(method, original, ridge, self.scene, m, start, stop, options=settings)
         return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)
