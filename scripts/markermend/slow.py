@@ -18,7 +18,7 @@ from markermend.events import Event
 from markermend.hills import CoordinateSlow
 from markermend.predictors import Scene
 from markermend.recording import runs
-from markermend.slow_matches import Matches, NeighbourSlow, ScaledResidualSource, frames, level, match, measure
+from markermend.slow_matches import Matches, NeighbourSlow, ScaledResidualSource, measure
 
 
 def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, settings: NeighbourSlow) -> list[Event]:
@@ -69,44 +69,30 @@ def to_blame(
 ) -> bool:
     """Whether a finding is the marker's own, and not that of a neighbour that is off as well and dragged it along.
 
-    So it is where the marker is still off without any one of those neighbours; or, on a rigid segment, where nothing
-    tells without them, if it is further off than they are, in mm, and they are not without it. In mm, because a steady
-    marker shows a neighbour's drift more clearly, in units of its own level, than that neighbour does.
+    Of each neighbour that may have done so: the marker is still off without it; or, as on a rigid segment, where nothing
+    tells without either, the marker is further off than that neighbour, in mm, which is not off without the marker. In
+    mm, because a steady marker shows a neighbour's drift more clearly, in units of its own level, than that neighbour does.
     """
     near = np.asarray(scene.neighbours[marker], int)[: settings.rivals]
-    heights = [
+    own, *heights = (
         bumps.height(matches.residual[:, m], event.start, event.stop, flank=settings.flank) for m in (marker, *near)
-    ]
-    suspects = np.nan_to_num(heights[1:]) > settings.suspect * heights[0]
+    )
+    suspects = np.nan_to_num(heights) > settings.suspect * own
     suspects |= matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1
 
     def off(one: int, without: int) -> bool:
+        """Whether a bump stands out during the event on one marker in the scene without another."""
         hidden = scene.positions.copy()
         hidden[:, without] = np.nan  # throughout: a looser prediction needs its own scale
         rest = replace(scene, positions=hidden)
-        return still_off(rest, event, matches, marker=one, settings=settings, predictor=predictor)
+        residual, wider = predictor.scaled_residuals(rest, np.array([one]), blocks=settings.blocks)
+        score = matches.judge_anew(residual[:, one], wider[:, one], one, rate=scene.rate, settings=settings)
+        return bool(score[event.start : event.stop].max() > settings.kept)
 
-    if all(off(marker, suspect) for suspect in near[suspects]):
-        return True
-    return heights[0] >= np.nanmax(heights) and not any(off(suspect, marker) for suspect in near[suspects])
-
-
-def still_off(
-    scene: Scene,
-    event: Event,
-    matches: Matches,
-    *,
-    marker: int,
-    settings: NeighbourSlow,
-    predictor: ScaledResidualSource,
-) -> bool:
-    """Whether a bump stands out during an event on a marker in a scene other than the one of the matches."""
-    residual, wider = predictor.scaled_residuals(scene, np.array([marker]), blocks=settings.blocks)
-    lengths = frames(settings, scene.rate)
-    own, _ = match(residual[:, marker], wider[:, marker], lengths, rate=scene.rate, settings=settings)
-    expected = matches.expected[:, :, marker] * np.maximum(level(own) / matches.level[:, marker], 1)[:, None]
-    score = own / (settings.sigmas * expected)
-    return bool(np.nan_to_num(score[:, event.start : event.stop]).max() > settings.kept)
+    return all(
+        off(marker, suspect) or (own >= np.nan_to_num(height) and not off(suspect, marker))
+        for suspect, height in zip(near[suspects], np.array(heights)[suspects], strict=True)
+    )
 
 
 def settings(options: Mapping[str, Any]) -> CoordinateSlow | NeighbourSlow:

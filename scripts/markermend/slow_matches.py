@@ -73,6 +73,14 @@ class Matches:
     expected: np.ndarray
     level: np.ndarray
 
+    def judge_anew(
+        self, residual: np.ndarray, wider: np.ndarray, marker: int, *, rate: float, settings: NeighbourSlow
+    ) -> np.ndarray:
+        """Score (frames,) of a marker with another residual (frames, 3), mm: see `match`; what is expected, grown with its level."""
+        own, _ = match(residual, wider, frames(settings, rate), rate=rate, settings=settings)
+        growth = np.maximum(level(own) / self.level[:, marker], 1)
+        return np.nan_to_num(own / (settings.sigmas * self.expected[:, :, marker] * growth[:, None])).max(axis=0)
+
 
 def match(
     residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, settings: NeighbourSlow
