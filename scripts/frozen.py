@@ -4,7 +4,7 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_frozen.parquet.
 """
 
-from markermend import detection, storage, unmeasured
+from markermend import unmeasured
 from markermend.frozen import FrozenSettings, detect_frozen
 
 STAGE = unmeasured.stage("frozen", __doc__, finds="frozen stretches")
@@ -15,10 +15,7 @@ STAGE.option("sigmas", float, "and the marker by so many standard deviations of 
 
 
 def work(call):
-    given, options = unmeasured.arguments(call)
-    found = detect_frozen(**given, settings=FrozenSettings(**options))
-    storage.write_events(call.events, found, call.facts)
-    return detection.result(found)
+    return unmeasured.search(call, detect_frozen, FrozenSettings)
 
 
 def main(argv=None):

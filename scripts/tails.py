@@ -4,7 +4,7 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_tails.parquet.
 """
 
-from markermend import detection, storage, unmeasured
+from markermend import unmeasured
 from markermend.tails import TailSettings, detect_tails
 
 STAGE = unmeasured.stage("tails", __doc__, finds="noisy tails")
@@ -18,10 +18,7 @@ STAGE.option("weak", float, "half of its samples must exceed this share of that 
 
 
 def work(call):
-    given, options = unmeasured.arguments(call)
-    found = detect_tails(**given, settings=TailSettings(**options))
-    storage.write_events(call.events, found, call.facts)
-    return detection.result(found)
+    return unmeasured.search(call, detect_tails, TailSettings)
 
 
 def main(argv=None):

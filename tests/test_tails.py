@@ -75,6 +75,16 @@ def test_a_neighbours_tail_is_not_blamed_on_a_clean_border(walker, near):
     assert [event.marker for event in detect(recording, near)] == ["LFHD"]
 
 
+@pytest.mark.parametrize(("marker", "frame"), [("LTOE", 580), ("LWRA", 813), ("RANK", 949)])
+def test_nor_on_one_that_swings(walker, near, marker, frame):
+    """Its speed changes within a few frames, but not from one to the next."""
+    positions, m = walker.recording.positions.copy(), walker.recording.markers.index(marker)
+    positions[frame : frame + 25, m] = np.nan
+    for other in near[m][:3]:
+        positions[frame - 4 : frame, other] += [15.0, -10.0, 8.0]
+    assert detect(replace(walker.recording, positions=positions), near) == []
+
+
 def test_a_neighbour_that_goes_missing_makes_no_tail(walker, near):
     recording = with_gaps(walker.recording)
     for other in near[recording.markers.index("STRN")][:4]:

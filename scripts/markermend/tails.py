@@ -97,13 +97,13 @@ def _borders(present: np.ndarray, believed: np.ndarray, shortest: int) -> Iterat
 def _sudden(course: np.ndarray, residual: np.ndarray, before: int) -> np.ndarray:
     """The sudden change, mm, that leads to each sample after the first `before`: what residual and course both make.
 
-    course, residual: (n, 3), mm. A neighbour's artifact or gap changes only the residual, natural motion only the course.
+    course, residual: (n, 3), mm. A neighbour's artifact or gap changes only the residual; motion that goes on as it did
+    bends the course by little from one frame to the next.
     """
-    change, motion = np.diff(residual, axis=0), np.diff(course, axis=0)
-    motion = motion - np.median(motion[: before - 1], axis=0)
+    change, bend = np.diff(residual, axis=0)[1:], np.diff(course, 2, axis=0)
     length = np.linalg.norm(change, axis=1)
-    along = np.einsum("na,na->n", motion, change) / np.maximum(length, 1e-9)
-    return np.nan_to_num(np.clip(along, 0, length)[before - 1 :])
+    along = np.einsum("na,na->n", bend, change) / np.maximum(length, 1e-9)
+    return np.nan_to_num(np.clip(along, 0, length)[before - 2 :])
 
 
 def _median(values: np.ndarray) -> float:

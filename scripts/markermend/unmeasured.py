@@ -7,12 +7,12 @@ otherwise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from markermend import detection
+from markermend import detection, storage
 from markermend.events import Event
 from markermend.predictors import Predictor, Scene
 from markermend.predictors.local import LocalRidge, RidgeOptions
@@ -55,15 +55,19 @@ def stage(name: str, description: str, *, finds: str) -> Stage:
     return command
 
 
-def arguments(call: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    """What such a detector is given, from a stage's files and options, and the options that are its own.
+def search(call: Any, detect: Callable[..., list[Event]], settings: type) -> str:
+    """Do the work of such a detector as a command, and return the line of result.
 
-    Raises SetAside where the recording was set aside.
+    call: the stage's files and options. detect: the detector. settings: what its own options make. Raises SetAside where
+    the recording was set aside.
     """
     recording, scene, earlier = detection.read(call.markers, call.mesh, call.earlier)
     options = dict(call.options)
     predictor = LocalRidge(RidgeOptions(**options.pop("local_ridge")))
-    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}, options
+    given = {"markers": recording.markers, "earlier": earlier, "predictor": predictor}
+    found = detect(scene, settings=settings(**options), **given)
+    storage.write_events(call.events, found, call.facts)
+    return detection.result(found)
 
 
 def event(marker: str, start: int, stop: int, score: np.ndarray) -> Event:
