@@ -1,43 +1,73 @@
-"""Slow changes against the neighbours, on the synthetic walker."""
+"""Slow changes against the neighbours, on the left half of the synthetic walker: the right limbs would tell no more."""
 
 from dataclasses import replace
 
 import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
 
-from signals import detect, neighbours, put
+from markermend.events import Event
+from markermend.predictors import Scene
+from markermend.slow_company import Company
+from signals import RIDGE, detect, neighbours, put, settings
 
 PLACES = [("LTIAP", 182, 243), ("LANK", 386, 457), ("LUPA", 920, 989)]
 
 
-def triangle(length, height=10.0):
-    return height * (1 - np.abs(2 * (np.arange(length) + 0.5) / length - 1))
+@pytest.fixture(scope="module")
+def half(walker):
+    recording = walker.recording
+    left = [
+        m
+        for m, segment in enumerate(walker.segments)
+        if not segment.startswith("right") and not segment.endswith("hand")
+    ]
+    return replace(recording, positions=recording.positions[:, left], markers=tuple(recording.markers[m] for m in left))
 
 
-def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
-    recording = put(walker.recording, PLACES, lambda length: triangle(length)[:, None] * [3, 1, -2])
-    found, _ = detect(recording, only=("slow",))
-    assert [e.marker for e in found["slow"]] == sorted(marker for marker, _, _ in PLACES)
-    for event, (_, start, stop) in zip(found["slow"], sorted(PLACES), strict=True):
+def triangle(length, direction):
+    return 10 * (1 - np.abs(2 * (np.arange(length) + 0.5) / length - 1))[:, None] * direction
+
+
+def slow_changes(recording):
+    return detect(recording, only=("slow",))[0]["slow"]
+
+
+def test_found_and_not_blamed_on_neighbours(half):
+    recording = put(half, PLACES, lambda length: triangle(length, [3, 1, -2]))
+    found = slow_changes(recording)
+    assert [event.marker for event in found] == sorted(marker for marker, _, _ in PLACES)
+    for event, (_, start, stop) in zip(found, sorted(PLACES), strict=True):
         assert abs(event.start - start) <= 10
         assert abs(event.stop - stop) <= 10
 
 
-def test_what_does_not_come_back_is_no_slow_change(walker):
-    recording = put(walker.recording, [("LANK", 386, 1200)], lambda length: np.ones((length, 1)) * [30, 10, -20])
-    found, _ = detect(recording, only=("slow",))
-    assert found["slow"] == []
+def test_nothing_where_all_is_well_or_something_does_not_come_back(half):
+    assert detect(half) == ({"peaks": [], "noise": [], "steps": [], "slow": []}, [])
+    shifted = put(half, [("LANK", 386, 1200)], lambda length: np.ones((length, 1)) * [30, 10, -20])
+    assert slow_changes(shifted) == []
 
 
-def test_nothing_on_the_clean_walker(walker):
-    assert detect(walker.recording) == ({"peaks": [], "noise": [], "steps": [], "slow": []}, [])
+@pytest.mark.parametrize("culprit", range(5))
+def test_on_a_rigid_segment_the_distances_tell_whose_it_is(culprit):
+    rng = np.random.default_rng(6)
+    rotation = Rotation.from_rotvec(np.cumsum(rng.normal(0, 0.02, (400, 3)), axis=0)).as_matrix()
+    rigid = np.einsum("tij,mj->tmi", rotation, rng.normal(0, 80, (5, 3)))
+    loose = rigid.mean(axis=1, keepdims=True) + np.cumsum(rng.normal(0, 2, (400, 4, 3)), axis=0)
+    positions = np.concatenate([rigid, loose], axis=1)
+    positions[200:250, culprit] += triangle(50, [0.3, 0.2, -0.1])
+    scene = Scene(positions, 100.0, [np.delete(np.arange(9), m) for m in range(9)])
+    company = Company(scene, None, settings("slow", "default"), RIDGE)  # the matches do not matter
+    event = Event("culprit", 200, 250, 1.0, "xyz")
+    for other in set(range(9)) - {culprit}:
+        assert company.more_disturbed(culprit, other, event)
+        assert not company.more_disturbed(other, culprit, event)
 
 
-def test_where_a_neighbour_comes_or_goes_nothing_is_found(walker):
-    marker = PLACES[0][0]
-    recording = put(walker.recording, PLACES[:1], lambda length: triangle(length)[:, None] * [3, 1, -2])
-    near = neighbours(recording.positions)[recording.markers.index(marker)]
-    for first, last, expected in ((200, 220, []), (800, 900, [marker])):
-        positions = recording.positions.copy()
-        positions[first:last, near[3]] = np.nan
-        found, _ = detect(replace(recording, positions=positions), only=("slow",))
-        assert [event.marker for event in found["slow"]] == expected
+@pytest.mark.parametrize(("first", "last", "expected"), [(200, 220, []), (800, 900, ["LTIAP"])])
+def test_where_a_neighbour_comes_or_goes_nothing_is_found(half, first, last, expected):
+    recording = put(half, PLACES[:1], lambda length: triangle(length, [3, 1, -2]))
+    near = neighbours(recording.positions)[recording.markers.index("LTIAP")]
+    positions = recording.positions.copy()
+    positions[first:last, near[3]] = np.nan
+    assert [event.marker for event in slow_changes(replace(recording, positions=positions))] == expected

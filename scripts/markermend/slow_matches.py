@@ -74,7 +74,7 @@ class Matches:
     level: np.ndarray
 
     def judge_anew(
-        self, residual: np.ndarray, wider: np.ndarray, marker: int, *, rate: float, settings: NeighbourSlow
+        self, residual: np.ndarray, wider: np.ndarray, *, marker: int, rate: float, settings: NeighbourSlow
     ) -> np.ndarray:
         """Score (frames,) of a marker with another residual (frames, 3), mm: see `match`; what is expected, grown with its level."""
         own, _ = match(residual, wider, frames(settings, rate), rate=rate, settings=settings)

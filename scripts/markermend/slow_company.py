@@ -1,0 +1,93 @@
+"""What the neighbours of a marker tell about a slow change: are they all there, and is it one of them that drifts?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from markermend import bumps, robust
+from markermend.events import Event
+from markermend.predictors import Scene
+from markermend.slow_matches import Matches, NeighbourSlow, ScaledResidualSource
+
+RIGID_MM = 0.1
+"""Deviation of distances that is taken for granted: rounded positions of a rigid body have that much."""
+
+
+@dataclass(frozen=True, eq=False)
+class Company:
+    """The nearest neighbours of each marker, and what is known of them.
+
+    scene: nothing that earlier detectors claimed. matches: how clearly bumps stand out in it. predictor: as for the matches.
+    """
+
+    scene: Scene
+    matches: Matches
+    settings: NeighbourSlow
+    predictor: ScaledResidualSource
+
+    def near(self, marker: int) -> np.ndarray:
+        """The neighbours that are asked about a marker, the nearest first."""
+        return np.asarray(self.scene.neighbours[marker], int)[: self.settings.rivals]
+
+    def seen(self, event: Event, markers: np.ndarray) -> np.ndarray:
+        """Whether markers are seen (frames, markers), from before an event to after it."""
+        margin = int(self.settings.flank * (event.stop - event.start))
+        return self.scene.present[max(event.start - margin, 0) : event.stop + margin, markers]
+
+    def stays(self, marker: int, event: Event) -> bool:
+        """Whether each neighbour is seen all the while, or never, from before an event of a marker to after it.
+
+        A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What
+        is brief does not count: it makes no slow change.
+        """
+        seen, brief = self.seen(event, self.near(marker)), robust.samples(self.settings.brief_s, self.scene.rate)
+        count = np.count_nonzero(seen, axis=0)
+        return bool(((count >= len(seen) - brief) | (count <= brief)).all())
+
+    def exculpates(self, marker: int, event: Event) -> bool:
+        """Whether an event is the marker's own, and not that of a neighbour that is off as well and dragged it along.
+
+        Of each neighbour that may have done so: the marker is still off without it; or, as on a rigid segment, where
+        nothing tells without either, the marker's distances to the others are disturbed more than that neighbour's.
+        """
+        near, flank = self.near(marker), self.settings.flank
+        own, *heights = (
+            bumps.height(self.matches.residual[:, m], event.start, event.stop, flank=flank) for m in (marker, *near)
+        )
+        suspects = np.nan_to_num(heights) > self.settings.suspect * own
+        suspects |= self.matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1
+        return all(
+            self.off_without(suspect, marker, event) or self.more_disturbed(marker, suspect, event)
+            for suspect in near[suspects].tolist()
+        )
+
+    def off_without(self, hidden: int, marker: int, event: Event) -> bool:
+        """Whether a bump stands out on a marker during an event though a neighbour is hidden."""
+        positions = self.scene.positions.copy()
+        positions[:, hidden] = np.nan  # throughout: a looser prediction needs its own scale
+        rest = replace(self.scene, positions=positions)
+        residual, wider = self.predictor.scaled_residuals(rest, np.array([marker]), blocks=self.settings.blocks)
+        score = self.matches.judge_anew(
+            residual[:, marker], wider[:, marker], marker=marker, rate=rest.rate, settings=self.settings
+        )
+        return bool(score[event.start : event.stop].max() > self.settings.kept)
+
+    def more_disturbed(self, one: int, other: int, event: Event) -> bool:
+        """Whether a marker's distances to the neighbours of two rise or fall more during an event than the other's do.
+
+        Each counts in units of its own usual deviation, so that a rigid segment decides. That between the two tells
+        nothing.
+        """
+        company = np.setdiff1d(np.union1d(self.near(one), self.near(other)), [one, other])
+        company = company[self.seen(event, company).all(axis=0)]
+        return self.disturbance(one, company, event) > self.disturbance(other, company, event)
+
+    def disturbance(self, marker: int, company: np.ndarray, event: Event) -> float:
+        """How much the distances of a marker to others change during an event: sum of squares, in usual deviations."""
+        positions = self.scene.positions
+        distance = np.linalg.norm(positions[:, company] - positions[:, [marker]], axis=2)
+        usual = np.array([robust.deviation(own) for own in distance.T]) + RIGID_MM
+        change = bumps.risen(distance, event.start, event.stop, flank=self.settings.flank)
+        return float(((change / usual) ** 2).sum())
