@@ -147,15 +147,21 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     return out
 
 
+def infer(recording: Recording, config: dict) -> Mesh:
+    """The mesh of a recording by itself."""
+    settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
+    thinned = mesh_statistics.thin(recording, frames=settings["frames"])
+    return mesh_inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], **settings)
+
+
 def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:
     """Damage one recording once, and judge each preset on it.
 
     ignored: samples (frames, markers) that do not count. condition: see `damage`.
     """
     harm = damage(clean, **condition)
-    harmed = replace(clean, positions=harm.positions, facts={"recording": "benchmark"})
-    settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    body = mesh_inference.infer_mesh([mesh_statistics.thin(harmed, frames=settings["frames"])], **settings)
+    harmed = replace(clean, positions=harm.positions)
+    body = infer(harmed, config)
     truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
     perfect, _ = mend(harmed, body, harm.events, config)
     for preset in presets:
