@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fillings import CONFIG
-from markermend.predictors.kriging import Covariance, autocovariance, fit_covariance, kernels, krige
+from markermend.predictors.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise
 from markermend.predictors.references import scattered
 
 SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
@@ -144,3 +144,39 @@ def test_an_exact_model_leaves_a_covariance_that_can_be_inverted():
     fitted = fit_covariance(np.zeros((200, 3)), rate=100.0, scales_s=SCALES, longest_s=2.0)
     mean, variance = krige(fitted, known_s=np.array([0.0, 0.1]), values=np.zeros((2, 3)), wanted_s=np.array([0.05]))
     assert np.isfinite(mean).all() and np.isfinite(variance).all()
+
+
+def drift(seconds=40, rate=100.0):
+    """A smooth course (frames, 3) of 10 mm that turns within about a second."""
+    t = np.arange(0, seconds, 1 / rate)[:, None]
+    return 10 * np.sin(2 * np.pi * np.array([0.3, 0.7, 1.1]) * t + np.arange(3))
+
+
+def test_the_white_noise_on_a_smooth_course_is_told():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    residual[np.random.default_rng(6).choice(4000, 30)] += 100
+    assert white_noise(drift()) < 1e-3
+    assert white_noise(residual) == pytest.approx(0.2**2, rel=0.3)
+
+
+def test_scattered_frames_tell_the_noise_while_enough_lie_side_by_side():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    sparse, sparser = np.full_like(residual, np.nan), np.full_like(residual, np.nan)
+    for thinned, most in ((sparse, 1000), (sparser, 100)):
+        chosen = scattered(np.arange(4000), most)
+        thinned[chosen] = residual[chosen]
+    assert white_noise(sparse) == pytest.approx(0.2**2, rel=0.5)
+    assert white_noise(sparser) == 0
+
+
+def test_noise_does_not_send_a_smooth_residual_astray():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    covariance = fit_covariance(residual, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    noiseless = Covariance(np.append(0.0, covariance.weights[1:]), SCALES)
+    errors = []
+    for start in range(100, 3900, 100):
+        wanted, known = np.arange(start, start + 40), np.r_[start - 12 : start, start + 40 : start + 52]
+        for each in (covariance, noiseless):
+            mean, _ = krige(each, known_s=known / 100, values=residual[known], wanted_s=wanted / 100)
+            errors.append(np.linalg.norm(mean - drift()[wanted], axis=1).mean())
+    assert np.mean(errors[::2]) < 0.5 * np.mean(errors[1::2])

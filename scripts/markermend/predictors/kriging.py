@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+NEAR_PAIRS = 20
+"""So many pairs of frames at each of the shortest lags tell the white noise."""
+
 
 def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
     """Empirical autocovariance (k,) of a residual (frames, axes) about zero at lags (k,), frames, averaged over the axes.
@@ -21,6 +24,23 @@ def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
     pairs = np.count_nonzero(partner >= 0, axis=0)
     total = np.where(partner >= 0, products, 0.0).sum(axis=0)
     return np.where(pairs > 0, total / np.maximum(pairs, 1) / residual.shape[1], np.nan)
+
+
+def white_noise(residual: np.ndarray) -> float:
+    """Variance of the white noise on a residual (frames, axes), squared unit; NaN = missing.
+
+    Of half the mean squared differences at one, two and three frames, what remains when the parts that grow with the
+    second and the fourth power of the lag, those of a smooth course, cancel; from medians, so that artifacts do not
+    count. Zero where too few frames lie that near.
+    """
+    halves = []
+    for lag in (1, 2, 3):
+        apart = residual[lag:] - residual[:-lag]
+        apart = np.abs(apart[~np.isnan(apart).any(axis=1)])
+        if len(apart) < NEAR_PAIRS:
+            return 0.0
+        halves.append((np.median(apart) / 0.6745) ** 2 / 2)
+    return max(0.0, float(15 * halves[0] - 6 * halves[1] + halves[2]) / 10)
 
 
 @dataclass(frozen=True)
@@ -72,6 +92,9 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, l
     weights, _ = nnls(design, empirical)
     if weights.sum() <= 0:
         weights[0] = max(empirical[0], 1e-12)
+    # Next to the variance of the whole the noise is too small for the fit to see. Taken for noiseless, a residual is
+    # carried on along the slope that its last samples happen to have.
+    weights[0] = max(weights[0], white_noise(residual))
     return Covariance(weights, scales_s)
 
 
