@@ -75,19 +75,19 @@ class Company:
         return bool(score[event.start : event.stop].max() > self.settings.kept)
 
     def more_disturbed(self, one: int, other: int, event: Event) -> bool:
-        """Whether a marker's distances to the neighbours of two rise or fall more during an event than the other's do.
+        """Whether a marker's distances to the neighbours of two rise or fall clearly more during an event than the other's do.
 
         Each counts in units of its own usual deviation, so that a rigid segment decides. That between the two tells
         nothing.
         """
         company = np.setdiff1d(np.union1d(self.near(one), self.near(other)), [one, other])
         company = company[self.seen(event, company).all(axis=0)]
-        return self.disturbance(one, company, event) > self.disturbance(other, company, event)
+        return self.settings.suspect * self.disturbance(one, company, event) > self.disturbance(other, company, event)
 
     def disturbance(self, marker: int, company: np.ndarray, event: Event) -> float:
-        """How much the distances of a marker to others change during an event: sum of squares, in usual deviations."""
+        """How much the distances of a marker to others change during an event: root of the sum of squares, in usual deviations."""
         positions = self.scene.positions
         distance = np.linalg.norm(positions[:, company] - positions[:, [marker]], axis=2)
         usual = np.array([robust.deviation(own) for own in distance.T]) + RIGID_MM
         change = bumps.risen(distance, event.start, event.stop, flank=self.settings.flank)
-        return float(((change / usual) ** 2).sum())
+        return float(np.linalg.norm(change / usual))
