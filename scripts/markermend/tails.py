@@ -74,10 +74,9 @@ def _suspects(scene: Scene, believed: Scene, settings: TailSettings, predictor: 
         rows = frame - side * np.arange(longest + before, 0, -1) - (side < 0)
         near = slice(max(0, rows.min() - activity), rows.max() + activity)
         usual = max(_median(size[near, m]), overall[m])
-        change = _sudden(believed.positions[rows, m], residual[rows, m], before)
-        large = np.flatnonzero(change > settings.changes * usual)
-        if len(large):
-            length = longest - int(large[0])
+        begin = _onset(believed.positions[rows, m], residual[rows, m], before, settings.changes * usual)
+        if begin is not None:
+            length = longest - begin
             out.append(((m, frame - length, frame) if side > 0 else (m, frame, frame + length), side))
     return out
 
@@ -94,16 +93,24 @@ def _borders(present: np.ndarray, believed: np.ndarray, shortest: int) -> Iterat
                 yield from [(m, stop, 1)] if stop in begins else []
 
 
-def _sudden(course: np.ndarray, residual: np.ndarray, before: int) -> np.ndarray:
-    """The sudden change, mm, that leads to each sample after the first `before`: what residual and course both make.
+def _onset(course: np.ndarray, residual: np.ndarray, before: int, level: float) -> int | None:
+    """After how many of the samples that follow the first `before` something sudden begins; None if nothing does.
 
-    course, residual: (n, 3), mm. A neighbour's artifact or gap changes only the residual; motion that goes on as it did
-    bends the course by little from one frame to the next.
+    course, residual: (n, 3), mm. Sudden is what bends the course by more than `level` mm from one frame to the next, and
+    the residual alike: a neighbour's artifact or gap changes only the residual, motion that goes on as it did bends the
+    course little. It begins where both leave together for the first time.
     """
-    change, bend = np.diff(residual, axis=0)[1:], np.diff(course, 2, axis=0)
+    change, motion = np.diff(residual, axis=0)[before - 1 :], np.diff(course, axis=0)
+    bend = _shared(np.diff(motion, axis=0)[before - 2 :], change) > level
+    away = _shared((motion - np.median(motion[: before - 1], axis=0))[before - 1 :], change) > level
+    return int(np.argmax(bend | away)) if bend.any() else None
+
+
+def _shared(motion: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """How much of each change of the residual (n, 3) the motion makes as well, mm; 0 where either is unknown."""
     length = np.linalg.norm(change, axis=1)
-    along = np.einsum("na,na->n", bend, change) / np.maximum(length, 1e-9)
-    return np.nan_to_num(np.clip(along, 0, length)[before - 2 :])
+    along = np.einsum("na,na->n", motion, change) / np.maximum(length, 1e-9)
+    return np.nan_to_num(np.clip(along, 0, length))
 
 
 def _median(values: np.ndarray) -> float:
