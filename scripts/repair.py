@@ -22,13 +22,13 @@ STAGE.option("decisions", objects, "what a person decided about the recording (c
 STAGE.option("max_altered_share", float, "share of the seen samples; if more are found, nothing is repaired")
 STAGE.option("max_repair_s", float, "longer findings become missing instead, s")
 STAGE.option("max_error_mm", float, "findings whose repair is expected to err by more become missing instead, mm")
-STAGE.option("coherent_share", float, "a step is subtracted if what remains of it varies by less than this share")
 STAGE.option("savitzky_golay_order", int, "order of the method savitzky_golay")
 STAGE.option("savitzky_golay_s", float, "window of the method savitzky_golay, s")
 STAGE.option("trials", int, "hidden stretches that tell the error of a method that does not state one")
 STAGE.option(
     "separation", mapping, "what the methods separate_noise, separate_step, separate_slow believe of artifacts"
 )
+STAGE.option("radius", mapping, "radii of the 68 and 95 % balls in standard deviations of one axis")
 for family in SHARED:
     STAGE.option(family, mapping, f"settings of {FAMILIES[family]}")
 

@@ -23,7 +23,7 @@ RIDGE = RidgeOptions(
 METHODS = {
     "peaks": ["spline"],
     "noise": ["local_ridge"],
-    "steps": ["swap", "offset", "local_ridge"],
+    "steps": ["swap", "separate_step", "local_ridge"],
     "slow": ["local_ridge"],
 }
 MARKER, START, STOP = "2b", 600, 640
@@ -54,11 +54,11 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         "max_altered_share": 0.3,
         "max_repair_s": 2.0,
         "max_error_mm": 20.0,
-        "coherent_share": 0.25,
         "savitzky_golay_order": 13,
         "savitzky_golay_s": 1.01,
         "trials": 5,
-        "separation": {"amplitudes_mm": [3, 10, 30], "roughness_mm": [0.1, 1], "border_s": 0.15},
+        "separation": {"amplitudes_mm": [3, 10, 30], "roughness_mm": [0.1, 1], "border_s": 0.15, "margins": [0, 0.1]},
+        "radius": {"inner": 1.8, "outer": 2.8},
     }
     return repair(
         recording,

@@ -106,7 +106,7 @@ def test_results_that_snakemake_takes_for_a_pattern_are_refused(name):
 def test_a_person_may_decide_on_every_method_that_the_stages_can_run():
     config = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
     known = settings.methods(config)
-    assert {"offset", "blank", "spline", "local_ridge", "local_ridge_wide", "kalman"} <= set(known)
+    assert {"separate_step", "blank", "spline", "local_ridge", "local_ridge_wide", "kalman"} <= set(known)
     assert "network_lstm" not in known and len(set(known)) == len(known)
     config["fill"]["members"] = ["network_lstm"]
     assert "network_lstm" in settings.methods(config)

@@ -77,7 +77,7 @@ class _Repairer:
         self.decisions = [] if static else [*protecting(options.protect), *decisions]
         judged = judge(recording, found, self.decisions)
         self._look_at(judged.recording, judged.found)
-        self.result = Restoration(judged.recording, judged.left)
+        self.result = Restoration(judged.recording, judged.left, options.radius)
         self.refusal = "static recording: never repaired" if static else self._too_much()
 
     def _look_at(self, recording: Recording, found: Mapping[str, Sequence[Event]]) -> None:

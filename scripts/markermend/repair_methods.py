@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from markermend.predictors import Prediction, Predictor, Scene
+from markermend.predictors import Predictor, Scene
 from markermend.predictors.interpolation import KINDS
 from markermend.predictors.kriging import Covariance, fit_covariance
 from markermend.predictors.local import LocalRidge
@@ -16,12 +16,8 @@ from markermend.recording import runs
 from markermend.robust import high_pass
 from markermend.separation import COURSES, SeparationOptions, artifacts, pinned, separate
 
-METHODS = ("swap", "offset", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
+METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
 """The ways of repair by the names that a config may use."""
-
-
-BALL68, BALL95 = 1.8724, 2.7955
-"""Radii, in standard deviations of one axis, of the balls that hold an isotropic normal error with 68 and 95 %."""
 
 
 @dataclass(frozen=True)
@@ -62,33 +58,6 @@ def tried_error(predictor: Predictor, scene: Scene, marker: int, start: int, sto
     return float(np.sqrt(np.mean(errors))) if errors else np.nan
 
 
-def without_offset(
-    original: np.ndarray, prediction: Prediction, start: int, stop: int, *, coherent_share: float
-) -> Proposal | None:
-    """The measured samples less a constant offset, where they are otherwise coherent with the prediction.
-
-    original: (frames, 3), the marker's course as measured. The offset is told by the jumps at both edges, which the
-    prediction's slow error does not touch. None where edges disagree by more than `coherent_share` of the offset, or
-    where what remains varies by more than that and by more than the prediction may well err (95 %).
-    """
-    rows = np.arange(start - 1, stop + 1)
-    if rows[0] < 0 or rows[-1] >= len(original):
-        return None
-    residual = original[rows] - prediction.positions
-    if np.isnan(residual).any():
-        return None
-    edges = np.stack([residual[1] - residual[0], residual[-2] - residual[-1]])
-    offset = edges.mean(axis=0)
-    uneven = np.linalg.norm(edges[0] - edges[1]) / 2
-    wobble = np.linalg.norm(np.std(residual[1:-1], axis=0))
-    coherent = coherent_share * float(np.linalg.norm(offset))
-    unsure = BALL95 * np.sqrt(np.mean(prediction.error[1:-1] ** 2))
-    if uneven > coherent or wobble > max(coherent, unsure):
-        return None
-    error = np.sqrt(uneven**2 + wobble**2 / (stop - start)) / np.sqrt(3)
-    return Proposal("offset", original[start:stop] - offset, np.full(stop - start, max(error, 1e-6)))
-
-
 def separated(
     method: str,
     original: np.ndarray,
@@ -105,19 +74,31 @@ def separated(
     original: (frames, 3), the marker's course as measured, NaN = missing. None where the neighbours cannot tell for
     every sample.
     """
-    prediction = ridge.predict(scene, marker, start, stop)
+    margins = [round(share * (stop - start)) for share in options.margins] if method == "separate_slow" else [0]
+    first, last = _free(scene.present[:, marker], start, stop, max(margins))
+    prediction = ridge.predict(scene, marker, first, last)
     positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
     if np.isnan(positions).any() or np.isnan(deviation).any() or np.isnan(original[start:stop]).all():
         return None
-    around = np.arange(start - round(options.border_s * scene.rate), stop + round(options.border_s * scene.rate))
-    around = around[(around >= 0) & (around < len(original)) & ((around < start) | (around >= stop))]
+    around = np.arange(first - round(options.border_s * scene.rate), last + round(options.border_s * scene.rate))
+    around = around[(around >= 0) & (around < len(original)) & ((around < first) | (around >= last))]
     around = around[scene.present[around, marker]]
     covariance = scene.remember((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
-    together = pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(start, stop) / scene.rate)
+    together = pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate)
     error = together * deviation * deviation[:, None]
-    tried = artifacts(method, stop - start, options)
-    mean, remaining = separate(original[start:stop] - positions, error, tried)
-    return Proposal(method, positions + mean, remaining)
+    extents = [(max(start - wider, first) - first, min(stop + wider, last) - first) for wider in margins]
+    tried = artifacts(method, last - first, options, extents)
+    mean, remaining = separate(original[first:last] - positions, error, tried)
+    own = slice(start - first, stop - first)
+    return Proposal(method, (positions + mean)[own], remaining[own])
+
+
+def _free(present: np.ndarray, start: int, stop: int, margin: int) -> tuple[int, int]:
+    """The interval [start, stop) with up to `margin` frames on either side, as far as the marker is observed there."""
+    absent = np.flatnonzero(~present)
+    before, after = absent[absent < start], absent[absent >= stop]
+    first = max(start - margin, before[-1] + 1 if len(before) else 0)
+    return first, min(stop + margin, after[0] if len(after) else len(present))
 
 
 def residual_covariance(ridge: LocalRidge, scene: Scene, marker: int) -> Covariance:

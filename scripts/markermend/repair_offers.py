@@ -10,7 +10,7 @@ import numpy as np
 
 from markermend.predictors import Prediction, Predictor, Scene
 from markermend.predictors.local import LocalRidge
-from markermend.repair_methods import BALL68, BALL95, Proposal, predicted, separated, smoothed, without_offset
+from markermend.repair_methods import Proposal, predicted, separated, smoothed
 from markermend.robust import samples
 from markermend.separation import COURSES, SeparationOptions
 
@@ -19,15 +19,16 @@ from markermend.separation import COURSES, SeparationOptions
 class RepairOptions:
     """Settings of the repair (config section `repair`).
 
-    methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`, `offset`
-    (subtract a step), `separate_noise`, `separate_step`, `separate_slow` (part prediction and artifact), `swap` (swap
-    back with the partner, before all other repairs) or `blank`. prefer: of two methods
+    methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`,
+    `separate_noise`, `separate_step`, `separate_slow` (part the marker's course from the artifact), `swap` (swap back
+    with the partner, before all other repairs) or `blank`. prefer: of two methods
     whose expected errors (68 %) differ by less than this factor the preferred one is taken, else the one that errs less.
     protect: marker name patterns never touched. max_altered_share: with more than this share of the seen samples found,
     nothing is repaired. max_repair_s: longer findings become missing. max_error_mm: likewise where the expected error
-    exceeds it. coherent_share: a step is subtracted where what remains of it varies by less than this share of its size.
+    exceeds it.
     savitzky_golay_order, savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the
-    error of a method is told that does not state one. separation: see SeparationOptions.
+    error of a method is told that does not state one. separation: see SeparationOptions. radius: radii
+    of the balls that hold the true position with 68 (`inner`) and 95 % (`outer`), in standard deviations of one axis.
     """
 
     methods: Mapping[str, Sequence[str]]
@@ -36,11 +37,11 @@ class RepairOptions:
     max_altered_share: float
     max_repair_s: float
     max_error_mm: float
-    coherent_share: float
     savitzky_golay_order: int
     savitzky_golay_s: float
     trials: int
     separation: Mapping[str, Any]
+    radius: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Offer:
 
     expected: the largest expected error, mm (68 %). change: the largest change to what was measured, mm. before, after:
     root mean square distance, mm, of what was measured and of what is proposed from where the neighbours say; NaN where
-    they cannot tell. blur: how far from there the true position may well be (95 %), mm.
+    they cannot tell, or where the proposal weighs what they say against what was measured. blur: how far from there the true position may well be (95 %), mm.
     """
 
     proposal: Proposal
@@ -77,9 +78,14 @@ class Offer:
 def choose(offers: Iterable[Offer], *, limit_mm: float, prefer: float) -> Offer | None:
     """The first of the offers that can be trusted whose expected error is within `prefer` times the least of them.
 
-    limit_mm: largest expected error. None where none can be trusted.
+    limit_mm: largest expected error. None where none can be trusted, or where the surest would change less than it may
+    err: then what was measured is as good as any.
     """
-    trusted = [offer for offer in offers if offer.against(limit_mm) is None]
+    told = list(offers)
+    surest = min(told, key=lambda offer: offer.expected, default=None)
+    if surest is None or surest.expected > surest.change:
+        return None
+    trusted = [offer for offer in told if offer.against(limit_mm) is None]
     least = min((offer.expected for offer in trusted), default=0.0)
     return next((offer for offer in trusted if offer.expected <= prefer * least), None)
 
@@ -108,15 +114,18 @@ class Offers:
     def of(self, methods: Iterable[str], m: int, start: int, stop: int) -> list[Offer]:
         """The offers for marker m over [start, stop), of the methods that can tell, in their order."""
         measured, told = self.positions[start:stop, m], self._told(m, start, stop)
-        expected, blur = told.positions, BALL95 * float(np.sqrt(np.mean(told.error**2)))
+        expected, radius = told.positions, self.options.radius
+        blur = radius["outer"] * float(np.sqrt(np.mean(told.error**2)))
         proposals = [self._propose(method, m, start, stop) for method in methods if method not in ("swap", "blank")]
         return [
             Offer(
                 proposal,
-                float(np.max(proposal.error)) * BALL68,
+                float(np.max(proposal.error)) * radius["inner"],
                 float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
                 misfit(measured, expected),
-                misfit(np.where(np.isnan(measured), np.nan, proposal.positions), expected),
+                np.nan
+                if proposal.method in COURSES
+                else misfit(np.where(np.isnan(measured), np.nan, proposal.positions), expected),
                 blur,
             )
             for proposal in proposals
@@ -152,9 +161,6 @@ class Offers:
             return smoothed(
                 original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
             )
-        if method == "offset":
-            prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
-            return without_offset(original, prediction, start, stop, coherent_share=options.coherent_share)
         if method in COURSES:
             ridge = self.predictors["local_ridge"]
             if not isinstance(ridge, LocalRidge):

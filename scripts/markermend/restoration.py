@@ -10,7 +10,6 @@ import numpy as np
 from markermend.decisions import STAGE_OF, Ruling
 from markermend.events import Event
 from markermend.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
-from markermend.repair_methods import BALL68, BALL95
 from markermend.repair_offers import Offer
 
 KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
@@ -20,9 +19,11 @@ KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
 class Restoration:
     """The result of a repair as it grows: positions (frames, markers, 3), mm; what was repaired, and what was left."""
 
-    def __init__(self, recording: Recording, left: Iterable[dict[str, Any]]) -> None:
-        """recording: as it is to be repaired, which is never modified. left: what is known to be left."""
-        self._recording = recording
+    def __init__(self, recording: Recording, left: Iterable[dict[str, Any]], radius: Mapping[str, float]) -> None:
+        """recording: as it is to be repaired, which is never modified. left: what is known to be left. radius: see
+        RepairOptions.
+        """
+        self._recording, self._radius = recording, radius
         self.positions = recording.positions.copy()
         self._origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
         self._error = np.where(recording.missing, np.nan, 0.0)
@@ -76,7 +77,8 @@ class Restoration:
         """The repaired recording."""
         facts = {**self._recording.facts, "repairs": self._repairs, "repairs_left": self._left}
         common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame, facts)
-        return Restored(*common, self._origin, self._error * BALL68, self._error * BALL95)
+        inner, outer = self._radius["inner"], self._radius["outer"]
+        return Restored(*common, self._origin, self._error * inner, self._error * outer)
 
     def _note(
         self, event: Event, origin: str, method: str, ruling: Ruling, others: Mapping[str, Any] | None = None

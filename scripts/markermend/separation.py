@@ -37,18 +37,26 @@ class SeparationOptions:
 
     amplitudes_mm: amplitudes that are tried. roughness_mm: standard deviations of white noise besides, by which an
     artifact may depart from the course of its class; all are tried with all amplitudes. border_s: how far into the
-    observed samples either border reaches.
+    observed samples either border reaches. margins: by these shares of its length a slow change may begin earlier and
+    end later than was found: nobody can tell that to the sample.
     """
 
     amplitudes_mm: Sequence[float]
     roughness_mm: Sequence[float]
     border_s: float
+    margins: Sequence[float]
 
 
-def artifacts(method: str, n: int, options: SeparationOptions) -> np.ndarray:
-    """Covariances (k, n, n), mm^2, of the artifacts that a method of COURSES deems equally likely."""
-    course = COURSES[method](n)
-    return np.stack([a**2 * course + r**2 * np.eye(n) for a in options.amplitudes_mm for r in options.roughness_mm])
+def artifacts(method: str, n: int, options: SeparationOptions, extents: Sequence[tuple[int, int]]) -> np.ndarray:
+    """Covariances (k, n, n), mm^2, of the artifacts that a method of COURSES deems equally likely among n frames.
+
+    extents: half-open intervals of the n frames over which the artifact may last.
+    """
+    courses = np.zeros((len(extents), n, n))
+    for course, (first, last) in zip(courses, extents, strict=True):
+        course[first:last, first:last] = COURSES[method](last - first)
+    rough = [r**2 * np.eye(n) for r in options.roughness_mm]
+    return np.stack([a**2 * course + white for course in courses for a in options.amplitudes_mm for white in rough])
 
 
 def pinned(covariance: Covariance, *, known_s: np.ndarray, wanted_s: np.ndarray) -> np.ndarray:
@@ -68,17 +76,18 @@ def separate(difference: np.ndarray, error: np.ndarray, tried: np.ndarray) -> tu
 
     difference: NaN = not measured. error: covariance (n, n), mm^2, of the error. tried: covariances (k, n, n) of artifacts,
     equally likely before. Mean (n, axes) and standard deviation per axis (n,) of the error to expect, averaged over the
-    artifacts by how likely each makes the difference.
+    artifacts by how likely each makes the difference; the deviation is wider where none of them makes it likely.
     """
     known = ~np.isnan(difference).any(axis=1)
     seen, across = difference[known], error[:, known]
     jitter = 1e-9 * np.trace(error) / len(error) * np.eye(len(seen))
-    likely, means, variances = np.zeros(len(tried)), [], []
+    likely, misfit, means, variances = np.zeros(len(tried)), np.zeros(len(tried)), [], []
     for k, artifact in enumerate(tried):
         total = (error + artifact)[np.ix_(known, known)] + jitter
         solved = np.linalg.solve(total, np.concatenate([seen, across.T], axis=1))
         weighted, gain = solved[:, : seen.shape[1]], solved[:, seen.shape[1] :].T
-        likely[k] = -0.5 * (seen * weighted).sum() - seen.shape[1] / 2 * np.linalg.slogdet(total)[1]
+        misfit[k] = (seen * weighted).sum()
+        likely[k] = -0.5 * misfit[k] - seen.shape[1] / 2 * np.linalg.slogdet(total)[1]
         means.append(gain @ seen)
         variances.append(np.diag(error) - (gain * across).sum(axis=1))
     weights = np.exp(likely - likely.max())
@@ -86,4 +95,6 @@ def separate(difference: np.ndarray, error: np.ndarray, tried: np.ndarray) -> tu
     mean = np.tensordot(weights, means, 1)
     apart = ((np.stack(means) - mean) ** 2).mean(axis=2)
     variance = weights @ (np.stack(variances) + apart)
-    return mean, np.sqrt(np.maximum(variance, 1e-12))
+    # Where nothing that was tried explains the difference, it is known less well than it seems.
+    wider = max(1.0, weights @ misfit / seen.size)
+    return mean, np.sqrt(np.maximum(wider * variance, 1e-12))
