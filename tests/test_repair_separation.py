@@ -141,3 +141,27 @@ def test_a_gap_within_stays_a_gap(clean, method):
     result = mend(recording, {"steps": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "steps": [method]})
     assert result.facts["repairs"][0]["method"] == method
     assert np.isnan(result.positions[612:618, m]).all() and not np.isnan(result.positions[START:612, m]).any()
+
+
+def test_a_slow_change_may_begin_before_it_was_found(clean):
+    """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
+    course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
+    recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
+    given = {"amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
+    exact, wider = (
+        mend(recording, found, methods={**METHODS, "slow": ["separate_slow"]}, separation={**given, "margins": margins})
+        for margins in ([0], [0, 0.1])
+    )
+    assert error(clean, wider).max() < 0.5 * error(clean, exact).max()
+    outside = np.r_[:START, STOP : clean.frames]
+    assert np.array_equal(wider.positions[outside], recording.positions[outside])
+
+
+def test_beside_a_gap_a_slow_change_begins_where_the_marker_is_seen(clean):
+    m, recording = clean.markers.index(MARKER), distorted(clean, RAMP * [12.0, -9.0, 6.0])
+    recording.positions[STOP : STOP + 20, m] = np.nan
+    result = mend(
+        recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "slow": ["separate_slow"]}
+    )
+    assert result.facts["repairs"][0]["method"] == "separate_slow"
+    assert np.isnan(result.positions[STOP : STOP + 20, m]).all() and error(clean, result).max() < 1
