@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fillings import predictor, rigid_body, scene, settings
+from markermend.predictors import REMEMBERED
 from markermend.predictors.interpolation import KINDS
 from markermend.predictors.registry import REGISTRY, members
 
@@ -111,3 +112,30 @@ def test_members_are_made_by_name_and_wrong_names_are_refused():
         members(["nonsense"], settings())
     with pytest.raises(ValueError, match="named twice"):
         members(["spline", "spline"], settings())
+
+
+def test_a_scene_learns_once_and_forgets_the_oldest():
+    seen = scene(np.zeros((5, 2, 3)))
+    calls = []
+    for key in [*range(REMEMBERED), 0, REMEMBERED, 0, 2]:
+        assert seen.remember(key, lambda key=key: calls.append(key) or key) == key
+    assert calls == [*range(REMEMBERED + 1), 0]
+
+
+def test_sharing_what_is_learned_changes_nothing(walker):
+    positions = walker.recording.positions[:600].copy()
+    gaps = [(200, 240), (300, 320), (420, 460)]
+    for start, stop in gaps:
+        positions[start:stop, 7] = np.nan
+    positions[305:500, [8, 9]] = np.nan
+    shared = scene(positions)
+    for name in ("local_ridge", "local_ridge_wide", "linear_regression", "local_grnn", "local_interpolation"):
+        member = predictor(name)
+        for start, stop in gaps:
+            found, alone = (
+                member.predict(shared, 7, start, stop),
+                predictor(name).predict(scene(positions), 7, start, stop),
+            )
+            assert np.array_equal(found.positions, alone.positions, equal_nan=True)
+            assert np.array_equal(found.error, alone.error, equal_nan=True)
+            assert np.isfinite(found.positions).all()

@@ -14,12 +14,11 @@ from functools import partial
 
 import numpy as np
 
-from markermend.averaging import pma_likelihood, weighted_mean
-from markermend.constraints import constrain_spacing, constrain_time
-from markermend.density import Density, kernel_density
+from markermend.averaging import weighted_mean
+from markermend.constraints import constrain_time
+from markermend.distances import DistanceOptions, Distances
 from markermend.predictors import Predictor, Scene, Trainable
 from markermend.predictors.interpolation import KINDS
-from markermend.predictors.references import references, thinned
 from markermend.pseudo_gaps import pseudo_gaps
 from markermend.trust import Trust, expected_errors, shares, squared_errors, stated_scale, typical_errors
 
@@ -31,17 +30,14 @@ WEIGHTS = ("error", "pma", "both", "equal")
 class EnsembleOptions:
     """Settings of the averaging (config section `fill`, key `ensemble`).
 
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s.
-    fallback: members that are asked only where no other that looks at the body can tell. power: weights fall with this power of the error. pseudo_gaps: so many are tried. hidden_share: share of
-    a marker's samples that are hidden at once for trials, which then share what is learned without them.
-    similar_length, similar_neighbours: gaps of a marker share their pseudo-gaps if their lengths differ by less than this
-    factor and the same of so many nearest neighbours are missing. worst: members whose error exceeds
-    the best member's by this factor are left out. references: distances to so many are judged. minimum_frames: joint
-    frames that make a reference. frames: most frames and samples used to learn distances. smoothing_s: moving average
-    over the likelihoods. floor: least likelihood. spacing_references, spacing_low, spacing_high, spacing_rounds: see
-    constrain_spacing (0 rounds: off). error_mm: least error of a member. prior: weight of the stated errors, in
-    pseudo-gaps, against what the pseudo-gaps of a gap tell. radius: see
-    RadiusOptions.
+    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. fallback:
+    members that are asked only where no other that looks at the body can tell. power: weights fall with this power of
+    the error. pseudo_gaps: so many are tried. hidden_share: share of a marker's samples that are hidden at once for
+    trials, which then share what is learned without them. similar_length, similar_neighbours: gaps of a marker share
+    their pseudo-gaps if their lengths differ by less than this factor and the same of so many nearest neighbours are
+    missing. worst: members whose error exceeds the best member's by this factor are left out. distances: see
+    DistanceOptions. error_mm: least error of a member. prior: weight of the stated errors, in pseudo-gaps, against what
+    the pseudo-gaps of a gap tell. radius: see RadiusOptions.
     """
 
     weights: str
@@ -53,15 +49,7 @@ class EnsembleOptions:
     similar_length: float
     similar_neighbours: int
     worst: float
-    references: int
-    minimum_frames: int
-    frames: int
-    smoothing_s: float
-    floor: float
-    spacing_references: int
-    spacing_low: float
-    spacing_high: float
-    spacing_rounds: int
+    distances: Mapping[str, float]
     error_mm: float
     prior: float
     radius: Mapping[str, float]
@@ -103,6 +91,7 @@ class Ensemble:
             raise ValueError("trial members differ from the members")
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
+        self._judging = DistanceOptions(**options.distances)  # type: ignore[arg-type]
 
     def sort(self, scene: Scene, marker: int, start: int, stop: int) -> tuple[Hashable, ...]:
         """The sort of gap that this is: what try_out tells of one holds for all of its sort."""
@@ -133,11 +122,11 @@ class Ensemble:
         errors = squared_errors(
             [trial.truth for trial in trials], [each.positions for each in tried], len(self.members)
         )
-        judges = self._judges(hidden, marker)
+        distances = self._distances(hidden, marker)
         ratios, missed, prior = np.full(len(trials), np.nan), [], options.prior
         for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
             others = self._trust(np.delete(errors, k, axis=0))
-            guess, stated, _ = self._average(trial.scene, judges, trial.start, candidates, others)
+            guess, stated, _ = self._average(trial.scene, distances, trial.start, candidates, others)
             missed.append(np.linalg.norm(guess - trial.truth, axis=1) / stated)
             known = missed[-1][~np.isnan(missed[-1])]
             ratios[k] = (known**2).mean() / 3 if len(known) else np.nan
@@ -150,8 +139,8 @@ class Ensemble:
         """Fill one gap. The marker's samples in [start, stop) are not looked at."""
         hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
         candidates = self._candidates(self.members, hidden, marker, start, stop)
-        judges = self._judges(hidden, marker)
-        positions, stated, means = self._average(hidden, judges, start, candidates, trust)
+        distances = self._distances(hidden, marker)
+        positions, stated, means = self._average(hidden, distances, start, candidates, trust)
         deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
         if scene.doubt is not None:
             deviation = np.hypot(deviation, self._inherited(hidden, marker, start, stop, scene.doubt))
@@ -162,7 +151,7 @@ class Ensemble:
         """Mean doubt (n,), mm, of the nearest neighbours seen in each frame: what filled neighbours have in common."""
         near = np.asarray(scene.neighbours[marker], int)
         seen = scene.present[start:stop, near]
-        used = seen & (np.cumsum(seen, axis=1) <= self.options.references)
+        used = seen & (np.cumsum(seen, axis=1) <= self._judging.references)
         return np.where(used, doubt[start:stop, near], 0.0).sum(axis=1) / np.maximum(used.sum(axis=1), 1)
 
     def _candidates(
@@ -194,62 +183,29 @@ class Ensemble:
         weights = shares(typical, power=options.power, worst=options.worst, least=options.error_mm)
         return Trust(typical, weights, 1.0, ())
 
-    def _judges(self, scene: Scene, marker: int) -> tuple[np.ndarray, list[Density]]:
-        """The marker's first references and the densities of their distances."""
-        return scene.remember((self, "judges", marker), partial(self._judge, scene, marker))
-
-    def _judge(self, scene: Scene, marker: int) -> tuple[np.ndarray, list[Density]]:
-        """See _judges."""
-        options = self.options
-        ranked, _ = references(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
-        chosen = ranked[: max(options.references, options.spacing_references)]
-        densities = []
-        for reference in chosen:
-            rows = thinned(np.flatnonzero(scene.present[:, marker] & scene.present[:, reference]), options.frames)
-            distance = np.linalg.norm(scene.positions[rows, marker] - scene.positions[rows, reference], axis=1)
-            densities.append(kernel_density(distance, most=options.frames))
-        return chosen, densities
+    def _distances(self, scene: Scene, marker: int) -> Distances:
+        """What distances of the marker to others usually are."""
+        return scene.remember((self, "distances", marker), partial(Distances.learn, scene, marker, self._judging))
 
     def _average(
         self,
         scene: Scene,
-        judges: tuple[np.ndarray, list[Density]],
+        distances: Distances,
         start: int,
         candidates: _Candidates,
         trust: Trust,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Weighted mean (n, 3), its stated standard deviation (n,) per axis, and the members' mean shares."""
-        chosen, densities = judges
-        options = self.options
-        stop = start + candidates.positions.shape[1]
-        near = scene.positions[start:stop, chosen]
+        body = scene.positions[start : start + candidates.positions.shape[1]]
         weights = np.broadcast_to(trust.shares[:, None], candidates.errors.shape)
-        if self.options.weights in ("pma", "both") and densities:
-            first = options.references
-            likelihood = pma_likelihood(
-                candidates.positions,
-                near[:, :first],
-                densities[:first],
-                window=round(options.smoothing_s * scene.rate),
-                floor=options.floor,
-            )
-            weights = weights * likelihood
+        if self.options.weights in ("pma", "both"):
+            weights = weights * distances.likelihood(candidates.positions, body)
         positions, weights = weighted_mean(candidates.positions, weights)
-        errors = np.maximum(expected_errors(candidates.errors, trust.typical, weights), options.error_mm)
+        errors = np.maximum(expected_errors(candidates.errors, trust.typical, weights), self.options.error_mm)
         # The variance of a mixture: what the members state, and how far apart they are.
         apart = ((np.nan_to_num(candidates.positions) - positions) ** 2).mean(axis=2)
         variance = (weights * (errors**2 + np.where(weights > 0, apart, 0))).sum(axis=0)
-        if options.spacing_rounds and densities:
-            most = options.spacing_references
-            positions = constrain_spacing(
-                positions,
-                near[:, :most],
-                densities[:most],
-                low=options.spacing_low,
-                high=options.spacing_high,
-                rounds=options.spacing_rounds,
-            )
-        return positions, np.sqrt(variance), weights.mean(axis=1)
+        return distances.constrained(positions, body), np.sqrt(variance), weights.mean(axis=1)
 
 
 def _train(members: Sequence[Predictor], jobs: Sequence[tuple[Scene, int]]) -> None:
