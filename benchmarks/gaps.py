@@ -28,7 +28,8 @@ import numpy as np
 import yaml
 
 from markermend.ensemble import Ensemble, EnsembleOptions
-from markermend.fill import FillOptions, fill_gaps
+from markermend.fill import fill_gaps
+from markermend.fillable import FillOptions
 from markermend.formats import files
 from markermend.ingest import ingest
 from markermend.mesh_inference import infer_meshes

@@ -8,7 +8,8 @@ from dataclasses import replace
 
 from markermend import decisions, mesh, storage
 from markermend.ensemble import Ensemble, EnsembleOptions
-from markermend.fill import FillOptions, fill_gaps
+from markermend.fill import fill_gaps
+from markermend.fillable import FillOptions
 from markermend.predictors.registry import FAMILIES, REGISTRY, members
 from markermend.stage import Stage, boolean, mapping, objects, optional
 

@@ -6,7 +6,7 @@ import numpy as np
 import yaml
 
 from markermend.ensemble import Ensemble, EnsembleOptions
-from markermend.fill import FillOptions
+from markermend.fillable import FillOptions
 from markermend.predictors import Scene
 from markermend.predictors.registry import FAMILIES, members
 from markermend.recording import MEASURED, MISSING, Restored

@@ -1,59 +1,27 @@
-"""Fill gaps: which gaps may be filled, in which order, and what is written about those that stay open."""
+"""Fill gaps: in which order, from what, and what is written about each."""
 
 from __future__ import annotations
 
 import logging
-import math
-from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from markermend.calibration import RadiusOptions, radii
-from markermend.decisions import GAP, Decision, Ruling, rule
+from markermend.decisions import GAP, Decision, rule
 from markermend.ensemble import Ensemble, Filling
+from markermend.fillable import FillOptions, Gap, gaps, why_not
 from markermend.predictors import Scene
 from markermend.predictors.interpolation import KINDS
-from markermend.recording import FILLED, MEASURED, MISSING, Restored, runs
+from markermend.recording import FILLED, MEASURED, MISSING, Restored
 from markermend.trust import Trust
 
 log = logging.getLogger("markermend")
 
 NOBODY: Mapping[str, Ensemble] = {}
 """No ensembles."""
-
-
-@dataclass(frozen=True)
-class FillOptions:
-    """What may be filled (config section `fill`).
-
-    max_gap_s: longest gap filled, s, None = any. max_gap_s_of: the same for name patterns of markers. ends: whether
-    gaps at the recording's ends are filled. protect: name patterns of markers never filled. seen_share: markers seen in
-    fewer of the frames are left alone. border_s: how long the marker must be seen without a break on either side, s.
-    max_error_mm: gaps whose expected error (68 %) exceeds it stay open, None = any. max_altered_share: if more of the
-    recording's samples were altered, nothing is filled. reuse: filled markers are references for later ones.
-    """
-
-    max_gap_s: float | None
-    max_gap_s_of: Mapping[str, float]
-    ends: bool
-    protect: Sequence[str]
-    seen_share: float
-    border_s: float
-    max_error_mm: float | None
-    max_altered_share: float
-    reuse: bool
-
-
-@dataclass(frozen=True)
-class Gap:
-    """A gap of one marker (by index) over [start, stop)."""
-
-    marker: int
-    start: int
-    stop: int
 
 
 def fill_gaps(
@@ -74,7 +42,7 @@ def fill_gaps(
     filled last, so that they change no other.
     """
     missing = restored.missing
-    found = list(_gaps(missing))
+    found = list(gaps(missing))
     rulings = {gap: rule(decisions, [GAP], [restored.markers[gap.marker]], gap.start, gap.stop, alone) for gap in found}
     left = {gap: reason for gap in found if (reason := why_not(restored, missing, gap, options, rulings[gap]))}
     planned = sorted(
@@ -111,13 +79,6 @@ def fill_gaps(
     return replace(result, facts={**restored.facts, "fills": fills, "gaps_left": gaps_left})
 
 
-def _gaps(missing: np.ndarray) -> Iterable[Gap]:
-    """All gaps, marker by marker."""
-    for marker in range(missing.shape[1]):
-        for start, stop in runs(missing[:, marker]):
-            yield Gap(marker, start, stop)
-
-
 def _named(restored: Restored, gap: Gap) -> dict[str, Any]:
     """A gap as facts state it."""
     return {"marker": restored.markers[gap.marker], "start": gap.start, "stop": gap.stop}
@@ -127,42 +88,6 @@ def _method(filling: Filling) -> dict[str, Any]:
     """How a gap was filled, as facts state it."""
     weights = {name: round(weight, 3) for name, weight in filling.weights.items() if weight >= 0.0005}
     return {"method": next(iter(weights)) if len(weights) == 1 else "ensemble", "weights": weights}
-
-
-def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOptions, ruling: Ruling) -> str | None:
-    """The reason for which a gap is not to be filled, None where it may be tried.
-
-    missing: that of the recording. ruling: what a person's decisions come to for the gap.
-    """
-    name, frames, length = restored.markers[gap.marker], restored.frames, gap.stop - gap.start
-    if restored.facts.get("kind") == "static":
-        return "static recording"
-    seen = 1 - np.count_nonzero(missing[:, gap.marker]) / frames
-    if seen == 0:
-        return "never seen"
-    if any(fnmatchcase(name, pattern) for pattern in options.protect):
-        return "protected marker"
-    if ruling.left or ruling.confirmed:
-        return ruling.left
-    if seen < options.seen_share:
-        return f"marker seen in {seen:.0%} of the frames, {options.seen_share:.0%} needed"
-    if not options.ends and (gap.start == 0 or gap.stop == frames):
-        return "at the recording's " + ("start" if gap.start == 0 else "end")
-    longest = longest_gap(name, options)
-    if longest is not None and length > longest * restored.rate + 1e-6:
-        return f"gap of {length / restored.rate:.2f} s, longest to fill {longest:g} s"
-    border = math.ceil(options.border_s * restored.rate)
-    seen_before = gap.start >= border and not missing[gap.start - border : gap.start, gap.marker].any()
-    seen_after = gap.stop + border <= frames and not missing[gap.stop : gap.stop + border, gap.marker].any()
-    if not (seen_before or gap.start == 0) or not (seen_after or gap.stop == frames):
-        return f"not seen for {options.border_s:g} s on either side"
-    return None
-
-
-def longest_gap(name: str, options: FillOptions) -> float | None:
-    """The longest gap to fill of a marker, s: of the last pattern that fits, else the general one."""
-    fitting = [limit for pattern, limit in options.max_gap_s_of.items() if fnmatchcase(name, pattern)]
-    return fitting[-1] if fitting else options.max_gap_s
 
 
 class _Filler:
