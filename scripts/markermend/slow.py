@@ -8,6 +8,7 @@ fit badly as well, more is to be expected.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from markermend import bumps, detection, events, hills, robust
 from markermend.events import Event
 from markermend.hills import CoordinateSlow
 from markermend.predictors import Scene
+from markermend.predictors.local import LocalRidge
 from markermend.recording import runs
 from markermend.slow_company import Company
 from markermend.slow_matches import Matches, NeighbourSlow, measure
@@ -61,13 +63,14 @@ def detect_slow(
 
     scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
     detectors before claimed. settings: of one of the two detectors. predictor: a ResidualSource for the one of single
-    coordinates, a ScaledResidualSource for the other.
+    coordinates, a LocalRidge for the other, which changes its settings.
     """
     if isinstance(settings, CoordinateSlow):
         return hills.detect(scene, markers=markers, earlier=earlier, settings=settings, predictor=predictor)
     rest = detection.without(scene, earlier)
-    matches = measure(rest, *predictor.scaled_residuals(rest, blocks=settings.blocks), settings=settings)
-    company = Company(rest, matches, settings, predictor)
+    source = LocalRidge(replace(predictor.options, **settings.ridge))
+    matches = measure(rest, *source.scaled_residuals(rest, blocks=settings.blocks), settings=settings)
+    company = Company(rest, matches, settings, source)
     found = []
     for m, name in enumerate(markers):
         for event in judge_slow(matches, m, name=name, rate=rest.rate, settings=settings):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from markermend.predictors import Scene
 class NeighbourSlow:
     """Settings of the detector on all coordinates together (config slow.default).
 
-    lengths_s: of the bumps that are looked for. flank: so much of their length is looked at on either side. taps: finest
+    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much of their length is looked at on either side. taps: finest
     detail, in parts of the length. scales_s, longest_s: correlation lengths and longest lag of the residual's covariance.
     clip_sigmas: residuals beyond so many robust sigmas do not count in it. blocks: parts of the recording left out in turn to
     learn how novelty widens residuals. neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units
@@ -27,6 +27,7 @@ class NeighbourSlow:
     height are left out in turn; without them, this part of the threshold must still be reached.
     """
 
+    ridge: Mapping[str, Any]
     lengths_s: tuple[float, ...]
     flank: float
     taps: int
