@@ -1,7 +1,8 @@
 """Whether expected errors are true: fill random gaps of all clean recordings, count truths within the stated balls.
 
 Reads: the recordings in DATA/clean.
-Writes: a table to stdout: per recording and gap length, the share of samples within `error` and `error95`, and their number.
+Writes: a table to stdout: per recording and gap length, the share of samples within `error` and `error95`, and their
+number.
 
     .venv/bin/python benchmarks/calibration.py --runs 8 --jobs 2
 

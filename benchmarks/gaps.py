@@ -6,8 +6,9 @@ Writes: tables to stdout.
     .venv/bin/python benchmarks/gaps.py --jobs 2
 
 Settings are those of config/config.yaml, the mesh is inferred from each recording with its gaps. Only the rules of what
-may be filled are lifted: every gap counts. Protocol A (conditions g3_L1: 3 concurrent gaps of 1 s) is judged by the mean
-distance, mm; protocol B (sp2_50: 2 gaps of mean length 50 frames anywhere) by the root mean square per coordinate, mm.
+may be filled are lifted: every gap counts. Protocol A (conditions g3_L1: 3 concurrent gaps of 1 s) is judged by the
+mean distance, mm; protocol B (sp2_50: 2 gaps of mean length 50 frames anywhere) by the root mean square per coordinate,
+mm.
 """
 
 import argparse

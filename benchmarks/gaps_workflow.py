@@ -5,9 +5,9 @@ Writes: C3D files with gaps and results below a temporary folder (or --folder); 
 
     .venv/bin/python benchmarks/gaps_workflow.py --iterations 1 --cores 2
 
-Each case becomes a subject of its own: a copy of the recording whose samples in the gaps are marked as missing. What the
-workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/gaps.py fills. Detection is off,
-and the rules of what may be filled are lifted, as there.
+Each case becomes a subject of its own: a copy of the recording whose samples in the gaps are marked as missing. What
+the workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/gaps.py fills. Detection is
+off, and the rules of what may be filled are lifted, as there.
 """
 
 import argparse

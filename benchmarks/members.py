@@ -1,7 +1,8 @@
 """What each member is worth: fill known gaps with the default members, with one more, with one fewer, and with one alone.
 
 Reads: as benchmarks/gaps.py.
-Writes: a table to stdout: mean over the conditions of the error with other members, in units of that with the default ones.
+Writes: a table to stdout: mean over the conditions of the error with other members, in units of that with the default
+ones.
 
     .venv/bin/python benchmarks/members.py --iterations 2 --jobs 2
     .venv/bin/python benchmarks/members.py --members network_linear bolero --iterations 1 --jobs 2

@@ -1,8 +1,8 @@
 """Damage recordings in known ways, for tests and experiments, with the truth beside them.
 
-Writes: FOLDER/{subject}/{file}, copies of the recordings in which only damaged samples differ; TRUTH/{subject}/{recording}/
-with {class}.parquet for each class of artifacts, and gaps.parquet, the damage as events; TRUTH/truth.tsv, all of it as a
-table.
+Writes: FOLDER/{subject}/{file}, copies of the recordings in which only damaged samples differ;
+TRUTH/{subject}/{recording}/ with {class}.parquet for each class of artifacts, and gaps.parquet, the damage as events;
+TRUTH/truth.tsv, all of it as a table.
 """
 
 import argparse

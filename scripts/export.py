@@ -1,8 +1,8 @@
 """Write the cleaned recording in its own format, the list of changes, and a certificate.
 
 Reads: the original file, 01_markers.parquet, 07_filled.parquet.
-Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV also cleaned.trc), changes.tsv,
-certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
+Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV also cleaned.trc),
+changes.tsv, certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
 """
 
 import numpy as np

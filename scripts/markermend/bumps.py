@@ -1,7 +1,7 @@
 """Bumps in a residual: how clearly does one that rises and falls stand out from a process of known covariance?
 
-A matched filter (generalised least squares in time): of all weights on the samples about a moment that do not answer to a
-constant, those that find a bump of given length with the least variance. `strength` is in standard deviations.
+A matched filter (generalised least squares in time): of all weights on the samples about a moment that do not answer to
+a constant, those that find a bump of given length with the least variance. `strength` is in standard deviations.
 """
 
 from __future__ import annotations

@@ -45,8 +45,8 @@ def find_in_each(signals: np.ndarray, find: Find, *, markers: Sequence[str], ear
 def detect(scene: Scene, find: Find, *, markers: Sequence[str], earlier: np.ndarray, bridge_s: float) -> list[Event]:
     """Run a detector on each coordinate, with what detectors before claimed replaced by curves.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing. earlier: bool, likewise. bridge_s: slopes of the curves are
-    taken over this time.
+    scene: positions (frames, markers, 3), mm, NaN = missing. earlier: bool, likewise. bridge_s: slopes of the curves
+    are taken over this time.
     """
     signals = bridged(scene.positions, earlier, robust.samples(bridge_s, scene.rate))
     return find_in_each(signals, find, markers=markers, earlier=earlier)

@@ -36,10 +36,10 @@ def fill_gaps(
 ) -> Restored:
     """Fill the gaps of a recording; every gap is afterwards in the facts `fills` or, with a reason, `gaps_left`.
 
-    neighbours, relatives: as in Scene. decisions: what a person says, against which no limit holds. alone: for each member that
-    decisions name, the ensemble that it is. Only missing samples are written, a gap as a whole or not at all. Static
-    recordings are left as they are. Markers that are seen most come first (tits2018), and gaps that a person wants
-    filled last, so that they change no other.
+    neighbours, relatives: as in Scene. decisions: what a person says, against which no limit holds. alone: for each
+    member that decisions name, the ensemble that it is. Only missing samples are written, a gap as a whole or not at
+    all. Static recordings are left as they are. Markers that are seen most come first (tits2018), and gaps that a
+    person wants filled last, so that they change no other.
     """
     missing = restored.missing
     found = list(gaps(missing))

@@ -41,9 +41,9 @@ def expected(
 ) -> np.ndarray:
     """The size to expect (frames, markers) of what is measured of each marker.
 
-    size: (frames, markers), NaN = missing. moving: (kinds, frames, markers), from `motion`. Fitted is the logarithm of the
-    local root mean square over `window` samples: a level for each marker, and shared by all of them one exponent, not
-    negative, for each kind of motion and for the median of the `near` nearest neighbours, each in units of its own
+    size: (frames, markers), NaN = missing. moving: (kinds, frames, markers), from `motion`. Fitted is the logarithm of
+    the local root mean square over `window` samples: a level for each marker, and shared by all of them one exponent,
+    not negative, for each kind of motion and for the median of the `near` nearest neighbours, each in units of its own
     level. least: below this nothing is expected to be.
     """
     from scipy.optimize import nnls  # slow to import

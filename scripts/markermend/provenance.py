@@ -51,7 +51,8 @@ def content_hash(file: Path) -> str:
 def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, started: datetime) -> dict[str, Any]:
     """What is true of one run and of no result: versions, commit, configuration and times.
 
-    started: an aware time. Kept apart from the results, which hold no clock and no machine, so that they can be compared.
+    started: an aware time. Kept apart from the results, which hold no clock and no machine, so that they can be
+    compared.
     """
     return {
         "markermend": __version__,

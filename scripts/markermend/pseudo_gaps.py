@@ -33,8 +33,8 @@ def pseudo_gaps(
     What neighbours miss during the real gap they miss at the same offsets of the trial, and where they were filled they
     are moved as far as the filling may be off (Scene.doubt). The real gap itself stays hidden in all.
 
-    Trials share a scene, in which all of them are hidden, so that what is learned from it serves all: as many as hide at
-    most `share` of the samples of the marker and are at least as far apart as each is long.
+    Trials share a scene, in which all of them are hidden, so that what is learned from it serves all: as many as hide
+    at most `share` of the samples of the marker and are at least as far apart as each is long.
     """
     longest = max((last - first for first, last in runs(scene.present[:, marker])), default=0)
     length = min(stop - start, 2 * (longest - 2) // 3)

@@ -81,7 +81,8 @@ def summarize(
     """Sum up one recording as JSON values.
 
     before, after: as ingested, and after repair and filling. found: events by class, for the detectors that ran.
-    changes, left: what was changed and what was not; an artifact that a person left is not open. weights: see `attention`. NaN samples are missing ones.
+    changes, left: what was changed and what was not; an artifact that a person left is not open. weights: see
+    `attention`. NaN samples are missing ones.
     """
     touched = changed(before, after)
     errors = after.error[touched & ~after.missing]

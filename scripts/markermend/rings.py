@@ -20,9 +20,9 @@ Ring = tuple[int, ...]
 def turns(positions: np.ndarray, sudden: np.ndarray, *, ratio: float, floor_mm: float) -> list[tuple[int, Ring, float]]:
     """Frames at which labels change in rings of three or more, with the ring and a score in units of the threshold.
 
-    positions: (frames, markers, 3), mm, NaN = missing. sudden: bool (frames, markers), where a marker's velocity breaks.
-    ratio: what is left of the jumps once the ring is undone is at most this part of the least of them. floor_mm: each
-    jump is at least so large.
+    positions: (frames, markers, 3), mm, NaN = missing. sudden: bool (frames, markers), where a marker's velocity
+    breaks. ratio: what is left of the jumps once the ring is undone is at most this part of the least of them.
+    floor_mm: each jump is at least so large.
     """
     found = []
     for t in np.flatnonzero(sudden.sum(axis=1) >= 3):

@@ -204,7 +204,8 @@ def usual_size(
     """The usual size of something about each frame, (frames, markers): never below the marker's median.
 
     It follows what the body is doing: where the moving median of the marker's sizes grows, so does it, but no more than
-    `ratio` times as much as the median of its `near` nearest neighbours' does. size: NaN = missing, and so is the result.
+    `ratio` times as much as the median of its `near` nearest neighbours' does. size: NaN = missing, and so is the
+    result.
     """
     overall = np.array([np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else 1.0 for own in size.T])
     overall = np.maximum(overall, 1e-3)

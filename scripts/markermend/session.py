@@ -28,8 +28,8 @@ STATIC_S, NOISE_MM, FIRST_FRAME = 4.0, 0.2, 251
 class Take:
     """One recording of the session.
 
-    seen: what the file shall hold. clean: the complete trajectories. truth: where the two differ, events by class, swaps
-    among the steps, and gaps. storage: the C3D storage.
+    seen: what the file shall hold. clean: the complete trajectories. truth: where the two differ, events by class,
+    swaps among the steps, and gaps. storage: the C3D storage.
     """
 
     name: str

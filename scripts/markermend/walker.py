@@ -1,7 +1,8 @@
 """A synthetic person with markers on: walks, turns, reaches, sits down, stands up, as a motion capture system sees it.
 
-Truth for tests, demonstrations and evaluation: every trajectory is complete and free of artifacts, and it is known which
-segment each marker sits on. What a real recording has is there: joints, soft tissue that moves over the bone, and noise.
+Truth for tests, demonstrations and evaluation: every trajectory is complete and free of artifacts, and it is known
+which segment each marker sits on. What a real recording has is there: joints, soft tissue that moves over the bone, and
+noise.
 """
 
 from __future__ import annotations

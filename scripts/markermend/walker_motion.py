@@ -26,8 +26,8 @@ GAIT = {
     "knee": (6, 14, 17, 12, 7, 11, 33, 60, 52, 19, 6),
     "ankle": (-1, -2, 4, 6, 8, 5, -12, -7, 7, 2, -1),
 }
-"""Sagittal angles over one stride from heel strike to heel strike: textbook curves, moved a few degrees so that with these
-limbs the pelvis goes on evenly and the standing foot does not slide."""
+"""Sagittal angles over one stride from heel strike to heel strike: textbook curves, moved a few degrees so that with
+these limbs the pelvis goes on evenly and the standing foot does not slide."""
 
 WANDER = {"head": 3.0, "thorax": 1.2, "pelvis": 0.6, "hand": 5.0, "forearm": 3.0, "upper_arm": 2.5}
 """Standard deviation in degrees of the slow wandering of a joint that no movement repeats exactly; legs 0.5."""

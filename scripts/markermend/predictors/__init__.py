@@ -33,9 +33,9 @@ class Scene:
 
     positions: float64 (frames, markers, 3), mm, NaN = missing or not to be believed. rate: Hz. neighbours: for each
     marker the indices of the others of its component, steadiest first (the mesh's ranking). measured: the scene before
-    any gap was filled, where this one holds filled samples; None where nothing was filled. doubt: (frames, markers), mm,
-    standard deviation per axis of filled samples, 0 elsewhere; None where nothing was filled. relatives: for each marker
-    the indices of its siblings on the segment and of its parent marker; None where no mesh tells.
+    any gap was filled, where this one holds filled samples; None where nothing was filled. doubt: (frames, markers),
+    mm, standard deviation per axis of filled samples, 0 elsewhere; None where nothing was filled. relatives: for each
+    marker the indices of its siblings on the segment and of its parent marker; None where no mesh tells.
     """
 
     positions: np.ndarray

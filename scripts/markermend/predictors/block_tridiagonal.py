@@ -28,8 +28,8 @@ class Solved:
 def solve(diagonal: np.ndarray, below: np.ndarray, right: np.ndarray) -> Solved:
     """Solve a positive definite block-tridiagonal system.
 
-    diagonal: (n, d, d), symmetric. below: (n - 1, d, d), rows of block t + 1 and columns of block t. right: (n, d). None
-    may hold NaN. Source: block cyclic reduction (Buzbee, Golub & Nielson 1970), with the inverse carried back.
+    diagonal: (n, d, d), symmetric. below: (n - 1, d, d), rows of block t + 1 and columns of block t. right: (n, d).
+    None may hold NaN. Source: block cyclic reduction (Buzbee, Golub & Nielson 1970), with the inverse carried back.
     """
     blocks = len(right)
     if blocks == 1:

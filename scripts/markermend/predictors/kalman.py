@@ -19,12 +19,12 @@ from markermend.predictors.references import companions, thinned
 class KalmanOptions:
     """Settings of the low-dimensional Kalman smoother.
 
-    neighbours: most markers beside the one with the gap. frames: most training frames. minimum_frames: fewer joint frames
-    than this and nothing is predicted. share: a marker is left out if with it fewer than this share of the training
-    frames would remain. explained: share of the shape's variance that sets the number of components. components: at
-    most so many. noise_mm: least deviation of a marker from the pose. context_s: how far the window reaches beyond the
-    gap, s. folds: of stretches as long as the gap, one in so many is left out in turn to see how well the pose tells the
-    marker.
+    neighbours: most markers beside the one with the gap. frames: most training frames. minimum_frames: fewer joint
+    frames than this and nothing is predicted. share: a marker is left out if with it fewer than this share of the
+    training frames would remain. explained: share of the shape's variance that sets the number of components.
+    components: at most so many. noise_mm: least deviation of a marker from the pose. context_s: how far the window
+    reaches beyond the gap, s. folds: of stretches as long as the gap, one in so many is left out in turn to see how
+    well the pose tells the marker.
     """
 
     neighbours: int

@@ -10,8 +10,8 @@ from markermend.predictors import Prediction, Scene
 from markermend.predictors.references import alike, references, thinned
 
 CENTRINGS = ("complete", "available")
-"""What is subtracted from every frame: the mean of the neighbours that are never missing (the inputs where there are none
-such), or, as the paper says, of those seen in that frame. Never of all markers: these may be on another person."""
+"""What is subtracted from every frame: the mean of the neighbours that are never missing (the inputs where there are
+none such), or, as the paper says, of those seen in that frame. Never of all markers: these may be on another person."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """Linear dynamical systems with missing observations, learned by expectation maximisation (DynaMMo, Li et al. 2009).
 
-A hidden state moves linearly from frame to frame, and the markers are seen from it through noise:
-z[t+1] = F z[t] + w, x[t] = G z[t] + c + v. Only coordinates that were observed enter, so nothing needs to be made up for
-the others, and the likelihood never falls.
+A hidden state moves linearly from frame to frame, and the markers are seen from it through noise: z[t+1] = F z[t] + w,
+x[t] = G z[t] + c + v. Only coordinates that were observed enter, so nothing needs to be made up for the others, and the
+likelihood never falls.
 """
 
 from __future__ import annotations
@@ -94,10 +94,10 @@ def learn(
 
     observed: (n, markers, 3), NaN = missing, in units in which it has a spread of about 1; every marker seen somewhere.
     hidden: dimensions of the state, at most. lag: the first guess is the principal components of frames together with
-    those so many frames later, after straight lines over what is missing; with 0 it knows no velocities, and expectation
-    maximisation hardly finds them. iterations: at most so many; ends when the log-likelihood rises by less than `tolerance` per observed
-    number. floor: least variance of noise and drive. Returns the system and the log-likelihood after each step, which
-    never falls: also within these bounds, every M-step is the best there is.
+    those so many frames later, after straight lines over what is missing; with 0 it knows no velocities, and
+    expectation maximisation hardly finds them. iterations: at most so many; ends when the log-likelihood rises by less
+    than `tolerance` per observed number. floor: least variance of noise and drive. Returns the system and the
+    log-likelihood after each step, which never falls: also within these bounds, every M-step is the best there is.
     """
     states = _first_guess(observed, hidden=hidden, lag=lag, floor=floor)
     count = np.count_nonzero(~np.isnan(observed))

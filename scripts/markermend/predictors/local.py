@@ -107,8 +107,8 @@ class LocalRidge:
         rows: np.ndarray,
         length: int,
     ) -> tuple[np.ndarray, np.ndarray, Novelty]:
-        """Residual to expect at `rows` in local coordinates (n, 3), its standard deviation (n,) in a usual pose, mm, and
-        how that grows with the novelty of the pose.
+        """Residual to expect at `rows` in local coordinates (n, 3), its standard deviation (n,) in a usual pose, mm,
+        and how that grows with the novelty of the pose.
         """
         options = self.options
         span = len(scene.positions)

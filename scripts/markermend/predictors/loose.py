@@ -23,10 +23,10 @@ LOOSE = ("polynomial", "replicated_network")
 class LooseOptions:
     """Settings that the loose predictors share.
 
-    nearest: so many nearest neighbours stand in for siblings and parent marker where the scene does not name them. lags,
-    lag_s: samples before that are looked at, and how far apart they are. powers: highest power of a coordinate. frames:
-    training frames, evenly spaced. minimum_frames: fewer joint frames than this and nothing is learned. share: an input
-    that would leave less than this share of the marker's frames gives way to the next nearest neighbour.
+    nearest: so many nearest neighbours stand in for siblings and parent marker where the scene does not name them.
+    lags, lag_s: samples before that are looked at, and how far apart they are. powers: highest power of a coordinate.
+    frames: training frames, evenly spaced. minimum_frames: fewer joint frames than this and nothing is learned. share:
+    an input that would leave less than this share of the marker's frames gives way to the next nearest neighbour.
     """
 
     nearest: int

@@ -99,8 +99,8 @@ def complete(
 
     matrix: (rows, columns), NaN = missing, every column observed somewhere; rows in order of time. Missing entries
     start as what the components of the complete rows make of the rest of their row; where there are no more complete
-    rows than columns, as straight lines in time. The approximation is the column means plus so many singular vectors as explain the share `explained`
-    of the variance of the complete rows (or of those lines). shrinkage: damp each
+    rows than columns, as straight lines in time. The approximation is the column means plus so many singular vectors as
+    explain the share `explained` of the variance of the complete rows (or of those lines). shrinkage: damp each
     component by the share of noise in its variance, the noise being what the others leave over (probabilistic principal
     components); otherwise nothing tells components apart that only missing entries would show. Stops when no missing
     entry moves by more than `tolerance`. Returns the filled matrix and, per iteration, the root mean square misfit of

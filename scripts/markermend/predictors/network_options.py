@@ -15,8 +15,8 @@ class NetworkOptions:
     each frame. units, recurrent_units: neurons of the dense and of the recurrent layer. stretch_s: recurrent networks
     learn from stretches of up to so many s, each from rest; None = as long as nothing is missing. context_s: how far
     before and behind a gap they begin. epochs, learning_rate, momentum: of the training; the rate falls by the factor
-    drop every drop_every epochs. trial_epochs: in place of epochs on pseudo-gaps. clip: longest gradient. batch: networks trained at once, at most. seed: of the first
-    weights.
+    drop every drop_every epochs. trial_epochs: in place of epochs on pseudo-gaps. clip: longest gradient. batch:
+    networks trained at once, at most. seed: of the first weights.
     """
 
     inputs: int

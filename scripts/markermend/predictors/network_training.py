@@ -1,8 +1,8 @@
 """Small networks that are trained side by side: one batch holds the weights of all, so that all advance together.
 
 The only module that imports torch, which takes seconds: import it where networks train, and nowhere else. Networks of a
-batch do not know of each other. Where they differ in size, zeros are added that neither change an output nor a gradient,
-so each learns what it would learn alone, but for the last bits.
+batch do not know of each other. Where they differ in size, zeros are added that neither change an output nor a
+gradient, so each learns what it would learn alone, but for the last bits.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
 """The recurrent kinds and how many weighted sums a recurrent unit has."""
 
 Weights = list[np.ndarray]
-"""Recurrent kinds begin with weights of the inputs (inputs, gates * units), of the former outputs (units, gates * units)
-and constants (1, gates * units), for each direction; all end with two dense layers: weights and constants of each."""
+"""Recurrent kinds begin with weights of the inputs (inputs, gates * units), of the former outputs (units, gates *
+units) and constants (1, gates * units), for each direction; all end with two dense layers: weights and constants of
+each."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +35,8 @@ class Lesson:
 def train(kind: str, lessons: Sequence[Lesson], options: NetworkOptions) -> list[Weights]:
     """Train one network per lesson, at most `batch` at once; source: skurowski2021 section 3.1.4.
 
-    Gradient descent with momentum on all frames at once. The loss is half the squared error, summed over the outputs and
-    averaged over the frames. Each network's gradient is shortened to the length `clip` on its own.
+    Gradient descent with momentum on all frames at once. The loss is half the squared error, summed over the outputs
+    and averaged over the frames. Each network's gradient is shortened to the length `clip` on its own.
     """
     learned: list[Weights] = []
     for first in range(0, len(lessons), options.batch):

@@ -34,8 +34,8 @@ def learn_novelty(
     """Learn from residuals that were left out of the training; also returns their factors (n,).
 
     inputs: (n, columns), mm. weights: (n,). residual: (n, axes), mm, NaN = does not count, each under the model without
-    its block. block: (n,), ascending. ridge: penalty as in the regression, mm^2. most: see Novelty. Each novelty is that
-    under the other blocks; the growth is the likeliest for normal errors.
+    its block. block: (n,), ascending. ridge: penalty as in the regression, mm^2. most: see Novelty. Each novelty is
+    that under the other blocks; the growth is the likeliest for normal errors.
     """
     full = _with_constant(inputs)
     weighted = full * weights[:, None]

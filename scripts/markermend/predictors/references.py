@@ -84,8 +84,8 @@ def companions(
 def alike(seen: np.ndarray, minimum: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Group frames by the markers that they show: yield a mask (markers,) and the frames (indices) that share it.
 
-    seen: bool (frames, markers). Where at least `minimum` markers are seen in all frames, these alone count and there is
-    one group.
+    seen: bool (frames, markers). Where at least `minimum` markers are seen in all frames, these alone count and there
+    is one group.
     """
     throughout = seen.all(axis=0)
     if throughout.sum() >= minimum:
