@@ -1,8 +1,8 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
 Swapped labels are exchanged first; what else was found was found in trajectories without swaps. All methods of a class
-say what they would write and how surely; the surest is taken, provided that it brings the samples nearer to where the
-neighbours say they should be. Where none can be trusted, the samples become missing and say why; so do samples that nobody
+say what they would write and how surely; the surest is taken, provided that it changes more than it may err by, and that
+what leaves the neighbours aside brings the samples nearer to where these say they should be. Where none can be trusted, the samples become missing and say why; so do samples that nobody
 measured. Samples outside the intervals are returned bit for bit.
 """
 
