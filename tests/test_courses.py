@@ -1,11 +1,11 @@
-"""Polynomials through windows: what they leave, what an excursion and an edge are off them, and which windows exceed."""
+"""Usual courses: what they leave of a window, what an excursion and an edge are off them, and which windows exceed."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from markermend import courses, edges, excursions
+from markermend import courses, edges, excursions, regularity
 from markermend.predictors import Scene
 from signals import RATES, settings
 
@@ -15,32 +15,49 @@ PEAKS, STEPS = settings("peaks", "default"), settings("steps", "default")
 def measured(residual, positions, rate, own):
     """The courses of one marker (frames, 3)."""
     scene = Scene(positions[:, None], rate, [np.zeros(0, int)])
-    maps = edges.central(rate, own) if own is STEPS else excursions.of_longest(rate, own)
-    return courses.measure(scene, residual[:, None], maps=maps, settings=own)
+    maps, length = edges.central(rate, own) if own is STEPS else excursions.of_longest(rate, own)
+    return courses.measure(scene, residual[:, None], maps=maps, length=length, settings=own)
 
 
 def rough(frames, seed):
     return np.random.default_rng(seed).normal(0, 0.05, (frames, 3))
 
 
-@pytest.mark.parametrize("places", [(6,), (0, 3, 12)])
-def test_off_and_misfit_are_those_of_a_fitted_polynomial(places):
-    maps = excursions.contrasts(4, 16, places, 3)
+def independent(size, order):
+    """The regularity of independent noise on a polynomial of an order."""
+    return regularity.Regularity(np.eye(size), order)
+
+
+@pytest.mark.parametrize("place", [0, 3, 6, 12])
+def test_without_regularity_excursions_are_off_a_fitted_polynomial(place):
     window = np.random.default_rng(1).normal(0, 1, 16)
-    for k, place in enumerate(places):
-        others = np.setdiff1d(np.arange(16), np.arange(place, place + 4))
-        fit = np.polyfit(others, window[others], 3)
-        np.testing.assert_allclose(maps.off[k] @ window, (window - np.polyval(fit, np.arange(16)))[place : place + 4])
-        left = ((window - np.polyval(fit, np.arange(16)))[others] ** 2).sum()
-        assert ((maps.misfit[k] @ window) ** 2).sum() == pytest.approx(left)
+    usual, inside = independent(16, 3), np.arange(place, place + 4)
+    others = np.setdiff1d(np.arange(16), inside)
+    fit = np.polyfit(others, window[others], 3)
+    off = window - np.polyval(fit, np.arange(16))
+    np.testing.assert_allclose(excursions.apart(usual, 4, 16, place) @ window, off[inside])
+    maps = excursions.contrasts(usual, 4, 16, (place,))
+    basis = np.linalg.qr(np.vander(np.linspace(-1, 1, 16), 4))[0]
+    unit = 1 - (basis[8] ** 2).sum()  # how well the middle sample follows from the others
+    assert window @ maps.misfit[0] @ window == pytest.approx((off[others] ** 2).sum() / unit / (16 - 4 - 4))
 
 
-def test_an_edge_is_that_of_a_polynomial_with_a_jump():
-    maps, at = edges.contrasts(12, (4, 6), 3), np.arange(12)
-    window = 0.1 * at**3 - at + 5 * (at >= 6)
-    assert maps.off[1, 0] @ window == pytest.approx(5)
-    np.testing.assert_allclose(maps.misfit[1] @ window, 0, atol=1e-9)
-    assert np.abs(maps.misfit[0] @ window).max() > 0.1
+def test_a_wave_and_a_jump_have_the_size_that_they_were_given():
+    size, at = 16, np.arange(16)
+    course = 0.1 * at**2 - at + 3.0
+    usual = regularity.learn(rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, at_most=5000)
+    wave = np.sin(np.pi * (np.arange(5) + 0.5) / 5)
+    for place in (0, 6, 11):
+        maps = excursions.contrasts(usual, 5, size, (place,))
+        window = course.copy()
+        window[place : place + 5] += 4 * wave
+        assert maps.size[0] @ window == pytest.approx(4)
+        assert window @ maps.misfit[0] @ window == pytest.approx(0, abs=1e-6)
+    maps = edges.contrasts(usual, size, (4, 8))
+    window = course + 5 * (at >= 8)
+    assert maps.size[1] @ window == pytest.approx(5)
+    assert window @ maps.misfit[1] @ window == pytest.approx(0, abs=1e-6)
+    assert window @ maps.misfit[0] @ window > 0.1
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -86,13 +103,7 @@ def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
     residual[::37] += [2.6, 0, 0]
     course = measured(residual, residual, 100.0, PEAKS)
     low, high = (
-        {one.start for one in excursions.find(course, 0, rate=100.0, settings=replace(PEAKS, sigmas=sigmas))}
-        for sigmas in (2, 4)
+        {one.start for one in excursions.find(course, 0, rate=100.0, settings=replace(PEAKS, edge=0, sigmas=sigmas))}
+        for sigmas in (3, 7)
     )
     assert high < low
-
-
-def test_lengths_are_dense_enough():
-    assert excursions.lengths(1) == [1]
-    assert excursions.lengths(5) == [1, 2, 3, 4, 5]
-    assert excursions.lengths(12) == [1, 2, 3, 4, 6, 9, 12]

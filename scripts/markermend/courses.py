@@ -1,9 +1,10 @@
-"""Smooth courses: how far are samples off a polynomial through those about them, in units of how badly that fits?
+"""Usual courses: how far are samples off what those about them let expect, in units of how badly that fits?
 
-A marker's residual against its neighbours is smooth where nothing sudden happens. Polynomials are fitted to short windows
-of it, and their misfit is the noise scale: amid fast motion or heavy noise they fit badly and little counts as sudden,
-where all goes smoothly little is needed. What is found must be in the course as recorded too: a neighbour's artifact is
-only in the residual.
+A marker's residual against its neighbours is regular where nothing sudden happens: how regular, each recording tells. What
+the usual course leaves of a short window is the noise scale: amid fast motion or heavy noise it leaves much and little
+counts as sudden, where all goes smoothly little is needed. What is found must be in the course as recorded too: a
+neighbour's artifact is only in the residual. Together this is the adaptive normalised matched filter (Conte, Lops, Ricci
+1995), whose false alarms do not depend on the size of the noise.
 """
 
 from __future__ import annotations
@@ -18,25 +19,27 @@ from markermend import blame, detection, events, robust
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.recording import runs
+from markermend.regularity import Regularity, learn, windows
 
-SPARE = 5
-"""Samples that a polynomial is fitted to, beyond its coefficients, at least: they tell the misfit."""
+FEWEST = 6
+"""Samples of context on either side, at least: they tell the misfit."""
 
 
 @dataclass(frozen=True)
 class CourseSettings:
-    """What counts as off a smooth course (part of config peaks.default and steps.default).
+    """What counts as off the usual course (part of config peaks.default and steps.default).
 
-    context_s: the polynomial is fitted to so much on either side; beside a gap, to the more on the other side. order,
-    border_order: of the polynomial, and beside a gap. activity_s, activity_ratio, activity_neighbours: how the usual
-    misfit follows what the body is doing, see robust.usual_size. sigmas: threshold in units of the misfit here and the
-    usual one together. floor_mm: and at least so much. rounds: how often neighbours found together are judged again.
-    rivals: how many neighbours may be meant by that.
+    context_s: judged by so much on either side; beside a gap, by the more on the other side. order: polynomials that are
+    usual whatever their size. shrinkage, windows: see regularity.learn. activity_s, activity_ratio,
+    activity_neighbours: how the usual misfit follows what the body is doing, see robust.usual_size. sigmas: threshold in
+    units of the misfit here and the usual one together. floor_mm: and at least so much. rounds: how often neighbours
+    found together are judged again. rivals: how many neighbours may be meant by that.
     """
 
     context_s: float
     order: int
-    border_order: int
+    shrinkage: float
+    windows: int
     activity_s: float
     activity_ratio: float
     activity_neighbours: int
@@ -48,68 +51,75 @@ class CourseSettings:
 
 @dataclass(frozen=True, eq=False)
 class Contrasts:
-    """Linear maps on windows of n samples, one for each of c places in it.
+    """What is asked of windows of n samples, for each of c places in them.
 
-    place: (c,), first sample in question. off: (c, length, n), what is asked. misfit: (c, d, n), what the polynomial
-    leaves: d independent parts of equal variance. gain: (c, length), standard deviation of `off` for independent noise
-    of deviation 1.
+    place: (c,), first sample in question. size: (c, n), maps a window to the size of what is looked for. gain: (c,), its
+    standard deviation where the misfit is 1. misfit: (c, n, n), quadratic form: mean square of what the usual course
+    leaves beside that.
     """
 
     place: np.ndarray
-    off: np.ndarray
+    size: np.ndarray
+    gain: np.ndarray
     misfit: np.ndarray
 
     @property
-    def size(self) -> int:
+    def length(self) -> int:
         """Samples in a window."""
-        return self.off.shape[2]
-
-    @property
-    def gain(self) -> np.ndarray:
-        """Standard deviation (c, length) of `off` for independent noise of deviation 1."""
-        return np.linalg.norm(self.off, axis=2)
+        return self.size.shape[1]
 
 
 @dataclass(frozen=True)
 class Courses:
     """What is judged: residual and positions (frames, markers, 3), mm, NaN = missing, as predicted and as recorded;
-    misfit and the usual misfit (frames, markers), mm, NaN where there is too little to fit to.
+    misfit and the usual misfit (frames, markers), mm, NaN where there is too little to judge by; and how regular the
+    residuals of the recording are.
     """
 
     residual: np.ndarray
     positions: np.ndarray
     misfit: np.ndarray
     usual: np.ndarray
+    regularity: Regularity
 
 
 @dataclass(frozen=True)
 class Exceeding:
-    """Windows that exceed the threshold: each one's samples (i, 3, n), the index of its map, the frame in question (i,),
-    what is off (i, length, 3), how much of that the marker itself makes (i, length), score, and misfit (i,); mm.
+    """Windows that exceed the threshold: each one's residuals and positions (i, 3, n), the index of its map, the frame in
+    question (i,), the size of what was looked for (i, 3), score, and misfit (i,); mm.
     """
 
-    window: np.ndarray
+    residual: np.ndarray
+    positions: np.ndarray
     map: np.ndarray
     frame: np.ndarray
-    off: np.ndarray
-    own: np.ndarray
+    size: np.ndarray
     score: np.ndarray
     misfit: np.ndarray
 
 
-def context(rate: float, settings: CourseSettings, *, coefficients: int) -> int:
-    """Samples on either side: as long as asked for, and enough for so many coefficients."""
-    return max(robust.samples(settings.context_s, rate), -(-(coefficients + SPARE) // 2))
+def context(rate: float, settings: CourseSettings) -> int:
+    """Samples on either side: as long as asked for, and enough to tell the misfit."""
+    return max(robust.samples(settings.context_s, rate), FEWEST)
 
 
-def powers(size: int, order: int) -> np.ndarray:
-    """Orthonormal polynomials up to an order over a window, (size, order + 1)."""
-    return np.linalg.qr(np.vander(np.linspace(-1, 1, size), order + 1))[0]
+def spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:
+    """Spans of frames and the places in windows of `length` that cover all of [start, stop), each frame once.
+
+    Inside, what is looked for has its context on either side; at the ends, windows stay and the place in them goes on.
+    """
+    early, late = tuple(range(context)), tuple(range(context + 1, length))
+    return [
+        (slice(start, stop), (context,)),
+        (slice(start, start + length), early),
+        (slice(stop - length, stop), late),
+    ]
 
 
-def windows(values: np.ndarray, size: int) -> np.ndarray:
-    """All windows of (frames, 3): (windows, 3, size)."""
-    return np.lib.stride_tricks.sliding_window_view(values, size, axis=0)
+def own_part(recorded: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """How much of changes of the residual (..., 3) the marker itself makes, as recorded: (...)."""
+    far = np.linalg.norm(residual, axis=-1)
+    return np.clip(np.einsum("...a,...a->...", recorded, residual) / np.maximum(far, 1e-9), 0, far)
 
 
 def measure(
@@ -118,18 +128,27 @@ def measure(
     only: Sequence[int] | None = None,
     was: Courses | None = None,
     *,
-    maps: Contrasts,
+    maps: Callable[[Regularity], Contrasts],
+    length: int,
     settings: CourseSettings,
 ) -> Courses:
-    """Measure the misfits of residuals under the first of the maps; with `was`, anew for the markers `only`."""
+    """Learn how regular residuals are, and measure their misfits under the first of the maps of windows of a length.
+
+    With `was`, anew for the markers `only`.
+    """
+    if was is None:
+        order, shrinkage, at_most = settings.order, settings.shrinkage, settings.windows
+        regularity = learn(residual, size=length, order=order, shrinkage=shrinkage, at_most=at_most)
+    else:
+        regularity = was.regularity
+    form = maps(regularity).misfit[0]
     misfit = np.full(residual.shape[:2], np.nan) if was is None else was.misfit.copy()
     for m in range(residual.shape[1]) if only is None else only:
         misfit[:, m] = np.nan
         for start, stop in runs(~np.isnan(residual[:, m, 0])):
-            if stop - start >= maps.size:
-                parts = windows(residual[start:stop, m], maps.size) @ maps.misfit[0].T
-                own = np.sqrt((parts**2).sum(axis=(1, 2)) / parts.shape[2])
-                misfit[start:stop, m] = own[np.clip(np.arange(stop - start) - maps.size // 2, 0, len(own) - 1)]
+            if stop - start >= length:
+                own = _misfit(windows(residual[start:stop, m], length), form)
+                misfit[start:stop, m] = own[np.clip(np.arange(stop - start) - length // 2, 0, len(own) - 1)]
     usual = robust.usual_size(
         misfit,
         scene.neighbours,
@@ -137,26 +156,28 @@ def measure(
         near=settings.activity_neighbours,
         ratio=settings.activity_ratio,
     )
-    return Courses(residual, scene.positions, misfit, usual)
+    return Courses(residual, scene.positions, misfit, usual, regularity)
+
+
+def _misfit(window: np.ndarray, form: np.ndarray) -> np.ndarray:
+    """Root mean square misfit of windows (i, 3, n) under one quadratic form (n, n) or one for each (i, n, n)."""
+    square = ((window @ form) * window).sum(axis=(1, 2)) / window.shape[1]
+    return np.sqrt(np.maximum(square, 0))
 
 
 def exceeding(courses: Courses, marker: int, span: slice, maps: Contrasts, settings: CourseSettings) -> Exceeding:
     """The windows of a span of one marker's frames, without gaps, that exceed the threshold."""
-    residual, positions = (windows(v[span, marker], maps.size) for v in (courses.residual, courses.positions))
-    off = np.einsum("wan,cln->wcla", residual, maps.off, optimize=True)
-    at, which = np.nonzero((np.einsum("wcla,wcla->wcl", off, off) > settings.floor_mm**2).any(axis=2))
-    off = off[at, which]
-    far = np.sqrt(np.einsum("ila,ila->il", off, off))
-    course = np.einsum("ian,iln->ila", positions[at], maps.off[which])
-    own = np.clip(np.einsum("ila,ila->il", course, off) / np.maximum(far, 1e-9), 0, far)
-    parts = np.einsum("ian,idn->iad", residual[at], maps.misfit[which])
-    misfit = np.sqrt((parts**2).sum(axis=(1, 2)) / parts.shape[2])
+    residual, positions = (windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
+    size = (residual @ maps.size.T).transpose(0, 2, 1)
+    at, which = np.nonzero((size**2).sum(axis=2) > settings.floor_mm**2)
+    size = size[at, which]
+    own = own_part(np.einsum("ian,in->ia", positions[at], maps.size[which]), size)
+    misfit = _misfit(residual[at], maps.misfit[which])
     frame = span.start + at + maps.place[which]
     noise = np.hypot(misfit, courses.usual[frame, marker])
-    level = np.maximum(settings.sigmas * noise[:, None] * maps.gain[which], settings.floor_mm)
-    score = (own / level).max(axis=1)
+    score = own / np.maximum(settings.sigmas * noise * maps.gain[which], settings.floor_mm)
     k = score > 1
-    return Exceeding(residual[at[k]], which[k], frame[k], off[k], own[k], score[k], misfit[k])
+    return Exceeding(residual[at[k]], positions[at[k]], which[k], frame[k], size[k], score[k], misfit[k])
 
 
 def detect(
@@ -165,19 +186,20 @@ def detect(
     markers: Sequence[str],
     earlier: np.ndarray,
     settings: CourseSettings,
-    maps: Contrasts,
+    maps: Callable[[Regularity], Contrasts],
+    length: int,
     predictor: blame.ResidualSource,
     judge: Callable[[Courses, int], list[Event]],
 ) -> tuple[list[Event], Courses]:
     """Find one class of artifacts on the courses of all markers, and the courses.
 
     scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. maps: see measure. judge: finds on the course of a marker (index). Rivals among neighbours
-    are judged again, see blame.find.
+    detectors before claimed. maps, length: see measure. judge: finds on the course of a marker (index). Rivals among
+    neighbours are judged again, see blame.find.
     """
     found, courses = blame.find(
         detection.without(scene, earlier),
-        measure=partial(measure, maps=maps, settings=settings),
+        measure=partial(measure, maps=maps, length=length, settings=settings),
         judge=judge,
         markers=markers,
         predictor=predictor,

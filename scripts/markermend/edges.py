@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from markermend import courses
 from markermend.courses import Contrasts, Courses, CourseSettings
 from markermend.recording import runs
+from markermend.regularity import Regularity
 
 NEAREST = 2
 """Samples between an edge and a gap, at least: a single one tells no edge from a peak."""
@@ -25,44 +27,35 @@ class Edge:
 
 
 @lru_cache(maxsize=64)
-def contrasts(size: int, places: tuple[int, ...], order: int) -> Contrasts:
-    """The jump at each of the places in a window, of a polynomial with a jump there."""
-    basis = courses.powers(size, order)
-    off, misfit = np.zeros((len(places), 1, size)), np.zeros((len(places), size - order - 2, size))
-    for k, place in enumerate(places):
-        design = np.column_stack([basis, np.arange(size) >= place])
-        left, _, _ = np.linalg.svd(design)
-        off[k, 0], misfit[k] = np.linalg.pinv(design)[-1], left[:, order + 2 :].T
-    return Contrasts(np.array(places), off, misfit)
+def contrasts(regularity: Regularity, size: int, places: tuple[int, ...]) -> Contrasts:
+    """The size of a jump at each of the places in a window, and what is usual of all beside it."""
+    precision = regularity.precision(size)
+    jump = (np.arange(size) >= np.array(places)[:, None]).astype(float)
+    across = jump @ precision
+    strength = (across * jump).sum(axis=1)
+    rest = precision - across[:, :, None] * across[:, None, :] / strength[:, None, None]
+    misfit = rest / (regularity.freedom(size) - 1)
+    return Contrasts(np.array(places), across / strength[:, None], strength**-0.5, misfit)
 
 
-def central(rate: float, settings: CourseSettings) -> Contrasts:
-    """The maps for a jump amid its context."""
-    context = _context(rate, settings)
-    return contrasts(2 * context, (context,), settings.order)
+def central(rate: float, settings: CourseSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
+    """The maps for a jump amid its context, and the length of their windows."""
+    context = courses.context(rate, settings)
+    return partial(contrasts, size=2 * context, places=(context,)), 2 * context
 
 
 def find(course: Courses, marker: int, *, rate: float, settings: CourseSettings) -> list[Edge]:
     """Find the edges of one marker, in time; of those that are nearer than half the context, the best."""
-    context = _context(rate, settings)
+    context = courses.context(rate, settings)
     size = 2 * context
     candidates: list[Edge] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
-        early, late = tuple(range(NEAREST, context)), tuple(range(context + 1, size - NEAREST + 1))
-        for span, places, order in (
-            (slice(start, stop), (context,), settings.order),
-            (slice(start, start + size), early, settings.border_order),
-            (slice(stop - size, stop), late, settings.border_order),
-        ):
-            over = courses.exceeding(course, marker, span, contrasts(size, places, order), settings)
-            found = zip(over.frame.tolist(), over.off[:, 0], over.score.tolist(), strict=True)
-            candidates += [Edge(*one) for one in found]
+        for span, places in courses.spans(start, stop, size, context):
+            inside = tuple(place for place in places if NEAREST <= place <= size - NEAREST)
+            over = courses.exceeding(course, marker, span, contrasts(course.regularity, size, inside), settings)
+            candidates += [Edge(*one) for one in zip(over.frame.tolist(), over.size, over.score.tolist(), strict=True)]
     kept: list[Edge] = []
     for edge in sorted(candidates, key=lambda e: (-e.score, e.frame)):
         if all(2 * abs(edge.frame - one.frame) > context for one in kept):
             kept.append(edge)
     return sorted(kept, key=lambda e: e.frame)
-
-
-def _context(rate: float, settings: CourseSettings) -> int:
-    return courses.context(rate, settings, coefficients=settings.order + 2)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from markermend import courses, robust
 from markermend.courses import Contrasts, Courses, CourseSettings
 from markermend.recording import runs
+from markermend.regularity import Regularity
 
 
 @dataclass(frozen=True)
@@ -17,8 +19,7 @@ class ExcursionSettings(CourseSettings):
     """Settings of excursions (config peaks.default), beside those of courses.
 
     longest_s: longest excursion. weak: samples that are off by this part of the largest belong to it. edge: nothing is
-    one where a polynomial with a jump fits all samples with up to so many times the misfit that it has without those in
-    question.
+    one where the usual course with a jump leaves up to so many times the misfit that it has without those in question.
     """
 
     longest_s: float
@@ -36,61 +37,57 @@ class Excursion:
     off: np.ndarray
 
 
-@lru_cache(maxsize=256)
-def contrasts(length: int, size: int, places: tuple[int, ...], order: int) -> Contrasts:
-    """How far `length` samples, from each of the places on, are off the polynomial through the other ones of a window."""
-    basis = courses.powers(size, order)
-    off = np.zeros((len(places), length, size))
-    misfit = np.zeros((len(places), size - length - order - 1, size))
-    for k, place in enumerate(places):
-        inside = place + np.arange(length)
-        others = np.setdiff1d(np.arange(size), inside)
-        left, _, _ = np.linalg.svd(basis[others])
-        off[k][:, others] = -basis[inside] @ np.linalg.pinv(basis[others])
-        off[k, np.arange(length), inside] = 1
-        misfit[k][:, others] = left[:, order + 1 :].T
-    return Contrasts(np.array(places), off, misfit)
+@lru_cache(maxsize=512)
+def contrasts(regularity: Regularity, length: int, size: int, places: tuple[int, ...]) -> Contrasts:
+    """The size of a half wave of `length` samples, from each of the places on, and what is usual of the other samples."""
+    precision = regularity.precision(size)
+    wave = np.sin(np.pi * (np.arange(length) + 0.5) / length)
+    maps, gains, forms = [], [], []
+    for place in places:
+        inside = slice(place, place + length)
+        across = precision[:, inside]
+        strength = wave @ across[inside] @ wave
+        maps.append(across @ wave / strength)
+        gains.append(strength**-0.5)
+        rest = precision - across @ np.linalg.solve(across[inside], across.T)
+        forms.append(rest / (regularity.freedom(size) - length))
+    return Contrasts(np.array(places), np.array(maps), np.array(gains), np.array(forms))
 
 
-@lru_cache(maxsize=256)
-def jump_misfits(size: int, order: int) -> np.ndarray:
-    """What a polynomial with a jump leaves of a window, for each place of the jump: (size - 1, d, size)."""
-    jumps = np.arange(size) >= np.arange(1, size)[:, None]
-    basis = np.broadcast_to(courses.powers(size, order), (size - 1, size, order + 1))
-    left, _, _ = np.linalg.svd(np.concatenate([basis, jumps[:, :, None]], axis=2))
-    return left[:, :, order + 2 :].transpose(0, 2, 1)
+@lru_cache(maxsize=512)
+def apart(regularity: Regularity, length: int, size: int, place: int) -> np.ndarray:
+    """Maps a window to how far `length` samples from a place on are off what the others let expect, (length, size)."""
+    across = regularity.precision(size)[place : place + length]
+    return np.linalg.solve(across[:, place : place + length], across)
 
 
-def lengths(longest: int) -> list[int]:
-    """Lengths to try: each at most half as long again as the one before, up to the longest."""
-    tried = [1]
-    while tried[-1] < longest:
-        tried.append(min(longest, max(tried[-1] + 1, tried[-1] * 3 // 2)))
-    return tried
+@lru_cache(maxsize=512)
+def jumps(regularity: Regularity, size: int) -> np.ndarray:
+    """Maps a window to the sizes of jumps at each place, in units of their standard deviation, (size - 1, size)."""
+    precision = regularity.precision(size)
+    jump = np.arange(size) >= np.arange(1, size)[:, None]
+    across = jump @ precision
+    return across / np.sqrt(np.maximum((across * jump).sum(axis=1), 1e-12))[:, None]
 
 
-def of_longest(rate: float, settings: ExcursionSettings) -> Contrasts:
-    """The maps for the longest excursion amid its context."""
-    length, context = robust.samples(settings.longest_s, rate), _context(rate, settings)
-    return contrasts(length, length + 2 * context, (context,), settings.order)
+def of_longest(rate: float, settings: ExcursionSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
+    """The maps for the longest excursion amid its context, and the length of their windows."""
+    length, context = robust.samples(settings.longest_s, rate), courses.context(rate, settings)
+    size = length + 2 * context
+    return partial(contrasts, length=length, size=size, places=(context,)), size
 
 
 def find(course: Courses, marker: int, *, rate: float, settings: ExcursionSettings) -> list[Excursion]:
     """Find the excursions of one marker, the surest first; none is nearer to a surer one than what that is judged by."""
-    context = _context(rate, settings)
+    context = courses.context(rate, settings)
     candidates: list[Excursion] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
-        for length in lengths(robust.samples(settings.longest_s, rate)):
+        for length in range(1, min(robust.samples(settings.longest_s, rate), stop - start - 2 * context) + 1):
             size = length + 2 * context
-            if size > stop - start:
-                break
-            early, late = tuple(range(context)), tuple(range(context + 1, 2 * context + 1))
-            for span, places, order in (
-                (slice(start, stop), (context,), settings.order),
-                (slice(start, start + size), early, settings.border_order),
-                (slice(stop - size, stop), late, settings.border_order),
-            ):
-                candidates += _in(course, marker, span, contrasts(length, size, places, order), settings)
+            for span, places in courses.spans(start, stop, size, context):
+                inside = tuple(place for place in places if place + length <= size)
+                maps = contrasts(course.regularity, length, size, inside)
+                candidates += _in(course, marker, span, maps, length, settings)
     kept: list[Excursion] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
@@ -98,29 +95,30 @@ def find(course: Courses, marker: int, *, rate: float, settings: ExcursionSettin
     return kept
 
 
-def _context(rate: float, settings: ExcursionSettings) -> int:
-    return courses.context(rate, settings, coefficients=settings.order + 1)
-
-
-def _in(course: Courses, marker: int, span: slice, maps: Contrasts, settings: ExcursionSettings) -> list[Excursion]:
+def _in(
+    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, settings: ExcursionSettings
+) -> list[Excursion]:
     """The excursions of a span, each cut to the samples that are off."""
     over = courses.exceeding(course, marker, span, maps, settings)
-    order = maps.size - maps.off.shape[1] - maps.misfit.shape[1] - 1
     found = []
-    for i, own in enumerate(over.own):
+    for i, first in enumerate(over.frame.tolist()):
+        place = int(maps.place[over.map[i]])
+        each = apart(course.regularity, length, maps.length, place)
+        off = each @ over.residual[i].T
+        own = courses.own_part(each @ over.positions[i].T, off)
         inside = np.flatnonzero(own >= settings.weak * own.max())
         low, high = int(inside[0]), int(inside[-1]) + 1
-        place = maps.place[over.map[i]]
         # Off up to the very border of a gap: a jump and an excursion are the same.
-        enclosed = place + low > 0 and place + high < maps.size
-        if enclosed and _jump_misfit(over.window[i], order) <= settings.edge * over.misfit[i]:
+        enclosed = place + low > 0 and place + high < maps.length
+        if enclosed and _jump_misfit(over.residual[i], course.regularity) <= settings.edge * over.misfit[i]:
             continue
-        first = int(over.frame[i])
-        found.append(Excursion(first + low, first + high, float(over.score[i]), over.off[i, low:high]))
+        found.append(Excursion(first + low, first + high, float(over.score[i]), off[low:high]))
     return found
 
 
-def _jump_misfit(window: np.ndarray, order: int) -> float:
-    """Root mean square misfit of a polynomial with a jump where it fits best; window: (3, n), mm."""
-    parts = np.einsum("an,kdn->kad", window, jump_misfits(window.shape[1], order), optimize=True)
-    return float(np.sqrt(((parts**2).sum(axis=(1, 2)) / parts.shape[2]).min()))
+def _jump_misfit(window: np.ndarray, regularity: Regularity) -> float:
+    """Root mean square of what the usual course with a jump, where it fits best, leaves of a window (3, n), mm."""
+    size = window.shape[1]
+    whole = np.einsum("an,nm,am->", window, regularity.precision(size), window)
+    explained = ((window @ jumps(regularity, size).T) ** 2).sum(axis=0).max()
+    return float(np.sqrt(max(whole - explained, 0) / (3 * (regularity.freedom(size) - 1))))

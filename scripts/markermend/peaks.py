@@ -106,6 +106,8 @@ def detect_peaks(
             bridge_s=settings.bridge_s,
         )
 
+    maps, length = excursions.of_longest(rate, settings)
+
     def judge(course: Courses, m: int) -> list[Event]:
         found = excursions.find(course, m, rate=rate, settings=settings)
         return [Event(markers[m], one.start, one.stop, one.score, events.carrying(one.off)) for one in found]
@@ -115,7 +117,8 @@ def detect_peaks(
         markers=markers,
         earlier=earlier,
         settings=settings,
-        maps=excursions.of_longest(rate, settings),
+        maps=maps,
+        length=length,
         predictor=predictor,
         judge=judge,
     )

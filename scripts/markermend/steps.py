@@ -101,15 +101,20 @@ def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) 
     return float(moved @ jump / (jump @ jump))
 
 
-def judge_steps(course: Courses, marker: int, *, name: str, rate: float, settings: NeighbourSteps) -> list[Event]:
-    """Find the steps of one marker: nearest opposite jumps with the marker displaced in between."""
+def judge_steps(
+    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, settings: NeighbourSteps
+) -> list[Event]:
+    """Find the steps of one marker: nearest opposite jumps with the marker displaced in between.
+
+    missing: bool (frames, markers). No step goes on across a gap; across what an earlier detector claimed it does.
+    """
     found_edges = edges.find(course, marker, rate=rate, settings=settings)
     frames = np.array([edge.frame for edge in found_edges], int)
     vector = np.array([edge.jump for edge in found_edges]).reshape(-1, 3)
     residual = course.residual[:, marker]
     shortest, longest = robust.samples(settings.shortest_s, rate), robust.samples(settings.longest_s, rate)
     size = np.linalg.norm(vector, axis=1)
-    gone = np.cumsum(np.isnan(residual[:, 0]))
+    gone = np.cumsum(missing[:, marker])
     candidates = []
     for k, n1 in enumerate(frames):
         for j in range(k + 1, np.searchsorted(frames, n1 + longest, side="right")):
@@ -167,14 +172,17 @@ def detect_steps(
     if isinstance(settings, CoordinateSteps):
         return _detect_in_coordinates(scene, markers=markers, earlier=earlier, settings=settings)
     rate = scene.rate
+    maps, length = edges.central(rate, settings)
+    missing = ~scene.present
     found, course = courses.detect(
         scene,
         markers=markers,
         earlier=earlier,
         settings=settings,
-        maps=edges.central(rate, settings),
+        maps=maps,
+        length=length,
         predictor=predictor,
-        judge=lambda course, m: judge_steps(course, m, name=markers[m], rate=rate, settings=settings),
+        judge=lambda course, m: judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=settings),
     )
     return found, open_steps(course, found, markers=markers, rate=rate, settings=settings)
 
