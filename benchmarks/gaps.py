@@ -12,6 +12,7 @@ mm.
 """
 
 import argparse
+import copy
 import json
 import os
 import sys
@@ -19,7 +20,7 @@ import time
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache, partial, reduce
 from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -58,11 +59,14 @@ def load(folder, name):
 
 @cache
 def ensemble(names, changes=()):
-    """The averaging of the config over the named members, with changed settings (name, value) of the ensemble."""
-    fill = CONFIG["fill"]
+    """The averaging of the config over the named members, with changed settings (dotted name, value) of the ensemble."""
+    fill = copy.deepcopy(CONFIG["fill"])
+    for name, value in changes:
+        *path, last = name.split(".")
+        reduce(dict.__getitem__, path, fill["ensemble"])[last] = value
     settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
     brief = members(names, settings, most_frames=fill["trial_frames"])
-    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"] | dict(changes)))
+    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
 
 
 def fill_gapped(whole, gaps, neighbours, names, changes=()):
@@ -178,7 +182,11 @@ def main():
     parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
     parser.add_argument("--members", nargs="+", default=CONFIG["fill"]["members"], help="in place of the config's")
     parser.add_argument(
-        "--set", nargs="+", default=[], metavar="KEY=VALUE", help="other settings of fill.ensemble, such as weights=pma"
+        "--set",
+        nargs="+",
+        default=[],
+        metavar="KEY=VALUE",
+        help="other settings of fill.ensemble, such as weights=pma or distances.spacing_rounds=5",
     )
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, help="only the first so many of each condition")

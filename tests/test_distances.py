@@ -36,18 +36,18 @@ def test_the_truth_is_likelier_than_what_lies_beside_it(body):
 
 
 def test_what_lies_far_off_is_brought_near_and_the_truth_hardly_moves(body):
-    learned = Distances.learn(scene(body), 9, options())
+    learned = Distances.learn(scene(body), 9, options(spacing_rounds=5))
     off = [np.linalg.norm(learned.constrained(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
     assert off[0].mean() < 1
     assert off[1].mean() < 0.9 * np.sqrt(3) * 60
-    unbound = Distances.learn(scene(body), 9, options(spacing_rounds=0))
+    unbound = Distances.learn(scene(body), 9, options())
     assert np.array_equal(unbound.constrained(body[:, 9] + 60, body), body[:, 9] + 60)
 
 
 def test_without_references_nothing_is_judged(body):
     alone = body.copy()
     alone[40:, 9] = np.nan
-    learned = Distances.learn(scene(alone), 9, options())
+    learned = Distances.learn(scene(alone), 9, options(spacing_rounds=5))
     assert len(learned.references) == 0
     assert (learned.likelihood(body[None, :, 9] + 60, body) == 1).all()
     assert np.array_equal(learned.constrained(body[:, 9] + 60, body), body[:, 9] + 60)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fillings import CONFIG, ensemble, predictor, rigid_body, scene
+from fillings import ensemble, predictor, rigid_body, scene
 from markermend.ensemble import Ensemble
 
 
@@ -12,12 +12,7 @@ def test_the_better_member_gets_the_weight(walker):
     both = ensemble(["local_ridge", "spline"], longest_s={})
     long = both.fill(seen, 7, 400, 600, both.try_out(seen, 7, 400, 600))
     assert long.weights["local_ridge"] > 0.9
-    equal = ensemble(
-        ["local_ridge", "spline"],
-        weights="equal",
-        longest_s={},
-        distances={**CONFIG["fill"]["ensemble"]["distances"], "spacing_rounds": 0},
-    )
+    equal = ensemble(["local_ridge", "spline"], weights="equal", longest_s={})
     halves = equal.fill(seen, 7, 400, 420, equal.try_out(seen, 7, 400, 420))
     assert halves.weights == pytest.approx({"local_ridge": 0.5, "spline": 0.5})
     single = [predictor(name).predict(seen, 7, 400, 420).positions[1:-1] for name in ("local_ridge", "spline")]
