@@ -21,9 +21,6 @@ from markermend.predictors import Scene
 from markermend.recording import runs
 from markermend.regularity import Regularity, learn, windows
 
-FEWEST = 6
-"""Samples of context on either side, at least: they tell the misfit."""
-
 
 @dataclass(frozen=True)
 class CourseSettings:
@@ -98,9 +95,9 @@ class Exceeding:
     misfit: np.ndarray
 
 
-def context(rate: float, settings: CourseSettings) -> int:
+def context(rate: float, settings: CourseSettings, *, fewest: int) -> int:
     """Samples on either side: as long as asked for, and enough to tell the misfit."""
-    return max(robust.samples(settings.context_s, rate), FEWEST)
+    return max(robust.samples(settings.context_s, rate), fewest)
 
 
 def spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:

@@ -13,6 +13,9 @@ from markermend.courses import Contrasts, Courses, CourseSettings
 from markermend.recording import runs
 from markermend.regularity import Regularity
 
+FEWEST = 5
+"""Samples of context on either side, at least: they tell the misfit."""
+
 NEAREST = 2
 """Samples between an edge and a gap, at least: a single one tells no edge from a peak."""
 
@@ -40,13 +43,13 @@ def contrasts(regularity: Regularity, size: int, places: tuple[int, ...]) -> Con
 
 def central(rate: float, settings: CourseSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
     """The maps for a jump amid its context, and the length of their windows."""
-    context = courses.context(rate, settings)
+    context = courses.context(rate, settings, fewest=FEWEST)
     return partial(contrasts, size=2 * context, places=(context,)), 2 * context
 
 
 def find(course: Courses, marker: int, *, rate: float, settings: CourseSettings) -> list[Edge]:
     """Find the edges of one marker, in time; of those that are nearer than half the context, the best."""
-    context = courses.context(rate, settings)
+    context = courses.context(rate, settings, fewest=FEWEST)
     size = 2 * context
     candidates: list[Edge] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):

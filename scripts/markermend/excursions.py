@@ -13,6 +13,9 @@ from markermend.courses import Contrasts, Courses, CourseSettings
 from markermend.recording import runs
 from markermend.regularity import Regularity
 
+FEWEST = 6
+"""Samples of context on either side, at least: they tell the misfit."""
+
 
 @dataclass(frozen=True)
 class ExcursionSettings(CourseSettings):
@@ -72,14 +75,14 @@ def jumps(regularity: Regularity, size: int) -> np.ndarray:
 
 def of_longest(rate: float, settings: ExcursionSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
     """The maps for the longest excursion amid its context, and the length of their windows."""
-    length, context = robust.samples(settings.longest_s, rate), courses.context(rate, settings)
+    length, context = robust.samples(settings.longest_s, rate), courses.context(rate, settings, fewest=FEWEST)
     size = length + 2 * context
     return partial(contrasts, length=length, size=size, places=(context,)), size
 
 
 def find(course: Courses, marker: int, *, rate: float, settings: ExcursionSettings) -> list[Excursion]:
     """Find the excursions of one marker, the surest first; none is nearer to a surer one than what that is judged by."""
-    context = courses.context(rate, settings)
+    context = courses.context(rate, settings, fewest=FEWEST)
     candidates: list[Excursion] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
         for length in range(1, min(robust.samples(settings.longest_s, rate), stop - start - 2 * context) + 1):
