@@ -72,13 +72,15 @@ def main():
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--recordings", nargs="+", help="only these, such as Qualisys")
     parser.add_argument("--lengths", nargs="+", type=float, default=LENGTHS_S, help="of the gaps, s")
     parser.add_argument("--markers", nargs="+", type=int, default=[1, 3], help="that miss the stretch at once")
     parser.add_argument("--runs", type=int, default=4, help="per recording, length and number of markers")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     arguments = parser.parse_args()
-    names = sorted(path.stem for path in (arguments.data / "clean").iterdir() if path.suffix in (".c3d", ".trc"))
+    clean = sorted(path.stem for path in (arguments.data / "clean").iterdir() if path.suffix in (".c3d", ".trc"))
+    names = arguments.recordings or clean
     plan = [
         (name, length, markers, [arguments.seed, run])
         for name in names
