@@ -65,11 +65,13 @@ def segments(load):
 
 
 def neighbours(load):
-    """A marker and its 15 nearest neighbours miss the same second."""
+    """A marker and its 15 nearest neighbours miss the same second, at five places."""
     whole = load("85_12")
     near = mesh_of(whole).neighbour_indices(whole.markers)
     for marker in (5, 20):
-        yield Case("marker and 15 nearest", whole, at_once([marker, *near[marker][:15]], 2000, 120))
+        lost = [marker, *near[marker][:15]]
+        gone = [gap for start in spread(5, 120, whole.frames) for gap in at_once(lost, start, 120)]
+        yield Case(f"{whole.markers[marker]} and 15 nearest", whole, gone)
 
 
 def blackout(load):
