@@ -11,7 +11,7 @@ import numpy as np
 
 from markermend.predictors import Prediction, Scene
 from markermend.predictors.linear_dynamics import LinearDynamics
-from markermend.predictors.lowrank import expected
+from markermend.predictors.matrix_completion import expected
 from markermend.predictors.references import companions, thinned
 
 

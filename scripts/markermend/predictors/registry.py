@@ -13,13 +13,14 @@ from markermend.predictors.kalman import KalmanOptions, KalmanSmoother
 from markermend.predictors.linear import GlobalRegression, LinearOptions
 from markermend.predictors.local import LocalRidge, RidgeOptions
 from markermend.predictors.loose import LOOSE, LooseOptions
-from markermend.predictors.lowrank import IteratedSvd, PcaOptions, SvdOptions, WeightedPca
+from markermend.predictors.msvd import IteratedSvd, SvdOptions
 from markermend.predictors.network_options import NetworkOptions
 from markermend.predictors.networks import KINDS as NETWORKS
 from markermend.predictors.networks import Network
 from markermend.predictors.polynomial import Polynomial
 from markermend.predictors.reference_frame import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
 from markermend.predictors.replicated_network import ReplicatedNetwork, ReplicatedOptions
+from markermend.predictors.weighted_pca import PcaOptions, WeightedPca
 
 FAMILIES = {
     "local_ridge": "the predictor local_ridge",
