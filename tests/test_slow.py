@@ -64,10 +64,21 @@ def test_on_a_rigid_segment_the_distances_tell_whose_it_is(culprit):
         assert not company.more_disturbed(other, culprit, event)
 
 
-@pytest.mark.parametrize(("first", "last", "expected"), [(200, 220, []), (800, 900, ["LTIAP"])])
-def test_where_a_neighbour_comes_or_goes_nothing_is_found(half, first, last, expected):
-    recording = put(half, PLACES[:1], lambda length: triangle(length, [3, 1, -2]))
-    near = neighbours(recording.positions)[recording.markers.index("LTIAP")]
-    positions = recording.positions.copy()
-    positions[first:last, near[3]] = np.nan
-    assert [event.marker for event in slow_changes(replace(recording, positions=positions))] == expected
+def without_neighbours(recording, places, ranks):
+    """The recording with a gap in neighbours of so many ranks from the middle of each place to well after it."""
+    positions, near = recording.positions.copy(), neighbours(recording.positions)
+    for marker, start, stop in places:
+        own = near[recording.markers.index(marker)]
+        positions[(start + stop) // 2 : stop + 60, own[ranks]] = np.nan
+    return replace(recording, positions=positions)
+
+
+@pytest.mark.parametrize("ranks", [[3], [1, 4, 8]])
+def test_found_though_neighbours_come_and_go(half, ranks):
+    assert slow_changes(without_neighbours(half, PLACES, ranks)) == []
+    changed = put(half, PLACES, lambda length: triangle(length, [3, 1, -2]))
+    found = slow_changes(without_neighbours(changed, PLACES, ranks))
+    assert [event.marker for event in found] == sorted(marker for marker, _, _ in PLACES)
+    for event, (_, start, stop) in zip(found, sorted(PLACES), strict=True):
+        assert abs(event.start - start) <= 12
+        assert abs(event.stop - stop) <= 12

@@ -74,6 +74,6 @@ def detect_slow(
     found = []
     for m, name in enumerate(markers):
         for event in judge_slow(matches, m, name=name, rate=rest.rate, settings=settings):
-            if company.stays(m, event) and company.exculpates(m, event):
+            if company.upholds(m, event):
                 found.append(event)
     return events.tidy(found)

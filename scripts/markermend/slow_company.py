@@ -1,4 +1,4 @@
-"""What the neighbours of a marker tell about a slow change: are they all there, and is it one of them that drifts?"""
+"""What the neighbours of a marker tell about a slow change: do they agree, whoever is seen, and is it one of them?"""
 
 from __future__ import annotations
 
@@ -36,35 +36,44 @@ class Company:
         margin = int(self.settings.flank * (event.stop - event.start))
         return self.scene.present[max(event.start - margin, 0) : event.stop + margin, markers]
 
-    def stays(self, marker: int, event: Event) -> bool:
-        """Whether each neighbour is seen all the while, or never, from before an event of a marker to after it.
+    def transient(self, marker: int, event: Event) -> np.ndarray:
+        """The neighbours that are seen for a part of the time only, from before an event of a marker to after it.
 
         A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What
         is brief does not count: it makes no slow change.
         """
-        seen, brief = self.seen(event, self.near(marker)), robust.samples(self.settings.brief_s, self.scene.rate)
+        near, brief = self.near(marker), robust.samples(self.settings.brief_s, self.scene.rate)
+        seen = self.seen(event, near)
         count = np.count_nonzero(seen, axis=0)
-        return bool(((count >= len(seen) - brief) | (count <= brief)).all())
+        return near[(count < len(seen) - brief) & (count > brief)]
 
-    def exculpates(self, marker: int, event: Event) -> bool:
-        """Whether an event is the marker's own, and not that of a neighbour that is off as well and dragged it along.
+    def upholds(self, marker: int, event: Event) -> bool:
+        """Whether an event is the marker's own: neither made by neighbours that come and go, nor by one that is off as well.
 
-        Of each neighbour that may have done so: the marker is still off without it; or, as on a rigid segment, where
-        nothing tells without either, the marker's distances to the others are disturbed more than that neighbour's.
+        The marker must still be off without all of the first. Of each of the second, which may have dragged it along:
+        the marker is still off without it; or, as on a rigid segment, where nothing tells without either, the marker's
+        distances to the others are disturbed more than that neighbour's.
         """
+        transient, suspects = self.transient(marker, event), self.suspects(marker, event)
+        if len(transient) and not self.off_without(transient, marker, event):
+            return False
+        return all(
+            self.off_without(np.append(transient, suspect), marker, event)
+            or self.more_disturbed(marker, suspect, event)
+            for suspect in np.setdiff1d(suspects, transient).tolist()
+        )
+
+    def suspects(self, marker: int, event: Event) -> np.ndarray:
+        """The neighbours that are off as well during an event of a marker."""
         near, flank = self.near(marker), self.settings.flank
         own, *heights = (
             bumps.height(self.matches.residual[:, m], event.start, event.stop, flank=flank) for m in (marker, *near)
         )
-        suspects = np.nan_to_num(heights) > self.settings.suspect * own
-        suspects |= self.matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1
-        return all(
-            self.off_without(suspect, marker, event) or self.more_disturbed(marker, suspect, event)
-            for suspect in near[suspects].tolist()
-        )
+        off = np.nan_to_num(heights) > self.settings.suspect * own
+        return near[off | (self.matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)]
 
-    def off_without(self, hidden: int, marker: int, event: Event) -> bool:
-        """Whether a bump stands out on a marker during an event though a neighbour is hidden."""
+    def off_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
+        """Whether a bump stands out on a marker during an event though some neighbours are hidden."""
         positions = self.scene.positions.copy()
         positions[:, hidden] = np.nan  # throughout: a looser prediction needs its own scale
         rest = replace(self.scene, positions=positions)
