@@ -79,3 +79,21 @@ def test_a_step_that_motion_hides_is_told_by_jumps_that_cancel(walker):
     drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the course beside it, smoothly
     found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
+
+
+def test_steps_that_gaps_and_the_end_cut_short(walker):
+    cut = [("LELB", 560, 600), ("RKNE", 1150, 1200), ("RASI", 820, 870)]
+    recording = put(walker.recording, cut, lambda length: np.ones((length, 1)) * [8, 3, -6])
+    for marker, start, stop in (("LELB", 600, 620), ("RASI", 800, 820)):
+        recording.positions[start:stop, recording.markers.index(marker)] = np.nan
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(cut)
+    assert left == []
+
+
+def test_no_step_is_cut_short_where_the_marker_is_not_back_beyond_the_gap(walker):
+    recording = put(walker.recording, [("LELB", 560, 1200)], lambda length: np.ones((length, 1)) * [8, 3, -6])
+    recording.positions[600:620, recording.markers.index("LELB")] = np.nan
+    found, left = detect(recording, only=("steps",))
+    assert found["steps"] == []
+    assert ("LELB", 560) in [(step.marker, step.frame) for step in left]

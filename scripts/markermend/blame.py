@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Protocol, TypeVar
 
@@ -31,31 +31,42 @@ def find(
     predictor: ResidualSource,
     rounds: int,
     reach: int,
+    open_at: Callable[[Measured, int], Sequence[int]] | None = None,
 ) -> tuple[list[Event], Measured]:
     """Find events in the residuals and put the blame where it belongs.
 
     measure: (scene, residual, only, was), what to judge of the residuals; with `only` and `was` anew for those markers.
     judge: the events of one marker by its index. Where markers among each other's first `reach` neighbours are found at
     the same time, the one of highest score is believed; its samples are taken out of the scene, the others are predicted
-    without them and judged again, at most `rounds` times. Returns the events and what was measured last.
+    without them and judged again, at most `rounds` times. open_at: frames of a marker at which something is open; where an
+    event that a neighbour is believed to have begins or ends at one, the marker is judged again too. Returns the events
+    and what was measured last.
     """
     residual = predictor.residuals(scene)
     measured = measure(scene, residual, None, None)
     found = {m: judge(measured, m) for m in range(len(markers))}
     index = {name: m for m, name in enumerate(markers)}
-    near = [set(np.asarray(neighbours, int)[:reach].tolist()) for neighbours in scene.neighbours]
+    company = _company(scene, reach)
     believed: set[Event] = set()
+    suspects: set[int] = set()
     for _ in range(rounds):
-        doubted, believed = _rivals([event for own in found.values() for event in own], near, index, believed)
+        # Those believed already are no rivals any more: what is new was found without them.
+        others = {event for own in found.values() for event in own} - believed
+        new = _surest(others, company, index)
+        beside = _beside(new, company, index)
+        if open_at is not None:
+            suspects |= {m for m, frames in beside.items() if frames.intersection(open_at(measured, m))}
+        believed |= new
+        doubted = sorted({index[event.marker] for event in others - new} | (suspects & beside.keys()))
+        suspects.update(doubted)
         if not doubted:
             break
         positions = scene.positions.copy()
         for event in believed:
             positions[event.start : event.stop, index[event.marker]] = np.nan
-        affected = np.array(doubted)
         hidden = replace(scene, positions=positions)
         residual = residual.copy()
-        residual[:, affected] = predictor.residuals(hidden, affected)[:, affected]
+        residual[:, doubted] = predictor.residuals(hidden, np.array(doubted))[:, doubted]
         measured = measure(hidden, residual, doubted, measured)
         for m in doubted:
             kept = [event for event in found[m] if event in believed]
@@ -64,24 +75,31 @@ def find(
     return [event for own in found.values() for event in own], measured
 
 
+def _company(scene: Scene, reach: int) -> list[set[int]]:
+    """For each marker the others that are among its first `reach` neighbours, or it among theirs."""
+    near = [set(np.asarray(neighbours, int)[:reach].tolist()) for neighbours in scene.neighbours]
+    return [own | {n for n, others in enumerate(near) if m in others} for m, own in enumerate(near)]
+
+
 def _overlap(one: Event, other: Event) -> bool:
     """Whether two events share a frame."""
     return one.start < other.stop and other.start < one.stop
 
 
-def _rivals(
-    found: Sequence[Event], near: Sequence[set[int]], index: dict[str, int], believed: set[Event]
-) -> tuple[list[int], set[Event]]:
-    """Split events that neighbours have at the same time: the markers to judge again, and the events to believe."""
-    doubted: set[int] = set()
-    certain = set(believed)
+def _surest(found: Iterable[Event], company: Sequence[set[int]], index: dict[str, int]) -> set[Event]:
+    """The events that none of a neighbour overlaps which is surer and itself among them."""
+    surest: set[Event] = set()
     for event in sorted(found, key=lambda event: (-event.score, event.order)):
-        m = index[event.marker]
-        rivals = [
-            c for c in certain if _overlap(event, c) and (index[c.marker] in near[m] or m in near[index[c.marker]])
-        ]
-        if event not in certain and rivals:
-            doubted.add(m)
-        else:
-            certain.add(event)
-    return sorted(doubted), certain
+        around = company[index[event.marker]]
+        if not any(_overlap(event, other) and index[other.marker] in around for other in surest):
+            surest.add(event)
+    return surest
+
+
+def _beside(found: Iterable[Event], company: Sequence[set[int]], index: dict[str, int]) -> dict[int, set[int]]:
+    """For each marker that has a neighbour with one of these events, the frames at which they begin or end."""
+    out: dict[int, set[int]] = {}
+    for event in found:
+        for m in company[index[event.marker]]:
+            out.setdefault(m, set()).update((event.start, event.stop))
+    return out

@@ -95,9 +95,10 @@ def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settin
             enough = max(settings.minimum_changes, settings.density * length)
             if length >= shortest and len(group) >= enough:
                 best = float(score[group].max())
-                # Next to a gap the noise has no closing edge: a remainder too short to judge goes with it.
-                first = start if group[0] - start <= link else int(group[0])
-                last = stop if stop - group[-1] <= link else int(group[-1])
+                # Next to a gap the noise has no closing edge: a remainder as quiet as it is amid the noise goes with it.
+                quiet = int(np.diff(group).max())
+                first = start if group[0] - start <= quiet else int(group[0])
+                last = stop if stop - group[-1] <= quiet else int(group[-1])
                 found.append(Event(name, first, last, best, events.carrying(vector[group])))
     return found
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from markermend import coordinates, courses, detection, edges, events, robust
 from markermend.blame import ResidualSource
-from markermend.courses import Courses, CourseSettings
+from markermend.courses import Courses
 from markermend.events import Event
+from markermend.levels import NeighbourSteps, cut_short, judge_steps
 from markermend.noise import difference_high_pass
 from markermend.predictors import Scene
 
@@ -72,70 +73,6 @@ def find_steps(
     return mask, score, alone
 
 
-@dataclass(frozen=True)
-class NeighbourSteps(CourseSettings):
-    """Settings of the detector against the neighbours (config steps.default), beside those of courses.
-
-    shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. held: the median of all samples in
-    between differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for
-    this part of them: motion may hide that the marker is displaced.
-    """
-
-    shortest_s: float
-    longest_s: float
-    ratio: float
-    cosine: float
-    held: float
-    alike: float
-
-
-def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
-    """How far the whole of [start, stop) is displaced along a jump (3,), mm, as a part of it.
-
-    residual: (frames, 3), mm. The median inside is compared with that of as many samples outside, half on either side.
-    """
-    reach = max(1, (stop - start) // 2)
-    outside = np.concatenate([residual[max(start - reach, 0) : start], residual[stop : stop + reach]])
-    moved = np.nanmedian(residual[start:stop], axis=0) - np.nanmedian(outside, axis=0)
-    return float(moved @ jump / (jump @ jump))
-
-
-def judge_steps(
-    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, settings: NeighbourSteps
-) -> list[Event]:
-    """Find the steps of one marker: nearest opposite jumps with the marker displaced in between.
-
-    missing: bool (frames, markers). No step goes on across a gap; across what an earlier detector claimed it does.
-    """
-    found_edges = edges.find(course, marker, rate=rate, settings=settings)
-    frames = np.array([edge.frame for edge in found_edges], int)
-    vector = np.array([edge.jump for edge in found_edges]).reshape(-1, 3)
-    residual = course.residual[:, marker]
-    shortest, longest = robust.samples(settings.shortest_s, rate), robust.samples(settings.longest_s, rate)
-    size = np.linalg.norm(vector, axis=1)
-    gone = np.cumsum(missing[:, marker])
-    candidates = []
-    for k, n1 in enumerate(frames):
-        for j in range(k + 1, np.searchsorted(frames, n1 + longest, side="right")):
-            n2 = frames[j]
-            opposite = -vector[k] @ vector[j] >= settings.cosine * size[k] * size[j]
-            balanced = settings.ratio <= size[k] / size[j] <= 1 / settings.ratio
-            if n2 - n1 < shortest or not opposite or not balanced or gone[n1] != gone[n2]:
-                continue
-            mean = (vector[k] - vector[j]) / 2
-            alike = np.linalg.norm(vector[k] + vector[j]) <= settings.alike * np.linalg.norm(mean)
-            if alike or displacement(residual, n1, n2, mean) >= settings.held:
-                candidates.append((n2 - n1, k, j))
-    found, used = [], np.zeros(len(frames), bool)
-    for _, k, j in sorted(candidates):
-        if not used[k : j + 1].any():
-            used[k : j + 1] = True
-            best = min(found_edges[k].score, found_edges[j].score)
-            found.append(Event(name, int(frames[k]), int(frames[j]), best, events.carrying(vector[[k, j]])))
-    return found
-
-
 def open_steps(
     course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: NeighbourSteps
 ) -> list[OpenStep]:
@@ -183,7 +120,11 @@ def detect_steps(
         length=length,
         predictor=predictor,
         judge=lambda course, m: judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=settings),
+        open_at=lambda course, m: [edge.frame for edge in edges.find(course, m, rate=rate, settings=settings)],
     )
+    for m, name in enumerate(markers):
+        cut = cut_short(course, m, found, missing=missing[:, m], name=name, rate=rate, settings=settings)
+        found = events.tidy([*found, *cut])
     return found, open_steps(course, found, markers=markers, rate=rate, settings=settings)
 
 
