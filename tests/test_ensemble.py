@@ -57,6 +57,21 @@ def test_a_fallback_is_asked_only_where_no_other_can_tell(walker):
     assert np.isfinite(found.deviation).all()
 
 
+def test_gaps_of_many_sorts_are_judged_as_those_most_alike(walker):
+    positions = walker.recording.positions[:400].copy()
+    near = [int(other) for other in scene(positions).neighbours[7]]
+    places = [(40 + 30 * k, near[: k + 1]) for k in range(6)]
+    for start, lost in places:
+        positions[start : start + 10, [7, *lost]] = np.nan
+    seen, own, known = scene(positions), ensemble(["spline"], most_sorts=4), []
+    for start, lost in places[:4]:
+        known.append(own.sort(seen, 7, start, start + 10, known))
+        assert known[-1].absent == set(lost)
+    assert own.sort(seen, 7, places[5][0], places[5][0] + 10, known) == known[3]
+    assert own.sort(seen, 7, places[1][0], places[1][0] + 10, known) == known[1]
+    assert own.sort(seen, 8, 40, 50, known).marker == 8
+
+
 def test_a_rigid_body_is_filled_exactly():
     positions = rigid_body()
     seen, own = scene(positions), ensemble()

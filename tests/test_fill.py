@@ -77,7 +77,7 @@ def test_a_complete_recording_comes_back_as_it_was(person):
         ((7, 50, 500), {}, "marker seen in 25% of the frames, 30% needed"),
         ((7, 200, 220), {"protect": ["?SI", "NECK", "*"]}, "protected marker"),
         ((7, 200, 220), {"max_error_mm": 0.01}, "expected error"),
-        ((7, 1, 20), {"border_s": 0.05}, "not seen for 0.05 s on either side"),
+        ((7, 1, 20), {"border_s": 0.05}, "not seen for 0.05 s on both sides"),
         ((7, 200, 220), {"max_altered_share": 0.0001}, "nothing filled: 0% of the recording would be altered"),
     ],
 )
@@ -88,6 +88,13 @@ def test_what_stays_open_says_why(person, gap, changed, reason):
     assert np.array_equal(result.positions, recording.positions, equal_nan=True)
     assert (result.origin[gap[1] : gap[2], 7] == MISSING).all()
     assert np.isnan(result.error[gap[1] : gap[2], 7]).all()
+
+
+def test_a_marker_that_repair_took_away_was_seen(person):
+    recording = gapped(person, (7, 0, 600))
+    name = person[1][7]
+    result = fill(replace(recording, facts={"repairs_left": [{"marker": name}]}), person[2])
+    assert reasons(result) == {name: "nothing of it was left to learn from"}
 
 
 def test_a_static_recording_is_not_touched(person):

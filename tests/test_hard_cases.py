@@ -240,7 +240,7 @@ def test_metres_are_filled_alike(chain, tmp_path):
 def test_few_frames(chain, frames, gap):
     done = fill(first(chain, frames=frames), [gap])
     if frames < 50:
-        left_open(done, "not seen for 0.02 s on either side")
+        left_open(done, "not seen for 0.02 s on both sides")
     else:
         filled_well(done, gaps=1, error=3)
 
@@ -258,7 +258,7 @@ def test_islands_of_a_sample_or_two(chain, between):
     gaps = [(9, start, start + 24) for start in range(600, 600 + 5 * (24 + between), 24 + between)]
     done = fill(chain, gaps)
     if between == 1:
-        left_open(done, "not seen for 0.02 s on either side")
+        left_open(done, "not seen for 0.02 s on both sides")
         done = fill(chain, gaps, border_s=0.0)
     filled_well(done, gaps=5, error=2)
 

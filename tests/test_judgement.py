@@ -123,3 +123,10 @@ def test_a_swap_needs_its_partner(partner):
     swaps = [(event.marker, event.partner, event.start, event.stop) for event in judged.found["steps"]]
     assert swaps == ([] if partner == "C" else [("A1", "B", 4, 9), ("B", "A1", 4, 9)])
     assert bool(judged.found["peaks"]) == (partner == "C")
+
+
+def test_a_piece_of_a_finding_in_which_nothing_was_measured_is_no_finding():
+    before = recording([(0, 10, 14)])
+    shut = [Decision("A1", 6, 10, "protect"), Decision("A1", 14, 16, "protect")]
+    judged = judge(before, {"peaks": [Event("A1", 4, 20, 2.0)]}, shut)
+    assert [(event.start, event.stop) for event in judged.found["peaks"]] == [(4, 6), (16, 20)]

@@ -11,7 +11,9 @@ from repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 
 N = 24
 KERNEL = Covariance(np.array([0.04, 2.0, 5.0, 1.0, 0.5]), np.array([0.05, 0.3]))
-OPTIONS = SeparationOptions(amplitudes_mm=[3, 12, 48], roughness_mm=[0.1, 1], border_s=0.1, margins=[0])
+OPTIONS = SeparationOptions(
+    amplitudes_mm=[3, 12, 48], roughness_mm=[0.1, 1], border_s=0.1, margins=[0], most_frames=1000
+)
 EXTENTS = [(0, N), (3, N - 2)]
 
 
@@ -143,11 +145,26 @@ def test_a_gap_within_stays_a_gap(clean, method):
     assert np.isnan(result.positions[612:618, m]).all() and not np.isnan(result.positions[START:612, m]).any()
 
 
+def test_what_is_too_long_to_part_is_left_to_others(clean):
+    found = {"steps": [Event(MARKER, START, STOP, 4.0)]}
+    given = {
+        "most_frames": STOP - START - 1,
+        "amplitudes_mm": [3],
+        "roughness_mm": [1],
+        "border_s": 0.15,
+        "margins": [0],
+    }
+    methods = {**METHODS, "steps": ["separate_step"]}
+    result = mend(distorted(clean, 12.0), found, methods=methods, separation=given)
+    (left,) = result.facts["repairs_left"]
+    assert left["reason"] == "no repair can be trusted (separate_step: not applicable)"
+
+
 def test_a_slow_change_may_begin_before_it_was_found(clean):
     """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
     course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
     recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
-    given = {"amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
+    given = {"most_frames": 1000, "amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
     exact, wider = (
         mend(recording, found, methods={**METHODS, "slow": ["separate_slow"]}, separation={**given, "margins": margins})
         for margins in ([0], [0, 0.1])

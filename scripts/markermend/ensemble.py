@@ -8,7 +8,7 @@ markers that the real gap misses. They also calibrate the error that is stated f
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -35,7 +35,7 @@ class EnsembleOptions:
     the error. pseudo_gaps: so many are tried. hidden_share: share of a marker's samples that are hidden at once for
     trials, which then share what is learned without them. similar_length, similar_neighbours: gaps of a marker share
     their pseudo-gaps if their lengths differ by less than this factor and the same of so many nearest neighbours are
-    missing. worst: members whose error exceeds the best member's by this factor are left out. distances: see
+    missing; of a marker at most `most_sorts` sorts of gaps have pseudo-gaps of their own. worst: members whose error exceeds the best member's by this factor are left out. distances: see
     DistanceOptions. error_mm: least error of a member. prior: weight of the stated errors, in pseudo-gaps, against what
     the pseudo-gaps of a gap tell. radius: see RadiusOptions.
     """
@@ -48,6 +48,7 @@ class EnsembleOptions:
     hidden_share: float
     similar_length: float
     similar_neighbours: int
+    most_sorts: int
     worst: float
     distances: Mapping[str, float]
     error_mm: float
@@ -57,6 +58,16 @@ class EnsembleOptions:
     def __post_init__(self) -> None:
         if self.weights not in WEIGHTS:
             raise ValueError(f"unknown weights {self.weights!r}: one of {', '.join(WEIGHTS)}")
+
+
+@dataclass(frozen=True)
+class Sort:
+    """What gaps of a marker have in common: about their length, whether they are at the start or end, who is missing."""
+
+    marker: int
+    size: int
+    ends: tuple[bool, bool]
+    absent: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -93,12 +104,21 @@ class Ensemble:
         self.options = options
         self._judging = DistanceOptions(**options.distances)  # type: ignore[arg-type]
 
-    def sort(self, scene: Scene, marker: int, start: int, stop: int) -> tuple[Hashable, ...]:
-        """The sort of gap that this is: what try_out tells of one holds for all of its sort."""
+    def sort(self, scene: Scene, marker: int, start: int, stop: int, known: Collection[Sort]) -> Sort:
+        """The sort of gap that this is: what try_out tells of one holds for all of its sort.
+
+        known: the sorts of before. Where these are many of the marker, it is the one most alike of those.
+        """
         near = np.asarray(scene.neighbours[marker], int)[: self.options.similar_neighbours]
         absent = np.flatnonzero(~scene.present[start:stop, near].all(axis=0))
         size = math.floor(math.log(stop - start, self.options.similar_length))
-        return marker, size, start == 0, stop == len(scene.positions), tuple(near[absent].tolist())
+        ends = start == 0, stop == len(scene.positions)
+        own = Sort(marker, size, ends, frozenset(near[absent].tolist()))
+        before = [sort for sort in known if sort.marker == marker]
+        alike = [sort for sort in before if sort.ends == ends]
+        if own in known or len(before) < self.options.most_sorts or not alike:
+            return own
+        return min(alike, key=lambda sort: (abs(sort.size - size), len(sort.absent ^ own.absent), sorted(sort.absent)))
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
         """Let the members that learn faster together learn for each scene and marker."""

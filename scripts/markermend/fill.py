@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from markermend.calibration import RadiusOptions, radii
 from markermend.decisions import GAP, Decision, rule
-from markermend.ensemble import Ensemble, Filling
+from markermend.ensemble import Ensemble, Filling, Sort
 from markermend.fillable import FillOptions, Gap, gaps, why_not
 from markermend.predictors import Scene
 from markermend.predictors.interpolation import KINDS
@@ -111,7 +111,7 @@ class _Filler:
         self._doubt: np.ndarray = before._doubt.copy() if before else np.zeros(scene.present.shape)
         self._new: list[Gap] = []
         self._scene = scene
-        self._trust: dict[tuple[Hashable, ...], Trust] = {}
+        self._trust: dict[Sort, Trust] = {}
         self._marker: int | None = None
 
     def fill(self, gap: Gap) -> None:
@@ -173,11 +173,11 @@ class _Filler:
         worst, most = radius * float(filling.deviation.max()), self._options.max_error_mm
         if most is None or worst <= most:
             return None
-        return f"expected error {worst:.0f} mm, at most {most:g} mm wanted"
+        return f"expected error {worst:.3g} mm, at most {most:g} mm wanted"
 
     def _trusted(self, gap: Gap) -> Trust:
         """What pseudo-gaps tell for this gap, or told for one of similar length that missed the same markers."""
-        key = self._ensemble.sort(self._scene, gap.marker, gap.start, gap.stop)
+        key = self._ensemble.sort(self._scene, gap.marker, gap.start, gap.stop, self._trust)
         if key not in self._trust:
             self._trust[key] = self._ensemble.try_out(self._scene, gap.marker, gap.start, gap.stop)
         return self._trust[key]

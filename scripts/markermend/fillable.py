@@ -61,7 +61,8 @@ def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOpti
         return "static recording"
     seen = 1 - np.count_nonzero(missing[:, gap.marker]) / frames
     if seen == 0:
-        return "never seen"
+        blanked = any(entry["marker"] == name for entry in restored.facts.get("repairs_left", []))
+        return "nothing of it was left to learn from" if blanked else "never seen"
     if any(fnmatchcase(name, pattern) for pattern in options.protect):
         return "protected marker"
     if ruling.left or ruling.confirmed:
@@ -77,7 +78,7 @@ def why_not(restored: Restored, missing: np.ndarray, gap: Gap, options: FillOpti
     seen_before = gap.start >= border and not missing[gap.start - border : gap.start, gap.marker].any()
     seen_after = gap.stop + border <= frames and not missing[gap.stop : gap.stop + border, gap.marker].any()
     if not (seen_before or gap.start == 0) or not (seen_after or gap.stop == frames):
-        return f"not seen for {options.border_s:g} s on either side"
+        return f"not seen for {options.border_s:g} s on both sides"
     return None
 
 

@@ -64,6 +64,8 @@ def _admit(
     # A label swap takes missing samples along; any other finding ends where samples were taken away.
     free = ~shut if event.partner else ~shut & ~away[span, concerned[0]]
     for start, stop in runs(free):
+        if judged.recording.missing[event.start + start : event.start + stop, concerned].all():
+            continue
         judged.found[stage].append(replace(event, start=event.start + start, stop=event.start + stop))
     for start, stop in runs(shut):
         place = event.start + start, event.start + stop

@@ -23,6 +23,8 @@ def motion(
     The marker's own course does not count. positions: NaN = missing; neighbours that are missing do not count, and 0
     where none is seen. smooth: over so many samples.
     """
+    if len(positions) < 2:
+        return np.zeros((2, *positions.shape[:2]))
     smoothed = mean_over(positions, smooth)
     velocity = np.gradient(smoothed, axis=0) * rate
     acceleration = np.gradient(velocity, axis=0) * rate

@@ -201,7 +201,11 @@ class _Repairer:
             self.result.write(stage, event, taken, offers, ruling)
             return
         able = {offer.proposal.method: offer.against(options.max_error_mm) for offer in offers}
-        told = [f"{method}: {able.get(method, 'not applicable')}" for method in methods if method != "swap"]
-        reason = f"no repair can be trusted ({'; '.join(told)})"
+        told = [
+            f"{method}: {able[method] or 'less sure than another'}" if method in able else f"{method}: not applicable"
+            for method in methods
+            if method != "swap"
+        ]
+        reason = f"no repair can be trusted ({'; '.join(told)})" if told else f"no method for {stage}: treated as a gap"
         harmless = best is not None and best.doubt is not None
         self.result.leave(event, stages, reason, ruling, blank=not harmless, offers=offers)

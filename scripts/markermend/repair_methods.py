@@ -72,10 +72,12 @@ def separated(
     """The measured samples without the artifact that a method of COURSES tells apart from the error of the prediction.
 
     original: (frames, 3), the marker's course as measured, NaN = missing. None where the neighbours cannot tell for
-    every sample.
+    every sample, and for more samples than the options allow.
     """
     margins = [round(share * (stop - start)) for share in options.margins] if method == "separate_slow" else [0]
     first, last = _free(scene.present[:, marker], start, stop, max(margins))
+    if last - first > options.most_frames:
+        return None
     prediction = ridge.predict(scene, marker, first, last)
     positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
     if np.isnan(positions).any() or np.isnan(deviation).any() or np.isnan(original[start:stop]).all():

@@ -38,13 +38,15 @@ class SeparationOptions:
     amplitudes_mm: amplitudes that are tried. roughness_mm: standard deviations of white noise besides, by which an
     artifact may depart from the course of its class; all are tried with all amplitudes. border_s: how far into the
     observed samples either border reaches. margins: by these shares of its length a slow change may begin earlier and
-    end later than was found: nobody can tell that to the sample.
+    end later than was found: nobody can tell that to the sample. most_frames: longer artifacts are not parted: memory
+    grows with the square of the length, time with the cube.
     """
 
     amplitudes_mm: Sequence[float]
     roughness_mm: Sequence[float]
     border_s: float
     margins: Sequence[float]
+    most_frames: int
 
 
 def artifacts(method: str, n: int, options: SeparationOptions, extents: Sequence[tuple[int, int]]) -> np.ndarray:

@@ -63,7 +63,7 @@ def detect_tails(
 def _suspects(scene: Scene, believed: Scene, settings: TailSettings, predictor: LocalRidge) -> list[tuple[Place, int]]:
     """From the first sudden change beside a gap up to the gap, each with the side on which the gap is."""
     lengths = settings.longest_s, settings.before_s, settings.activity_s
-    longest, before, activity = (samples(length, scene.rate) for length in lengths)
+    longest, before, activity = (max(2, samples(length, scene.rate)) for length in lengths)
     borders = list(_borders(scene.present, believed.present, longest + before))
     residual = predictor.residuals(believed, np.unique([m for m, *_ in borders]).astype(int))
     size = np.linalg.norm(np.diff(residual, axis=0), axis=2)
