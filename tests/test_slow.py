@@ -82,16 +82,3 @@ def test_found_though_neighbours_come_and_go(half, ranks):
     for event, (_, start, stop) in zip(found, sorted(PLACES), strict=True):
         assert abs(event.start - start) <= 12
         assert abs(event.stop - stop) <= 12
-
-
-@pytest.mark.parametrize(
-    ("marker", "start", "stop", "gap"), [("LTIAP", 0, 60, 0), ("LANK", 386, 457, 63), ("LUPA", 1139, 1200, 0)]
-)
-def test_found_next_to_a_gap_of_its_own_and_at_the_ends(half, marker, start, stop, gap):
-    changed = put(half, [(marker, start, stop)], lambda length: triangle(length, [3, 1, -2]))
-    positions = changed.positions.copy()
-    positions[stop : stop + gap, half.markers.index(marker)] = np.nan
-    (found,) = slow_changes(replace(changed, positions=positions))
-    assert found.marker == marker
-    assert abs(found.start - start) <= 10
-    assert abs(found.stop - stop) <= 10

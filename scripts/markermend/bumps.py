@@ -6,7 +6,6 @@ a constant, those that find a bump of given length with the least variance. `str
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,22 +21,15 @@ USUAL = 3
 """So many lengths of a bump on either side tell the usual level of the residual."""
 
 
-NEARER = (0.0, 0.5)
-"""Next to a gap, also so much of the flank on its side is enough."""
-
-
 @dataclass(frozen=True)
 class BumpFilter:
-    """Weights on means over `step` samples each, which answer to noise with variance 1.
+    """Weights (taps,) on means over `step` samples each, which answer to noise with variance 1.
 
-    before, during, after: so many means. deviation: standard deviation of the height of the bump that they find.
+    deviation: standard deviation of the height of the bump that they find.
     """
 
     weights: np.ndarray
     step: int
-    before: int
-    during: int
-    after: int
     deviation: float
 
 
@@ -46,22 +38,16 @@ def rise(at: np.ndarray) -> np.ndarray:
     return 0.5 - 0.5 * np.cos(2 * np.pi * np.clip(at, 0.0, 1.0))
 
 
-def make_filters(covariance: Covariance, *, length: int, flank: float, taps: int, rate: float) -> list[BumpFilter]:
-    """The filters for bumps of a length in samples: one looks at `flank` of the length on either side, others at less of one.
+def make_filter(covariance: Covariance, *, length: int, flank: float, taps: int, rate: float) -> BumpFilter:
+    """The filter for bumps of a length in samples; `flank` of the length is looked at on either side.
 
     taps: over the bump, at most about so many means are looked at.
     """
     step = max(1, length // taps)
-    during = length // step
-    side = int(np.ceil(flank * during))
-    less = sorted({int(part * side) for part in NEARER})
-    flanks = [(side, side), *((near, side) for near in less), *((side, near) for near in less)]
-    return [_filter(covariance, step, before, during, after, rate) for before, after in flanks]
-
-
-def _filter(covariance: Covariance, step: int, before: int, during: int, after: int, rate: float) -> BumpFilter:
-    """The filter that looks at so many means of `step` samples before, during and after a bump."""
-    bump = np.concatenate([np.zeros(before), rise((np.arange(during) + 0.5) / during), np.zeros(after)])
+    taps = length // step
+    bump = rise((np.arange(taps) + 0.5) / taps)
+    side = np.zeros(int(np.ceil(flank * len(bump))))
+    bump = np.concatenate([side, bump, side])
     lags = np.arange(len(bump))
     smooth = covariance(lags * step / rate)
     # Without some noise a process that is very smooth would let the finest detail of the shape decide.
@@ -70,40 +56,25 @@ def _filter(covariance: Covariance, step: int, before: int, during: int, after: 
     for_bump, for_constant = np.linalg.solve(between, np.stack([bump, np.ones(len(bump))], axis=1)).T
     weights = for_bump - for_constant * for_bump.sum() / for_constant.sum()
     information = float(weights @ bump)
-    return BumpFilter(weights / np.sqrt(information), step, before, during, after, 1 / np.sqrt(information))
+    return BumpFilter(weights / np.sqrt(information), step, 1 / np.sqrt(information))
 
 
-def strength(signal: np.ndarray, filters: Sequence[BumpFilter]) -> tuple[np.ndarray, np.ndarray]:
-    """Answer (frames,) of filters to a signal (frames, axes), all axes together, and the deviation (frames,) of the height.
+def strength(signal: np.ndarray, bump: BumpFilter) -> np.ndarray:
+    """Answer (frames,) of a filter to a signal (frames, axes), all axes together; NaN where its window is not whole.
 
-    filters: from make_filters. NaN = missing: nothing is found across a gap, and next to it by less of a flank. NaN where
-    no window is whole.
+    NaN = missing: nothing is found across a gap.
     """
-    out, deviation = np.full((2, len(signal)), np.nan)
-    whole, *less = filters
+    out = np.full(len(signal), np.nan)
     for start, stop in runs(~np.isnan(signal).any(axis=1)):
-        means = (stop - start) // whole.step
-        if means < len(whole.weights):
+        means = (stop - start) // bump.step
+        if means < len(bump.weights):
             continue
-        run = signal[start : start + means * whole.step].reshape(means, whole.step, -1).mean(axis=1)
-        answer = _answer(run, whole.weights)
-        at, heights = whole.before + np.arange(len(answer)), np.full(len(answer), whole.deviation)
-        for own in less:
-            place = own.before if own.before < whole.before else means - own.after - own.during
-            first = place - own.before
-            at, heights = np.append(at, place), np.append(heights, own.deviation)
-            answer = np.append(answer, _answer(run[first : first + len(own.weights)], own.weights))
-        order = np.argsort(at)
-        centre = start + (at[order] + whole.during / 2) * whole.step - 0.5
-        frames = np.arange(int(np.ceil(centre[0])), int(centre[-1]) + 1)
-        out[frames] = np.interp(frames, centre, np.sqrt(answer[order]))
-        deviation[frames] = np.interp(frames, centre, heights[order])
-    return out, deviation
-
-
-def _answer(run: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Sum over axes of the squared answers of weights to a run (means, axes), wherever they fit."""
-    return sum((np.convolve(axis, weights[::-1], "valid") ** 2 for axis in run.T), np.zeros(1))
+        run = signal[start : start + means * bump.step].reshape(means, bump.step, -1).mean(axis=1)
+        answer = sum((np.convolve(axis, bump.weights[::-1], "valid") ** 2 for axis in run.T), np.zeros(1))
+        centre = start + (np.arange(len(answer)) + len(bump.weights) / 2) * bump.step - 0.5
+        at = np.arange(int(np.ceil(centre[0])), int(centre[-1]) + 1)
+        out[at] = np.interp(at, centre, np.sqrt(answer))
+    return out
 
 
 def usual_covariance(
@@ -140,7 +111,7 @@ def extent(residual: np.ndarray, top: int, length: int, *, flank: float) -> tupl
     for own in (int(stretch * length) for stretch in STRETCHES):
         for shift in range(-own // 4, own // 4 + 1, max(1, own // 16)):
             start = top + shift - own // 2
-            if start < 0 or start + own > len(residual):
+            if start <= 0 or start + own >= len(residual):
                 continue
             course = rise((window - start + 0.5) / own)
             course = course - course.mean()
@@ -149,20 +120,11 @@ def extent(residual: np.ndarray, top: int, length: int, *, flank: float) -> tupl
     return best[1], best[2]
 
 
-def beside(residual: np.ndarray, start: int, stop: int, *, flank: float) -> np.ndarray:
-    """The medians (sides, axes) of a residual just before and after an interval, where something is known of them."""
-    side = int(np.ceil(flank * (stop - start)))
-    levels = np.stack([median(own) for own in (residual[max(0, start - side) : start], residual[stop : stop + side])])
-    return levels[~np.isnan(levels).any(axis=1)]
-
-
 def risen(residual: np.ndarray, start: int, stop: int, *, flank: float) -> np.ndarray:
-    """How far (3,) a residual (frames, 3) in the middle third of an interval is from where it is on either side.
-
-    Where one side is missing, the other must do.
-    """
-    third = (stop - start) // 3
-    return median(residual[start + third : stop - third]) - median(beside(residual, start, stop, flank=flank))
+    """How far (3,) a residual (frames, 3) in the middle third of an interval is from where it is on either side."""
+    side, third = int(np.ceil(flank * (stop - start))), (stop - start) // 3
+    before, after = residual[max(0, start - side) : start], residual[stop : stop + side]
+    return median(residual[start + third : stop - third]) - (median(before) + median(after)) / 2
 
 
 def median(values: np.ndarray) -> np.ndarray:
@@ -173,9 +135,10 @@ def median(values: np.ndarray) -> np.ndarray:
 
 def unrest(residual: np.ndarray, start: int, stop: int, *, flank: float) -> float:
     """How far a residual (frames, 3) is from its usual level just before or just after an interval, mm: the larger."""
-    around = USUAL * (stop - start)
+    side, around = int(np.ceil(flank * (stop - start))), USUAL * (stop - start)
     usual = median(residual[max(0, start - around) : stop + around])
-    return float(np.linalg.norm(beside(residual, start, stop, flank=flank) - usual, axis=1).max(initial=0.0))
+    sides = residual[max(0, start - side) : start], residual[stop : stop + side]
+    return float(max(np.linalg.norm(median(side) - usual) for side in sides))
 
 
 def height(residual: np.ndarray, start: int, stop: int, *, flank: float) -> float:

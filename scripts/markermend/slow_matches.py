@@ -103,9 +103,9 @@ def match(
         longest_s=settings.longest_s,
     )
     for number, length in enumerate(lengths):
-        filters = bumps.make_filters(covariance, length=length, flank=settings.flank, taps=settings.taps, rate=rate)
-        strength[number], heights = bumps.strength(signal, filters)
-        deviation[number] = heights * wider
+        bump = bumps.make_filter(covariance, length=length, flank=settings.flank, taps=settings.taps, rate=rate)
+        strength[number] = bumps.strength(signal, bump)
+        deviation[number] = bump.deviation * wider
     return strength, deviation
 
 
