@@ -81,6 +81,17 @@ def test_a_step_that_motion_hides_is_told_by_jumps_that_cancel(walker):
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
 
 
+def test_two_jumps_tell_a_step_that_neither_tells_alone(walker):
+    places = [("LELB", 560, 600), ("RKNE", 700, 760)]
+    recording = put(walker.recording, places, lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == places
+    assert all(1 <= e.score < 1.3 for e in found["steps"])
+    assert left == []
+    unpaired = put(walker.recording, [("RKNE", 700, 1200)], lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
+    assert detect(unpaired, only=("steps",)) == ({"steps": []}, [])
+
+
 def test_steps_that_gaps_and_the_end_cut_short(walker):
     cut = [("LELB", 560, 600), ("RKNE", 1150, 1200), ("RASI", 820, 870)]
     recording = put(walker.recording, cut, lambda length: np.ones((length, 1)) * [8, 3, -6])

@@ -162,18 +162,20 @@ def _misfit(window: np.ndarray, form: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(square, 0))
 
 
-def exceeding(courses: Courses, marker: int, span: slice, maps: Contrasts, settings: CourseSettings) -> Exceeding:
-    """The windows of a span of one marker's frames, without gaps, that exceed the threshold."""
+def exceeding(
+    courses: Courses, marker: int, span: slice, maps: Contrasts, settings: CourseSettings, *, least: float = 1.0
+) -> Exceeding:
+    """The windows of a span of one marker's frames, without gaps, that exceed the threshold, or this part of it."""
     residual, positions = (windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
     size = (residual @ maps.size.T).transpose(0, 2, 1)
-    at, which = np.nonzero((size**2).sum(axis=2) > settings.floor_mm**2)
+    at, which = np.nonzero((size**2).sum(axis=2) > (least * settings.floor_mm) ** 2)
     size = size[at, which]
     own = own_part(np.einsum("ian,in->ia", positions[at], maps.size[which]), size)
     misfit = _misfit(residual[at], maps.misfit[which])
     frame = span.start + at + maps.place[which]
     noise = np.hypot(misfit, courses.usual[frame, marker])
     score = own / np.maximum(settings.sigmas * noise * maps.gain[which], settings.floor_mm)
-    k = score > 1
+    k = score > least
     return Exceeding(residual[at[k]], positions[at[k]], which[k], frame[k], size[k], score[k], misfit[k])
 
 

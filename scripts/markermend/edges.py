@@ -47,15 +47,19 @@ def central(rate: float, settings: CourseSettings) -> tuple[Callable[[Regularity
     return partial(contrasts, size=2 * context, places=(context,)), 2 * context
 
 
-def find(course: Courses, marker: int, *, rate: float, settings: CourseSettings) -> list[Edge]:
-    """Find the edges of one marker, in time; of those that are nearer than half the context, the best."""
+def find(course: Courses, marker: int, *, rate: float, settings: CourseSettings, least: float = 1.0) -> list[Edge]:
+    """Find the edges of one marker, in time; of those that are nearer than half the context, the best.
+
+    least: a part of the threshold is enough.
+    """
     context = courses.context(rate, settings, fewest=FEWEST)
     size = 2 * context
     candidates: list[Edge] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
         for span, places in courses.spans(start, stop, size, context):
             inside = tuple(place for place in places if NEAREST <= place <= size - NEAREST)
-            over = courses.exceeding(course, marker, span, contrasts(course.regularity, size, inside), settings)
+            maps = contrasts(course.regularity, size, inside)
+            over = courses.exceeding(course, marker, span, maps, settings, least=least)
             candidates += [Edge(*one) for one in zip(over.frame.tolist(), over.size, over.score.tolist(), strict=True)]
     kept: list[Edge] = []
     for edge in sorted(candidates, key=lambda e: (-e.score, e.frame)):
