@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.slow_company import Company
+from markermend.slow_matches import bar
 from signals import RIDGE, detect, neighbours, put, settings
 
 PLACES = [("LTIAP", 182, 243), ("LANK", 386, 457), ("LUPA", 920, 989)]
@@ -82,3 +83,16 @@ def test_found_though_neighbours_come_and_go(half, ranks):
     for event, (_, start, stop) in zip(found, sorted(PLACES), strict=True):
         assert abs(event.start - start) <= 12
         assert abs(event.stop - stop) <= 12
+
+
+@pytest.mark.parametrize(
+    ("elsewhere", "expected"),
+    [([], 1), ([0.9], 1), ([5, 0.9], 1.53), ([0.9, 0.4, 5], 1.53), ([2, 2], 3), ([50, 40], 3)],
+)
+def test_what_a_marker_does_elsewhere_too_raises_the_bar(elsewhere, expected):
+    score = np.zeros(2000)
+    score[1000:1020] = 1.4
+    for place, height in zip((200, 500, 1500), elsewhere, strict=False):
+        score[place - 10 : place + 10] = np.minimum(np.r_[1:11, 10:0:-1] / 10, 1) * height
+    asked = bar(score, 1000, 1020, rate=100.0, settings=settings("slow", "default"))
+    assert asked == pytest.approx(expected)

@@ -20,7 +20,7 @@ from markermend.predictors import Scene
 from markermend.predictors.local import LocalRidge
 from markermend.recording import runs
 from markermend.slow_company import Company
-from markermend.slow_matches import Matches, NeighbourSlow, measure
+from markermend.slow_matches import Matches, NeighbourSlow, bar, measure
 
 
 def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, settings: NeighbourSlow) -> list[Event]:
@@ -38,7 +38,8 @@ def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, setting
         change = bumps.risen(residual, start, stop, flank=settings.flank)
         least = max(settings.floor_mm, bumps.unrest(residual, start, stop, flank=settings.flank) / settings.rest)
         if (
-            matches.noise[top, marker] <= settings.noise_mm
+            score[top] >= bar(score, start, stop, rate=rate, settings=settings)
+            and matches.noise[top, marker] <= settings.noise_mm
             and stop - start >= shortest
             and np.linalg.norm(change) >= least
         ):

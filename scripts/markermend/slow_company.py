@@ -9,7 +9,7 @@ import numpy as np
 from markermend import bumps, robust
 from markermend.events import Event
 from markermend.predictors import Scene
-from markermend.slow_matches import Matches, NeighbourSlow, ScaledResidualSource
+from markermend.slow_matches import Matches, NeighbourSlow, ScaledResidualSource, bar
 
 RIGID_MM = 0.1
 """Deviation of distances that is taken for granted: rounded positions of a rigid body have that much."""
@@ -81,7 +81,8 @@ class Company:
         score = self.matches.judge_anew(
             residual[:, marker], wider[:, marker], marker=marker, rate=rest.rate, settings=self.settings
         )
-        return bool(score[event.start : event.stop].max() > self.settings.kept)
+        needed = bar(score, event.start, event.stop, rate=rest.rate, settings=self.settings)
+        return bool(score[event.start : event.stop].max() > self.settings.kept * needed)
 
     def more_disturbed(self, one: int, other: int, event: Event) -> bool:
         """Whether a marker's distances to the neighbours of two rise or fall clearly more during an event than the other's do.

@@ -21,7 +21,8 @@ class NeighbourSlow:
     clip_sigmas: residuals beyond so many robust sigmas do not count in it. blocks: parts of the recording left out in turn to
     learn how novelty widens residuals. neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units
     of that. floor_mm: least height. noise_mm: where the expected level amounts to more than this, nothing is found.
-    least: and no less is ever expected, in standard deviations. rest: just before and after, the residual is no further from
+    least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by this factor than the
+    second clearest elsewhere on the marker, unless it is so many times as clear as the threshold asks. rest: just before and after, the residual is no further from
     its usual level than this part of the height. shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
     missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
     height are left out in turn; without them, this part of the threshold must still be reached.
@@ -40,6 +41,8 @@ class NeighbourSlow:
     floor_mm: float
     noise_mm: float
     least: float
+    apart: float
+    plain: float
     rest: float
     shortest_s: float
     brief_s: float
@@ -127,6 +130,18 @@ def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: 
     clearest = [best(*own, expected[:, :, m], lengths, settings=settings) for m, own in enumerate(each)]
     score, length, noise = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
     return Matches(residual, score, length, noise, expected, np.stack([level(own) for own, _ in each], axis=1))
+
+
+def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: NeighbourSlow) -> float:
+    """How clear a bump in [start, stop) must be, given the scores (frames,) of its marker, in units of the threshold.
+
+    What the marker does at other times as well is motion.
+    """
+    elsewhere, reach = score.copy(), frames(settings, rate)[-1]
+    elsewhere[max(0, start - reach) : stop + reach] = 0
+    top = int(elsewhere.argmax())
+    elsewhere[max(0, top - reach) : top + reach] = 0
+    return float(np.clip(settings.apart * elsewhere.max(), 1, settings.plain))
 
 
 def level(strength: np.ndarray) -> np.ndarray:
