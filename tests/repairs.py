@@ -58,10 +58,12 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         "savitzky_golay_s": 1.01,
         "trials": 5,
         "separation": {
+            "ridges": [{}, {"inputs": 6}],
             "amplitudes_mm": [3, 10, 30],
             "roughness_mm": [0.1, 1],
             "border_s": 0.15,
             "margins": [0, 0.1],
+            "trust": 0.3,
             "most_frames": 1000,
         },
         "radius": {"inner": 1.8, "outer": 2.8},

@@ -4,16 +4,34 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
+from markermend.damage import shape
 from markermend.events import Event
 from markermend.predictors.kriging import Covariance
-from markermend.separation import COURSES, SeparationOptions, artifacts, bridge, pinned, separate
+from markermend.separation import (
+    COURSES,
+    Parted,
+    SeparationOptions,
+    artifacts,
+    averaged,
+    bridge,
+    pinned,
+    separate,
+    tent,
+)
 from repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 
 N = 24
 KERNEL = Covariance(np.array([0.04, 2.0, 5.0, 1.0, 0.5]), np.array([0.05, 0.3]))
-OPTIONS = SeparationOptions(
-    amplitudes_mm=[3, 12, 48], roughness_mm=[0.1, 1], border_s=0.1, margins=[0], most_frames=1000
-)
+SEPARATION = {
+    "ridges": [{}],
+    "amplitudes_mm": [3, 12, 48],
+    "roughness_mm": [0.1, 1],
+    "border_s": 0.1,
+    "margins": [0],
+    "trust": 1,
+    "most_frames": 1000,
+}
+OPTIONS = SeparationOptions(**SEPARATION)
 EXTENTS = [(0, N), (3, N - 2)]
 
 
@@ -65,12 +83,19 @@ def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
     assert np.diag(covariance).argmax() == 24 and np.diag(covariance)[[0, -1]].max() < 0.02 * covariance[24, 24]
 
 
+def test_a_tent_is_one_course_of_any_size():
+    """Its covariance is that of the published course of slow changes times a random amplitude."""
+    course = shape("slow", 40)
+    assert np.allclose(tent(40), np.outer(course, course) * tent(40).max())
+    assert tent(40).max() == pytest.approx(1, abs=0.06)
+
+
 @pytest.mark.parametrize("method", COURSES)
-@pytest.mark.parametrize("lost", [[], [0, 5, 6]])
-def test_separating_is_bayes_rule(method, lost):
+@pytest.mark.parametrize(("lost", "trust"), [([], 1.0), ([0, 5, 6], 1.0), ([], 0.2)])
+def test_separating_is_bayes_rule(method, lost, trust):
     """Each artifact in turn by conditioning one joint normal distribution, then averaged by their likelihoods."""
     rng = np.random.default_rng(5)
-    covariance, tried = errors(), artifacts(method, N, OPTIONS, EXTENTS)
+    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
     difference = rng.multivariate_normal(np.zeros(N), covariance + tried[2], 3).T
     difference[lost] = np.nan
     rows = np.setdiff1d(np.arange(N), lost)
@@ -81,7 +106,8 @@ def test_separating_is_bayes_rule(method, lost):
         gain = covariance[:, rows] @ np.linalg.inv(seen)
         means.append(gain @ difference[rows])
         seconds.append(np.diag(covariance - gain @ covariance[rows])[:, None] + means[-1] ** 2)
-    weights = np.exp(np.array(weights) - max(weights))
+    evidence = np.log(np.mean(np.exp(trust * (np.array(weights) - max(weights))))) + trust * max(weights)
+    weights = np.exp(trust * (np.array(weights) - max(weights)))
     weights /= weights.sum()
     mean = np.tensordot(weights, means, 1)
     deviation = np.sqrt((np.tensordot(weights, seconds, 1) - mean**2).mean(axis=1))
@@ -90,23 +116,48 @@ def test_separating_is_bayes_rule(method, lost):
         for artifact in tried
     ]
     deviation *= max(1.0, np.sqrt(weights @ misfits / difference[rows].size))
-    told, stated = separate(difference, covariance, tried)
-    assert np.allclose(told, mean, atol=1e-4) and np.allclose(stated, deviation, rtol=1e-3)
+    parted = separate(difference, covariance, tried, trust=trust)
+    assert np.allclose(parted.mean, mean, atol=1e-4) and np.allclose(np.sqrt(parted.variance), deviation, rtol=1e-3)
+    constant = trust * difference[rows].size / 2 * np.log(2 * np.pi)
+    assert parted.evidence == pytest.approx(evidence + constant, abs=1e-2)
 
 
 @pytest.mark.parametrize("method", COURSES)
 def test_what_remains_unsure_is_stated(method):
     rng = np.random.default_rng(2)
-    covariance, tried = errors(), artifacts(method, N, OPTIONS, EXTENTS)
+    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
     missed = []
     for _ in range(150):
         truth = rng.multivariate_normal(np.zeros(N), covariance, 3).T
         artifact = rng.multivariate_normal(np.zeros(N), tried[rng.integers(len(tried))], 3).T
-        told, stated = separate(truth + artifact, covariance, tried)
-        missed.append(np.linalg.norm(told - truth, axis=1) / stated)
+        parted = separate(truth + artifact, covariance, tried, trust=1)
+        missed.append(np.linalg.norm(parted.mean - truth, axis=1) / np.sqrt(parted.variance))
     # Averaged over artifacts the error is no longer normal: more of it is near and more of it is far.
     assert np.mean(np.concatenate(missed) < 1.8724) == pytest.approx(0.7, abs=0.06)
     assert np.mean(np.concatenate(missed) < 2.7955) == pytest.approx(0.95, abs=0.03)
+
+
+def test_predictions_that_err_apart_are_surer_together():
+    rng = np.random.default_rng(8)
+    courses = rng.normal(0, 2.0, (2, 4000, 3))
+    mean, deviation = averaged(courses, [Parted(course, np.full(4000, 4.0), -7.0) for course in courses])
+    assert np.allclose(mean, courses.mean(axis=0))
+    assert np.sqrt((mean**2).mean()) == pytest.approx(np.sqrt(2), rel=0.03)
+    assert np.sqrt(2) < np.sqrt((deviation**2).mean()) < 0.9 * 2
+
+
+def test_predictions_that_err_alike_are_no_surer_together():
+    course = np.random.default_rng(8).normal(0, 2.0, (50, 3))
+    mean, deviation = averaged([course, course], [Parted(course, np.full(50, 4.0), -7.0)] * 2)
+    assert np.allclose(mean, course) and np.allclose(deviation, 2)
+
+
+def test_the_likelier_prediction_counts_for_more():
+    near, far = np.zeros((5, 3)), np.ones((5, 3))
+    parts = [Parted(near, np.full(5, 4.0), -10.0), Parted(far, np.full(5, 9.0), -12.0)]
+    mean, deviation = averaged([near, far], parts)
+    assert np.allclose(mean, 1 / (1 + np.exp(2)))
+    assert (deviation < 2.4).all() and (deviation > 1.9).all()
 
 
 RAMP = np.concatenate([np.arange(1, 21), np.arange(20, 0, -1)])[:, None] / 20
@@ -135,6 +186,19 @@ def test_what_was_measured_mends_the_prediction(wobbling, kind):
     assert after < share * alone and after < share * before
 
 
+@pytest.mark.parametrize("kind", DAMAGE)
+def test_several_ridges_predict_together(wobbling, kind):
+    """Each alone is offered by itself; all together are neither worse than the worst nor any of them alone."""
+    method, _, change = DAMAGE[kind]
+    recording, found = distorted(wobbling, change), {kind: [Event(MARKER, START, STOP, 4.0)]}
+    alone, other, both = (
+        mend(recording, found, methods={**METHODS, kind: [method]}, separation={**SEPARATION, "ridges": ridges})
+        for ridges in ([{}], [{"inputs": 4}], [{}, {"inputs": 4}])
+    )
+    apart = [np.sqrt((error(wobbling, one) ** 2).mean()) for one in (alone, other, both)]
+    assert apart[2] <= max(apart[:2]) and apart[2] not in apart[:2]
+
+
 @pytest.mark.parametrize("method", COURSES)
 def test_a_gap_within_stays_a_gap(clean, method):
     recording = distorted(clean, 12.0)
@@ -147,13 +211,7 @@ def test_a_gap_within_stays_a_gap(clean, method):
 
 def test_what_is_too_long_to_part_is_left_to_others(clean):
     found = {"steps": [Event(MARKER, START, STOP, 4.0)]}
-    given = {
-        "most_frames": STOP - START - 1,
-        "amplitudes_mm": [3],
-        "roughness_mm": [1],
-        "border_s": 0.15,
-        "margins": [0],
-    }
+    given = {**SEPARATION, "most_frames": STOP - START - 1}
     methods = {**METHODS, "steps": ["separate_step"]}
     result = mend(distorted(clean, 12.0), found, methods=methods, separation=given)
     (left,) = result.facts["repairs_left"]
@@ -164,7 +222,7 @@ def test_a_slow_change_may_begin_before_it_was_found(clean):
     """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
     course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
     recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
-    given = {"most_frames": 1000, "amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
+    given = {**SEPARATION, "amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
     exact, wider = (
         mend(recording, found, methods={**METHODS, "slow": ["separate_slow"]}, separation={**given, "margins": margins})
         for margins in ([0], [0, 0.1])

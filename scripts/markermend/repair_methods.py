@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,7 +15,7 @@ from markermend.predictors.local import LocalRidge
 from markermend.predictors.loose import LOOSE
 from markermend.recording import runs
 from markermend.robust import high_pass
-from markermend.separation import COURSES, SeparationOptions, artifacts, pinned, separate
+from markermend.separation import COURSES, SeparationOptions, artifacts, averaged, pinned, separate
 
 METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
 """The ways of repair by the names that a config may use."""
@@ -61,7 +62,7 @@ def tried_error(predictor: Predictor, scene: Scene, marker: int, start: int, sto
 def separated(
     method: str,
     original: np.ndarray,
-    ridge: LocalRidge,
+    ridges: Sequence[LocalRidge],
     scene: Scene,
     marker: int,
     start: int,
@@ -71,28 +72,40 @@ def separated(
 ) -> Proposal | None:
     """The measured samples without the artifact that a method of COURSES tells apart from the error of the prediction.
 
-    original: (frames, 3), the marker's course as measured, NaN = missing. None where the neighbours cannot tell for
-    every sample, and for more samples than the options allow.
+    original: (frames, 3), the marker's course as measured, NaN = missing. ridges: what predicts it; the residual of the
+    first tells how errors go together. None where the neighbours cannot tell for every sample, and for more samples than
+    the options allow.
     """
     margins = [round(share * (stop - start)) for share in options.margins] if method == "separate_slow" else [0]
     first, last = _free(scene.present[:, marker], start, stop, max(margins))
-    if last - first > options.most_frames:
+    if last - first > options.most_frames or np.isnan(original[start:stop]).all():
         return None
-    prediction = ridge.predict(scene, marker, first, last)
-    positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
-    if np.isnan(positions).any() or np.isnan(deviation).any() or np.isnan(original[start:stop]).all():
+    together = _together(ridges[0], scene, marker, first, last, round(options.border_s * scene.rate))
+    extents = [(max(start - wider, first) - first, min(stop + wider, last) - first) for wider in margins]
+    courses, parts = [], []
+    for ridge in ridges:
+        prediction = ridge.predict(scene, marker, first, last)
+        positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
+        if np.isnan(positions).any() or np.isnan(deviation).any():
+            continue
+        tried = artifacts(method, last - first, options, extents)
+        error = together * deviation * deviation[:, None]
+        parts.append(separate(original[first:last] - positions, error, tried, trust=options.trust))
+        courses.append(positions + parts[-1].mean)
+    if not parts:
         return None
-    around = np.arange(first - round(options.border_s * scene.rate), last + round(options.border_s * scene.rate))
-    around = around[(around >= 0) & (around < len(original)) & ((around < first) | (around >= last))]
+    mean, remaining = averaged(courses, parts)
+    own = slice(start - first, stop - first)
+    return Proposal(method, mean[own], remaining[own])
+
+
+def _together(ridge: LocalRidge, scene: Scene, marker: int, first: int, last: int, border: int) -> np.ndarray:
+    """How errors of a prediction over [first, last) go together: correlation (n, n), given `border` frames on either side."""
+    around = np.arange(first - border, last + border)
+    around = around[(around >= 0) & (around < len(scene.present)) & ((around < first) | (around >= last))]
     around = around[scene.present[around, marker]]
     covariance = scene.remember((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
-    together = pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate)
-    error = together * deviation * deviation[:, None]
-    extents = [(max(start - wider, first) - first, min(stop + wider, last) - first) for wider in margins]
-    tried = artifacts(method, last - first, options, extents)
-    mean, remaining = separate(original[first:last] - positions, error, tried)
-    own = slice(start - first, stop - first)
-    return Proposal(method, (positions + mean)[own], remaining[own])
+    return pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate)
 
 
 def _free(present: np.ndarray, start: int, stop: int, margin: int) -> tuple[int, int]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -132,6 +133,15 @@ class Offers:
             if proposal is not None
         ]
 
+    @cached_property
+    def _ridges(self) -> list[LocalRidge]:
+        """The local ridges whose predictions are parted from artifacts; none without the shared one."""
+        shared = self.predictors.get("local_ridge")
+        if not isinstance(shared, LocalRidge):
+            return []
+        ridges = self.options.separation["ridges"]
+        return [LocalRidge(replace(shared.options, **own)) if own else shared for own in ridges]
+
     def _told(self, m: int, start: int, stop: int) -> Prediction:
         """Where the neighbours, and the marker's own course around, say that marker m is over [start, stop)."""
         if "local_ridge" not in self.predictors:
@@ -162,9 +172,8 @@ class Offers:
                 original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
             )
         if method in COURSES:
-            ridge = self.predictors["local_ridge"]
-            if not isinstance(ridge, LocalRidge):
+            if not self._ridges:
                 return None
             settings = SeparationOptions(**options.separation)
-            return separated(method, original, ridge, self.scene, m, start, stop, options=settings)
+            return separated(method, original, self._ridges, self.scene, m, start, stop, options=settings)
         return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)
