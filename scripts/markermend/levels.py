@@ -21,13 +21,13 @@ class NeighbourSteps(CourseSettings):
     """Settings of the detector against the neighbours (config steps.default), beside those of courses.
 
     shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. held: the median of all samples in
-    between differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for
-    this part of them: motion may hide that the marker is displaced. weak, joint, whole: jumps below the threshold but
-    above this part of it count where both together (root mean square) reach that part of it, and that part of the jump
-    is held. level_s, cut: where a gap is in the place of one jump, medians over this time beside the other and beside the
-    gap differ by at least this part of the other. sure: where it is an end of the recording, the other is at least so
-    many times the threshold.
+    cosine: of the angle between one jump and the reverse of the other, at least. weak, joint: each jump reaches this
+    part of the threshold, and both together (root mean square) that part. held: the median of all samples in between
+    differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for this
+    part of them: motion may hide that the marker is displaced. whole: jumps that together stay below the threshold are
+    held to this part at least. level_s, cut: where a gap is in the place of one jump, medians over this time beside the
+    other and beside the gap differ by at least this part of the other. sure: where it is an end of the recording, the
+    other is at least so many times the threshold.
     """
 
     shortest_s: float
@@ -61,14 +61,14 @@ def judge_steps(
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between.
 
     missing: bool (frames, markers). No step goes on across a gap; across what an earlier detector claimed it does.
-    Jumps that are clear by themselves are paired first.
+    Jumps that are clear together are paired first.
     """
     found_edges = edges.find(course, marker, rate=rate, settings=settings, least=settings.weak)
     frames = np.array([edge.frame for edge in found_edges], int)
     residual, gone = course.residual[:, marker], np.cumsum(missing[:, marker])
     longest = robust.samples(settings.longest_s, rate)
     candidates = [
-        (min(found_edges[k].score, found_edges[j].score) <= 1, int(frames[j] - frames[k]), k, j)
+        (together(found_edges[k], found_edges[j]) < 1, int(frames[j] - frames[k]), k, j)
         for k in range(len(frames))
         for j in range(k + 1, int(np.searchsorted(frames, frames[k] + longest, side="right")))
         if gone[frames[k]] == gone[frames[j]]
@@ -79,15 +79,14 @@ def judge_steps(
         if not used[k : j + 1].any():
             used[k : j + 1] = True
             jumps = np.array([found_edges[k].jump, found_edges[j].jump])
-            score = _score(found_edges[k], found_edges[j], settings)
+            score = together(found_edges[k], found_edges[j]) / settings.joint
             found.append(Event(name, int(frames[k]), int(frames[j]), score, events.carrying(jumps)))
     return found
 
 
-def _score(first: Edge, second: Edge, settings: NeighbourSteps) -> float:
-    """How clear two jumps are, in units of the threshold: the lesser of them, or, where that is below it, both together."""
-    least = min(first.score, second.score)
-    return least if least > 1 else float(np.hypot(first.score, second.score) / np.sqrt(2) / settings.joint)
+def together(first: Edge, second: Edge) -> float:
+    """How clear two jumps are together: root mean square, in units of the threshold of one."""
+    return float(np.hypot(first.score, second.score) / np.sqrt(2))
 
 
 def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float, settings: NeighbourSteps) -> bool:
@@ -97,13 +96,13 @@ def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float,
     balanced = settings.ratio <= sizes[0] / sizes[1] <= 1 / settings.ratio
     if second.frame - first.frame < robust.samples(settings.shortest_s, rate) or not opposite or not balanced:
         return False
-    mean = (first.jump - second.jump) / 2
-    if min(first.score, second.score) <= 1:
-        clear = _score(first, second, settings) >= 1 and np.linalg.norm(mean) >= settings.floor_mm
-        return bool(clear and displacement(residual, first.frame, second.frame, mean) >= settings.whole)
-    if np.linalg.norm(first.jump + second.jump) <= settings.alike * np.linalg.norm(mean):
+    mean, clear = (first.jump - second.jump) / 2, together(first, second)
+    if clear < settings.joint or np.linalg.norm(mean) < settings.floor_mm:
+        return False
+    if clear >= 1 and np.linalg.norm(first.jump + second.jump) <= settings.alike * np.linalg.norm(mean):
         return True
-    return displacement(residual, first.frame, second.frame, mean) >= settings.held
+    held = settings.held if clear >= 1 else settings.whole
+    return displacement(residual, first.frame, second.frame, mean) >= held
 
 
 def cut_short(
