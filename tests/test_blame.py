@@ -1,4 +1,4 @@
-"""Whose artifact is it: three markers, each predicted as the mean of the others that are seen."""
+"""Whose artifact is it: markers that are each predicted as the mean of the others that are seen."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from markermend import blame
 from markermend.events import Event
 from markermend.predictors import Scene
 
-MARKERS, SPAN = ("A", "B", "C"), slice(10, 20)
+MARKERS, SPAN, BESIDE = "ABCDE", slice(10, 20), [8, 9, 20, 21]
 EVENT, OPEN = 4.0, 2.0
 """Levels above which a marker has an event, or something open, mm."""
 
@@ -15,16 +15,19 @@ EVENT, OPEN = 4.0, 2.0
 class MeanOfOthers:
     def residuals(self, scene, markers=None):
         out = np.full(scene.positions.shape, np.nan)
-        for m in range(3) if markers is None else markers:
-            others = np.delete(scene.positions, m, axis=1)
-            out[:, m] = scene.positions[:, m] - np.nanmean(others, axis=1)
+        for m in range(len(scene.neighbours)) if markers is None else markers:
+            others = scene.positions[:, scene.neighbours[m]]
+            seen = ~np.isnan(others[:, :, 0])
+            alone = seen.sum(axis=1) == 0
+            out[:, m] = scene.positions[:, m] - np.nansum(others, axis=1) / np.maximum(seen.sum(axis=1), 1)[:, None]
+            out[alone, m] = np.nan
         return out
 
 
 def level(measured, m):
     """How far a marker itself is off in the span, mm."""
-    positions, residual = measured
-    return float(np.nan_to_num(np.clip(residual[SPAN, m, 0], 0, positions[SPAN, m, 0])).mean())
+    residual, positions = (values[SPAN, m, 0].mean() - values[BESIDE, m, 0].mean() for values in measured)
+    return float(np.nan_to_num(np.clip(residual, 0, max(positions, 0))))
 
 
 def judge(measured, m):
@@ -32,18 +35,26 @@ def judge(measured, m):
     return [Event(MARKERS[m], SPAN.start, SPAN.stop, off, "x")] if off > EVENT else []
 
 
-def found(*levels, open_at=None, rounds=2):
-    positions = np.zeros((30, 3, 3))
-    positions[SPAN, :, 0] = levels
-    scene = Scene(positions, 100.0, [np.delete(np.arange(3), m) for m in range(3)])
+def nothing(measured, m):
+    return []
+
+
+def found(*levels, at=0, border=0, suspect=nothing, open_at=None, rounds=2):
+    """Markers with an event where some are off their places in the span."""
+    positions = np.zeros((30, len(levels), 3))
+    positions[:, :, 0] = at
+    positions[SPAN, :, 0] += levels
+    scene = Scene(positions, 100.0, [np.delete(np.arange(len(levels)), m) for m in range(len(levels))])
     events, _ = blame.find(
         scene,
-        measure=lambda scene, residual, only, was: (positions, residual),
+        measure=lambda scene, residual, only, was: (residual, positions),
         judge=judge,
-        markers=MARKERS,
+        markers=MARKERS[: len(levels)],
         predictor=MeanOfOthers(),
         rounds=rounds,
-        reach=2,
+        reach=len(levels) - 1,
+        border=border,
+        suspect=suspect,
         open_at=open_at,
     )
     return sorted(event.marker for event in events)
@@ -66,3 +77,20 @@ def test_what_a_neighbour_hides_is_found_where_something_is_open():
 
 def test_rivals_may_both_be_right():
     assert found(20, 18, 0) == ["A", "B"]
+
+
+def test_what_several_hide_from_one_another_is_found_where_all_are_suspected():
+    levels = (20, 19, 11, 0, 0)
+    assert found(*levels) == ["A", "B"]
+    assert found(*levels, suspect=judge) == found(*levels, suspect=None) == ["A", "B", "C"]
+
+
+def test_suspicion_alone_is_no_event():
+    both = [Event(name, SPAN.start, SPAN.stop, 9.0) for name in "AB"]
+    assert found(12, 12, 12, 12, suspect=lambda measured, m: both[m : m + 1]) == []
+
+
+def test_a_neighbour_that_goes_takes_what_is_beside_with_it():
+    given = {"at": (0, 0, -100), "suspect": judge}
+    assert found(12, 0, 12, **given) == ["C"]
+    assert found(12, 0, 12, **given, border=2) == ["A", "C"]

@@ -83,6 +83,16 @@ def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
     assert all("x" in e.axes and e.score >= 1 for e in found["peaks"])
 
 
+def test_three_siblings_with_a_peak_at_once(walker):
+    recording, places = walker.recording, []
+    for marker, size in (("RASI", [8, 3, -6]), ("LASI", [-4, 9, 3]), ("LPSI", [5, -7, 6])):
+        own = [(marker, start, start + 3) for start in (300, 700)]
+        recording = put(recording, own, lambda length, size=size: np.ones((length, 1)) * size)
+        places += own
+    found, _ = detect(recording, only=("peaks",))
+    assert [(e.marker, e.start, e.stop) for e in found["peaks"]] == sorted(places)
+
+
 def test_coordinates_are_merged_with_the_axes_that_fired(walker):
     recording = put(walker.recording, [("C7", 300, 303)], lambda length: np.ones((length, 1)) * [30, 0, -30])
     found, _ = detect(recording, preset="coordinates", only=("peaks",))

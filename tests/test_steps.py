@@ -58,6 +58,18 @@ def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
     assert left == []
 
 
+@pytest.mark.parametrize("siblings", [("C7", "T10", "CLAV"), ("LSHO", "RBAK", "STRN")])
+def test_three_siblings_that_step_at_once(walker, siblings):
+    recording, places = walker.recording, []
+    for marker, jump in zip(siblings, ([8, 3, -6], [-4, 9, 3], [5, -7, 6]), strict=True):
+        own = [(marker, start, start + 70) for start in (300, 700)]
+        recording = put(recording, own, lambda length, jump=jump: np.ones((length, 1)) * jump)
+        places += own
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(places)
+    assert left == []
+
+
 def test_an_open_step_of_the_walker_is_told_with_its_size(walker):
     recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
     found, left = detect(recording, only=("steps",))

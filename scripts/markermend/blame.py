@@ -8,6 +8,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from markermend import events
 from markermend.events import Event
 from markermend.predictors import Scene
 
@@ -18,7 +19,10 @@ class ResidualSource(Protocol):
     """A predictor that tells how far every marker is from where its neighbours say it should be."""
 
     def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
-        """Observed minus predicted, (frames, markers, 3), mm; NaN where either is missing and for markers not asked for."""
+        """Observed minus predicted, (frames, markers, 3), mm; NaN where either is missing and for markers not asked for.
+
+        A marker is predicted from its neighbours in the scene alone.
+        """
         ...
 
 
@@ -31,23 +35,30 @@ def find(
     predictor: ResidualSource,
     rounds: int,
     reach: int,
+    border: int,
+    suspect: Callable[[Measured, int], list[Event]] | None = None,
     open_at: Callable[[Measured, int], Sequence[int]] | None = None,
 ) -> tuple[list[Event], Measured]:
     """Find events in the residuals and put the blame where it belongs.
 
     measure: (scene, residual, only, was), what to judge of the residuals; with `only` and `was` anew for those markers.
-    judge: the events of one marker by its index. Where markers among each other's first `reach` neighbours are found at
-    the same time, the one of highest score is believed; its samples are taken out of the scene, the others are predicted
-    without them and judged again, at most `rounds` times. open_at: frames of a marker at which something is open; where an
-    event that a neighbour is believed to have begins or ends at one, the marker is judged again too. Returns the events
-    and what was measured last.
+    judge: the events of one marker by its index. suspect: likewise, of the courses as recorded (the same if None).
+    Company is who is among whose first `reach` neighbours. Where several in company are suspected at the same time, each
+    is predicted without these samples of the others. Where some are found at the same time nevertheless, the one of
+    highest score is believed; the others are predicted without its samples and judged again, at most `rounds` times.
+    border: so many samples on either side go as well, as far as they weigh on a judgement, since predictions shift where a
+    neighbour goes. open_at: frames of a marker at which something is open; where an event that a neighbour is believed to
+    have begins or ends at one, the marker is judged again too. Returns the events and what was measured last.
     """
-    residual = predictor.residuals(scene)
-    measured = measure(scene, residual, None, None)
-    found = {m: judge(measured, m) for m in range(len(markers))}
     index = {name: m for m, name in enumerate(markers)}
     company = _company(scene, reach)
-    believed: set[Event] = set()
+    recorded = measure(scene, scene.positions, None, None)
+    suspected = [event for m in range(len(markers)) for event in (suspect or judge)(recorded, m)]
+    hidden = _about(_in_company(suspected, scene, company, index), scene, markers, border)
+    residual = _residuals(predictor, scene, hidden, list(range(len(markers))))
+    measured = measure(scene, residual, None, None)
+    found = {m: judge(measured, m) for m in range(len(markers))}
+    believed = {event for m, own in found.items() for event in own if hidden[event.start : event.stop, m].all()}
     suspects: set[int] = set()
     for _ in range(rounds):
         # Those believed already are no rivals any more: what is new was found without them.
@@ -61,18 +72,40 @@ def find(
         suspects.update(doubted)
         if not doubted:
             break
-        positions = scene.positions.copy()
-        for event in believed:
-            positions[event.start : event.stop, index[event.marker]] = np.nan
-        hidden = replace(scene, positions=positions)
+        hidden |= _about(new, scene, markers, border)
         residual = residual.copy()
-        residual[:, doubted] = predictor.residuals(hidden, np.array(doubted))[:, doubted]
-        measured = measure(hidden, residual, doubted, measured)
+        residual[:, doubted] = _residuals(predictor, scene, hidden, doubted)[:, doubted]
+        measured = measure(scene, residual, doubted, measured)
         for m in doubted:
             kept = [event for event in found[m] if event in believed]
             anew = [event for event in judge(measured, m) if not any(_overlap(event, own) for own in kept)]
             found[m] = kept + anew
     return [event for own in found.values() for event in own], measured
+
+
+def _residuals(predictor: ResidualSource, scene: Scene, hidden: np.ndarray, markers: Sequence[int]) -> np.ndarray:
+    """Residuals of markers as recorded, predicted from the others without their hidden samples, bool (frames, markers)."""
+    seen = scene.positions.copy()
+    seen[hidden] = np.nan
+    # Each marker is there twice: first as the others see it, then as it was recorded, among the same neighbours.
+    count, near = len(scene.neighbours), list(scene.neighbours)
+    twice = np.concatenate([seen, scene.positions], axis=1)
+    both = replace(scene, positions=twice, neighbours=near + near, measured=None, doubt=None, relatives=None)
+    return predictor.residuals(both, count + np.array(markers))[:, count:]
+
+
+def _about(found: Iterable[Event], scene: Scene, markers: Sequence[str], border: int) -> np.ndarray:
+    """Bool (frames, markers): True for the samples of events and so many on either side."""
+    wider = [replace(event, start=max(0, event.start - border), stop=event.stop + border) for event in found]
+    return events.mask(wider, len(scene.positions), markers)
+
+
+def _in_company(
+    found: Sequence[Event], scene: Scene, company: Sequence[set[int]], index: dict[str, int]
+) -> list[Event]:
+    """The events that one of a neighbour overlaps."""
+    taken = events.mask(found, len(scene.positions), list(index))
+    return [event for event in found if taken[event.start : event.stop, list(company[index[event.marker]])].any()]
 
 
 def _company(scene: Scene, reach: int) -> list[set[int]]:

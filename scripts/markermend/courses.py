@@ -189,12 +189,13 @@ def detect(
     length: int,
     predictor: blame.ResidualSource,
     judge: Callable[[Courses, int], list[Event]],
+    suspect: Callable[[Courses, int], list[Event]] | None = None,
     open_at: Callable[[Courses, int], Sequence[int]] | None = None,
 ) -> tuple[list[Event], Courses]:
     """Find one class of artifacts on the courses of all markers, and the courses.
 
     scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. maps, length: see measure. judge: finds on the course of a marker (index). open_at,
+    detectors before claimed. maps, length: see measure. judge: finds on the course of a marker (index). suspect, open_at,
     and rivals among neighbours that are judged again: see blame.find.
     """
     found, courses = blame.find(
@@ -205,6 +206,8 @@ def detect(
         predictor=predictor,
         rounds=settings.rounds,
         reach=settings.rivals,
+        border=length // 2,
+        suspect=suspect,
         open_at=open_at,
     )
     return events.tidy(found), courses

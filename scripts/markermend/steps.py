@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -111,6 +112,11 @@ def detect_steps(
     rate = scene.rate
     maps, length = edges.central(rate, settings)
     missing = ~scene.present
+    clear = replace(settings, weak=1.0)  # weak jumps are no ground to suspect several markers: motion makes many
+
+    def judge(course: Courses, m: int, by: NeighbourSteps) -> list[Event]:
+        return judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=by)
+
     found, course = courses.detect(
         scene,
         markers=markers,
@@ -119,7 +125,8 @@ def detect_steps(
         maps=maps,
         length=length,
         predictor=predictor,
-        judge=lambda course, m: judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=settings),
+        judge=partial(judge, by=settings),
+        suspect=partial(judge, by=clear),
         open_at=lambda course, m: [edge.frame for edge in edges.find(course, m, rate=rate, settings=settings)],
     )
     for m, name in enumerate(markers):

@@ -70,6 +70,11 @@ def sharp(values: np.ndarray, window: int) -> np.ndarray:
     return out
 
 
+def _window(rate: float, settings: SuddenSettings) -> int:
+    """Samples in the window of the moving median: fewer than three have no trend."""
+    return max(3, robust.samples(settings.window_s, rate, odd=True))
+
+
 def measure(
     scene: Scene,
     residual: np.ndarray,
@@ -79,7 +84,7 @@ def measure(
     settings: SuddenSettings,
 ) -> Changes:
     """Measure the sudden changes of a scene from its residuals; with `was`, anew for the markers `only`."""
-    window = max(3, robust.samples(settings.window_s, scene.rate, odd=True))
+    window = _window(scene.rate, settings)
     vector = np.zeros(residual.shape) if was is None else was.vector.copy()
     own = np.zeros(residual.shape[:2]) if was is None else was.size.copy()
     for m in range(residual.shape[1]) if only is None else only:
@@ -125,6 +130,7 @@ def detect(
         predictor=predictor,
         rounds=settings.rounds,
         reach=settings.rivals,
+        border=_window(scene.rate, settings),
     )
     return events.tidy(found), changes
 
