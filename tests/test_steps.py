@@ -114,6 +114,15 @@ def test_steps_that_gaps_and_the_end_cut_short(walker):
     assert left == []
 
 
+def test_a_step_that_noise_covers_to_its_end(walker):
+    flicker = np.random.default_rng(4).normal(0, 8, (60, 3))
+    recording = put(walker.recording, [("C7", 400, 500)], lambda length: np.ones((length, 1)) * [8, 3, -6])
+    found, _ = detect(put(recording, [("C7", 440, 500)], lambda _: flicker), only=("noise", "steps"))
+    [noise], [step] = found["noise"], found["steps"]
+    assert (step.marker, step.start, step.stop) == ("C7", 400, noise.start)
+    assert abs(noise.start - 440) <= 1
+
+
 def test_no_step_is_cut_short_where_the_marker_is_not_back_beyond_the_gap(walker):
     recording = put(walker.recording, [("LELB", 560, 1200)], lambda length: np.ones((length, 1)) * [8, 3, -6])
     recording.positions[600:620, recording.markers.index("LELB")] = np.nan

@@ -129,8 +129,10 @@ def detect_steps(
         suspect=partial(judge, by=clear),
         open_at=lambda course, m: [edge.frame for edge in edges.find(course, m, rate=rate, settings=settings)],
     )
+    # A jump may be lost to sight in a gap, or in what was claimed earlier: noise on a step often reaches to its end.
+    unseen = missing | earlier.any(axis=2)
     for m, name in enumerate(markers):
-        cut = cut_short(course, m, found, missing=missing[:, m], name=name, rate=rate, settings=settings)
+        cut = cut_short(course, m, found, missing=unseen[:, m], name=name, rate=rate, settings=settings)
         found = events.tidy([*found, *cut])
     return found, open_steps(course, found, markers=markers, rate=rate, settings=settings)
 
