@@ -24,6 +24,17 @@ class MeanOfOthers:
         return out
 
 
+class NeedsFrames(MeanOfOthers):
+    """Tells nothing at all of a marker unless all others are seen in most frames."""
+
+    def residuals(self, scene, markers=None):
+        out = super().residuals(scene, markers)
+        for m, near in enumerate(scene.neighbours):
+            if scene.present[:, near].all(axis=1).mean() < 0.9:
+                out[:, m] = np.nan
+        return out
+
+
 def level(measured, m):
     """How far a marker itself is off in the span, mm."""
     residual, positions = (values[SPAN, m, 0].mean() - values[BESIDE, m, 0].mean() for values in measured)
@@ -39,7 +50,7 @@ def nothing(measured, m):
     return []
 
 
-def found(*levels, at=0, border=0, suspect=nothing, open_at=None, rounds=2):
+def found(*levels, at=0, border=0, suspect=nothing, open_at=None, rounds=2, predictor=None):
     """Markers with an event where some are off their places in the span."""
     positions = np.zeros((30, len(levels), 3))
     positions[:, :, 0] = at
@@ -50,7 +61,7 @@ def found(*levels, at=0, border=0, suspect=nothing, open_at=None, rounds=2):
         measure=lambda scene, residual, only, was: (residual, positions),
         judge=judge,
         markers=MARKERS[: len(levels)],
-        predictor=MeanOfOthers(),
+        predictor=predictor or MeanOfOthers(),
         rounds=rounds,
         reach=len(levels) - 1,
         border=border,
@@ -83,6 +94,18 @@ def test_what_several_hide_from_one_another_is_found_where_all_are_suspected():
     levels = (20, 19, 11, 0, 0)
     assert found(*levels) == ["A", "B"]
     assert found(*levels, suspect=judge) == found(*levels, suspect=None) == ["A", "B", "C"]
+
+
+def test_a_marker_is_not_left_without_any_neighbour_to_judge_it_by():
+    levels = (30, 9, 6)
+    assert found(*levels) == ["A"]
+    assert found(*levels, suspect=judge) == ["A"]
+    assert found(*levels, suspect=judge, border=3) == ["A"]
+
+
+def test_a_marker_is_not_left_with_too_few_frames_to_learn_from():
+    levels = (30, 9, 0, 0)
+    assert found(*levels, suspect=judge, rounds=0, predictor=NeedsFrames()) == found(*levels, rounds=0) == ["A"]
 
 
 def test_suspicion_alone_is_no_event():

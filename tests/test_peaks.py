@@ -93,6 +93,15 @@ def test_three_siblings_with_a_peak_at_once(walker):
     assert [(e.marker, e.start, e.stop) for e in found["peaks"]] == sorted(places)
 
 
+def test_a_glitch_of_all_markers_at_once_hides_none_of_them(walker):
+    offsets = np.random.default_rng(4).normal(0, 30, (len(walker.recording.markers), 3))
+    recording = replace(walker.recording, positions=walker.recording.positions.copy())
+    recording.positions[700] += offsets
+    found, _ = detect(recording, only=("peaks",))
+    assert len(found["peaks"]) > len(recording.markers) / 2
+    assert all((e.start, e.stop) == (700, 701) for e in found["peaks"])
+
+
 def test_coordinates_are_merged_with_the_axes_that_fired(walker):
     recording = put(walker.recording, [("C7", 300, 303)], lambda length: np.ones((length, 1)) * [30, 0, -30])
     found, _ = detect(recording, preset="coordinates", only=("peaks",))

@@ -44,18 +44,19 @@ def find(
     measure: (scene, residual, only, was), what to judge of the residuals; with `only` and `was` anew for those markers.
     judge: the events of one marker by its index. suspect: likewise, of the courses as recorded (the same if None).
     Company is who is among whose first `reach` neighbours. Where several in company are suspected at the same time, each
-    is predicted without these samples of the others. Where some are found at the same time nevertheless, the one of
-    highest score is believed; the others are predicted without its samples and judged again, at most `rounds` times.
-    border: so many samples on either side go as well, as far as they weigh on a judgement, since predictions shift where a
-    neighbour goes. open_at: frames of a marker at which something is open; where an event that a neighbour is believed to
-    have begins or ends at one, the marker is judged again too. Returns the events and what was measured last.
+    is predicted without these samples of the others, as far as enough others are left. Where some are found at the same
+    time nevertheless, the one of highest score is believed; the others are predicted without its samples and judged again,
+    at most `rounds` times. border: so many samples on either side go as well, as far as they weigh on a judgement, since
+    predictions shift where a neighbour goes. open_at: frames of a marker at which something is open; where an event that a
+    neighbour is believed to have begins or ends at one, the marker is judged again too. Returns the events and what was
+    measured last.
     """
     index = {name: m for m, name in enumerate(markers)}
     company = _company(scene, reach)
     recorded = measure(scene, scene.positions, None, None)
     suspected = [event for m in range(len(markers)) for event in (suspect or judge)(recorded, m)]
-    hidden = _about(_in_company(suspected, scene, company, index), scene, markers, border)
-    residual = _residuals(predictor, scene, hidden, list(range(len(markers))))
+    together = _in_company(suspected, scene, company, index)
+    hidden, residual = _apart(predictor, scene, together, markers=markers, border=border)
     measured = measure(scene, residual, None, None)
     found = {m: judge(measured, m) for m in range(len(markers))}
     believed = {event for m, own in found.items() for event in own if hidden[event.start : event.stop, m].all()}
@@ -81,6 +82,35 @@ def find(
             anew = [event for event in judge(measured, m) if not any(_overlap(event, own) for own in kept)]
             found[m] = kept + anew
     return [event for own in found.values() for event in own], measured
+
+
+def _apart(
+    predictor: ResidualSource, scene: Scene, suspected: Sequence[Event], *, markers: Sequence[str], border: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which samples of suspects are hidden from the others, bool (frames, markers), and the residuals of all without them.
+
+    Whoever is suspected stays to be judged: neighbours without which it could not be predicted any more are not hidden;
+    nor are those without which a marker would have too few frames to learn from to be predicted at other times.
+    """
+    hidden = _about(suspected, scene, markers, border)
+    residual = _residuals(predictor, scene, hidden, list(range(len(markers))))
+    near = [np.asarray(own, int) for own in scene.neighbours]
+    beside = np.stack([hidden[:, own].any(axis=1) for own in near], axis=1)
+    lost = np.isnan(residual).any(axis=2) & scene.present & (hidden | ~beside)
+    if not (hidden.any() and lost.any()):
+        return hidden, residual
+    plain = _residuals(predictor, scene, np.zeros_like(hidden), np.flatnonzero(lost.any(axis=0)).tolist())
+    lost &= ~np.isnan(plain).any(axis=2)
+    if not lost.any():
+        return hidden, residual
+    needed = np.zeros_like(hidden)
+    for m in np.flatnonzero(lost.any(axis=0)).tolist():
+        there = lost[:, m] & beside[:, m]
+        needed[np.ix_(there if there.any() else np.ones_like(there), near[m])] = True
+    index = {name: m for m, name in enumerate(markers)}
+    wide = [needed[max(0, one.start - border) : one.stop + border, index[one.marker]] for one in suspected]
+    kept = [one for one, samples in zip(suspected, wide, strict=True) if not samples.any()]
+    return _apart(predictor, scene, kept, markers=markers, border=border)
 
 
 def _residuals(predictor: ResidualSource, scene: Scene, hidden: np.ndarray, markers: Sequence[int]) -> np.ndarray:
