@@ -1,10 +1,12 @@
 """Steps: exactly these intervals on a known signal, open steps, and the synthetic walker."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from markermend import steps
-from signals import NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
+from signals import CONFIG, NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
 
 PLACES = [("LWRA", 100, 150), ("C7", 400, 425), ("RKNE", 700, 860), ("RASI", 900, 908)]
 
@@ -102,6 +104,16 @@ def test_two_jumps_tell_a_step_that_neither_tells_alone(walker):
     assert left == []
     unpaired = put(walker.recording, [("RKNE", 700, 1200)], lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
     assert detect(unpaired, only=("steps",)) == ({"steps": []}, [])
+
+
+@pytest.mark.parametrize("key", ["ratio", "weak", "whole", "held", "alike", "floor_mm", "rounds", "rivals"])
+def test_least_settings_still_find_a_clear_step(walker, monkeypatch, key):
+    monkeypatch.setitem(CONFIG["steps"]["default"], key, 0)
+    positions = walker.recording.positions[:500, :12]
+    few = replace(walker.recording, markers=walker.recording.markers[:12], positions=positions)
+    place = (few.markers[4], 200, 260)
+    found, _ = detect(put(few, [place], lambda length: np.ones((length, 1)) * [30, 10, -20]), only=("steps",))
+    assert place in [(e.marker, e.start, e.stop) for e in found["steps"]]
 
 
 def test_steps_that_gaps_and_the_end_cut_short(walker):

@@ -1,8 +1,11 @@
 """The workflow as a whole: config, schema and flags in step; what is planned; recordings with any name and any content."""
 
+import copy
 import csv
+import functools
 import importlib.util
 import json
+import operator
 import os
 import re
 import subprocess
@@ -63,6 +66,24 @@ def test_the_schema_is_closed_complete_and_explained():
     for wrong in ({"surprise": 1}, {"mesh": {**CONFIG["mesh"], "surprise": 1}}, {"detect": ["swaps"]}, {"results": ""}):
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate({**CONFIG, **wrong}, SCHEMA)
+
+
+@pytest.mark.parametrize(("wrong", "words"), [({"input": 8}, "'input' was unexpected"), ({"anchors": 2}, "2 is less")])
+@pytest.mark.parametrize("place", ["slow.default.ridge", "repair.separation.ridges", "fill.variants"])
+def test_changes_to_the_local_ridge_are_held_to_its_settings(place, wrong, words):
+    config = copy.deepcopy(CONFIG)
+    *parents, last = place.split(".")
+    section = functools.reduce(operator.getitem, parents, config)
+    section[last] = {"ridge": wrong, "ridges": [{}, wrong], "variants": {"other": wrong}}[last]
+    with pytest.raises(jsonschema.ValidationError, match=words):
+        jsonschema.validate(config, SCHEMA)
+
+
+def test_a_step_is_never_measured_by_a_threshold_of_nothing():
+    config = copy.deepcopy(CONFIG)
+    config["steps"]["default"]["joint"] = 0
+    with pytest.raises(jsonschema.ValidationError, match="0 is less"):
+        jsonschema.validate(config, SCHEMA)
 
 
 @pytest.mark.parametrize("name", CONFIG)

@@ -93,7 +93,7 @@ def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float,
     """Whether two jumps are opposite and of a size, and the residual (frames, 3) is displaced in between."""
     sizes = float(np.linalg.norm(first.jump)), float(np.linalg.norm(second.jump))
     opposite = -first.jump @ second.jump >= settings.cosine * sizes[0] * sizes[1]
-    balanced = settings.ratio <= sizes[0] / sizes[1] <= 1 / settings.ratio
+    balanced = min(sizes) >= settings.ratio * max(sizes)
     if second.frame - first.frame < robust.samples(settings.shortest_s, rate) or not opposite or not balanced:
         return False
     mean, clear = (first.jump - second.jump) / 2, together(first, second)
