@@ -85,6 +85,15 @@ def test_found_though_neighbours_come_and_go(half, ranks):
         assert abs(event.stop - stop) <= 12
 
 
+@pytest.mark.parametrize("place", [("LUPA", 900, 1040), ("LHEE", 600, 750)])
+def test_a_gross_drift_is_found_amid_motion(half, place):
+    [event] = slow_changes(put(half, [place], lambda length: triangle(length, [9, 3, -6])))
+    marker, start, stop = place
+    assert event.marker == marker
+    assert abs(event.start - start) <= 20
+    assert abs(event.stop - stop) <= 20
+
+
 @pytest.mark.parametrize(
     ("elsewhere", "expected"),
     [([], 1), ([0.9], 1), ([5, 0.9], 1.53), ([0.9, 0.4, 5], 1.53), ([2, 2], 3), ([50, 40], 3)],

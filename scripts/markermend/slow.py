@@ -20,31 +20,42 @@ from markermend.predictors import Scene
 from markermend.predictors.local import LocalRidge
 from markermend.recording import runs
 from markermend.slow_company import Company
-from markermend.slow_matches import Matches, NeighbourSlow, bar, measure
+from markermend.slow_matches import Matches, NeighbourSlow, bar, frames, measure
 
 
 def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, settings: NeighbourSlow) -> list[Event]:
-    """Find the slow changes of one marker: the bumps that stand out, the clearest first, each with room about it."""
+    """Find the slow changes of one marker: the bumps that stand out, the clearest first, each with room about it.
+
+    A bump that is altogether plain may be the tip of a longer one: it lasts as long as it takes to come to rest.
+    """
     score, length, residual = matches.score[:, marker], matches.length[:, marker], matches.residual[:, marker]
     tops = [start + int(score[start:stop].argmax()) for start, stop in runs(score > 1)]
     shortest, found = robust.samples(settings.shortest_s, rate), list[Event]()
     taken = np.zeros(len(score), bool)
     for top in sorted(tops, key=lambda top: -score[top]):
-        start, stop = bumps.extent(residual, top, int(length[top]), flank=settings.flank)
+        longest = frames(settings, rate)[-1] if score[top] >= settings.plain else length[top]
+        reaches = [reach for reach in frames(settings, rate) if length[top] <= reach <= longest]
+        spans = [bumps.extent(residual, top, reach, flank=settings.flank) for reach in reaches]
+        start, stop = next((span for span in spans if stands_out(residual, *span, settings=settings)), spans[0])
         if taken[start:stop].any():
             continue
         side = int(settings.flank * (stop - start))
         taken[max(0, start - side) : stop + side] = True
-        change = bumps.risen(residual, start, stop, flank=settings.flank)
-        least = max(settings.floor_mm, bumps.unrest(residual, start, stop, flank=settings.flank) / settings.rest)
         if (
-            score[top] >= bar(score, start, stop, rate=rate, settings=settings)
-            and matches.noise[top, marker] <= settings.noise_mm
+            stands_out(residual, start, stop, settings=settings)
+            and score[top] >= bar(score, start, stop, rate=rate, settings=settings)
+            and (score[top] >= settings.sure or matches.noise[top, marker] <= settings.noise_mm)
             and stop - start >= shortest
-            and np.linalg.norm(change) >= least
         ):
+            change = bumps.risen(residual, start, stop, flank=settings.flank)
             found.append(Event(name, start, stop, float(score[top]), events.carrying(change[None])))
     return found
+
+
+def stands_out(residual: np.ndarray, start: int, stop: int, *, settings: NeighbourSlow) -> bool:
+    """Whether a residual (frames, 3) rises high enough in [start, stop), from rest to rest."""
+    least = max(settings.floor_mm, bumps.unrest(residual, start, stop, flank=settings.flank) / settings.rest)
+    return bumps.height(residual, start, stop, flank=settings.flank) >= least
 
 
 def settings(options: Mapping[str, Any]) -> CoordinateSlow | NeighbourSlow:

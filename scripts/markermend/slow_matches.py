@@ -16,14 +16,16 @@ from markermend.predictors import Scene
 class NeighbourSlow:
     """Settings of the detector on all coordinates together (config slow.default).
 
-    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much of their length is looked at on either side. taps: finest
-    detail, in parts of the length. scales_s, longest_s: correlation lengths and longest lag of the residual's covariance.
-    clip_sigmas: residuals beyond so many robust sigmas do not count in it. blocks: parts of the recording left out in turn to
-    learn how novelty widens residuals. neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units
-    of that. floor_mm: least height. noise_mm: where the expected level amounts to more than this, nothing is found.
-    least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by this factor than the
-    second clearest elsewhere on the marker, unless it is so many times as clear as the threshold asks. rest: just before and after, the residual is no further from
-    its usual level than this part of the height. shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
+    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much
+    of their length is looked at on either side. taps: finest detail, in parts of the length. scales_s, longest_s:
+    correlation lengths and longest lag of the residual's covariance. clip_sigmas: residuals beyond so many robust
+    sigmas do not count in it. blocks: parts of the recording left out in turn to learn how novelty widens residuals.
+    neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units of that. floor_mm: least
+    height. noise_mm, sure: where the expected level amounts to more than this, a bump must be so many times as clear as
+    the threshold asks. least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by
+    this factor than the second clearest elsewhere on the marker, unless it is so many times as clear as the threshold
+    asks. rest: just before and after, the residual is no further from its usual level than this part of the height.
+    shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
     missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
     height are left out in turn; without them, this part of the threshold must still be reached.
     """
@@ -40,6 +42,7 @@ class NeighbourSlow:
     sigmas: float
     floor_mm: float
     noise_mm: float
+    sure: float
     least: float
     apart: float
     plain: float
