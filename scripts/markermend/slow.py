@@ -33,9 +33,9 @@ def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, setting
     shortest, found = robust.samples(settings.shortest_s, rate), list[Event]()
     taken = np.zeros(len(score), bool)
     for top in sorted(tops, key=lambda top: -score[top]):
-        longest = frames(settings, rate)[-1] if score[top] >= settings.plain else length[top]
-        reaches = [reach for reach in frames(settings, rate) if length[top] <= reach <= longest]
-        spans = [bumps.extent(residual, top, reach, flank=settings.flank) for reach in reaches]
+        plain = score[top] >= settings.plain
+        lengths = [n for n in frames(settings, rate) if n == length[top] or (plain and n > length[top])]
+        spans = [bumps.extent(residual, top, n, flank=settings.flank) for n in lengths]
         start, stop = next((span for span in spans if stands_out(residual, *span, settings=settings)), spans[0])
         if taken[start:stop].any():
             continue
