@@ -85,6 +85,15 @@ def test_found_though_neighbours_come_and_go(half, ranks):
         assert abs(event.stop - stop) <= 12
 
 
+@pytest.mark.parametrize(("stop", "transient"), [(118, [1]), (160, [])])
+def test_what_is_brief_depends_on_how_long_the_event_is(stop, transient):
+    positions = np.zeros((300, 3, 3))
+    positions[108:112, 1] = np.nan
+    scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
+    company = Company(scene, None, settings("slow", "default"), RIDGE)
+    assert company.transient(0, Event("a", 100, stop, 2.0, "xyz")).tolist() == transient
+
+
 @pytest.mark.parametrize("place", [("LUPA", 900, 1040), ("LHEE", 600, 750)])
 def test_a_gross_drift_is_found_amid_motion(half, place):
     [event] = slow_changes(put(half, [place], lambda length: triangle(length, [9, 3, -6])))

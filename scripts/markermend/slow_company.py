@@ -15,6 +15,10 @@ RIGID_MM = 0.1
 """Deviation of distances that is taken for granted: rounded positions of a rigid body have that much."""
 
 
+BRIEF = 8
+"""A part in so many of an event is brief next to it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Company:
     """The nearest neighbours of each marker, and what is known of them.
@@ -40,9 +44,10 @@ class Company:
         """The neighbours that are seen for a part of the time only, from before an event of a marker to after it.
 
         A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What
-        is brief does not count: it makes no slow change.
+        is brief, next to the event too, does not count: it makes no slow change.
         """
         near, brief = self.near(marker), robust.samples(self.settings.brief_s, self.scene.rate)
+        brief = min(brief, (event.stop - event.start) // BRIEF)
         seen = self.seen(event, near)
         count = np.count_nonzero(seen, axis=0)
         return near[(count < len(seen) - brief) & (count > brief)]
