@@ -7,12 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from markermend.contamination import Contamination
 from markermend.damage import Recipe, integers, uniform
 from markermend.events import Event
 from markermend.recording import Recording
 from markermend.walker import Walker, make_body, walk
+
+settings.register_profile("the same examples each time", derandomize=True)
+settings.load_profile("the same examples each time")
 
 
 class Contaminated(NamedTuple):
