@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from markermend.events import Event
 from markermend.predictors import Scene
 from markermend.slow_company import Company
-from markermend.slow_matches import bar
+from markermend.slow_matches import bar, briefly_gone
 from signals import RIDGE, detect, neighbours, put, settings
 
 PLACES = [("LTIAP", 182, 243), ("LANK", 386, 457), ("LUPA", 920, 989)]
@@ -92,6 +92,16 @@ def test_what_is_brief_depends_on_how_long_the_event_is(stop, transient):
     scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
     company = Company(scene, None, settings("slow", "default"), RIDGE)
     assert company.transient(0, Event("a", 100, stop, 2.0, "xyz")).tolist() == transient
+
+
+def test_where_a_near_neighbour_is_briefly_gone_nothing_is_told():
+    positions = np.zeros((300, 3, 3))
+    positions[108:112, 1] = np.nan
+    positions[200:220, 2] = np.nan
+    scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
+    gone = briefly_gone(scene, settings("slow", "default"))
+    assert gone[108:112, [0, 2]].all()
+    assert np.count_nonzero(gone) == 8
 
 
 @pytest.mark.parametrize("place", [("LUPA", 900, 1040), ("LHEE", 600, 750)])

@@ -10,6 +10,7 @@ import numpy as np
 
 from markermend import bumps, liveliness, robust
 from markermend.predictors import Scene
+from markermend.recording import runs
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,9 @@ def match(
 def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: NeighbourSlow) -> Matches:
     """Measure how clearly bumps stand out in the residuals of all markers; wider: see `match`."""
     rate, lengths = scene.rate, frames(settings, scene.rate)
-    each = [match(residual[:, m], wider[:, m], lengths, rate=rate, settings=settings) for m in range(residual.shape[1])]
+    brief = briefly_gone(scene, settings)
+    steady = np.where(brief[:, :, None], np.nan, residual)
+    each = [match(steady[:, m], wider[:, m], lengths, rate=rate, settings=settings) for m in range(residual.shape[1])]
     strength = np.stack([own for own, _ in each], axis=2)
     smooth = max(3, robust.samples(settings.brief_s, rate, odd=True))
     moving = liveliness.motion(scene.positions, scene.neighbours, rate=rate, near=settings.neighbours, smooth=smooth)
@@ -145,6 +148,20 @@ def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: Neig
     top = int(elsewhere.argmax())
     elsewhere[max(0, top - reach) : top + reach] = 0
     return float(np.clip(settings.apart * elsewhere.max(), 1, settings.plain))
+
+
+def briefly_gone(scene: Scene, settings: NeighbourSlow) -> np.ndarray:
+    """Bool (frames, markers): True where one of a marker's nearest neighbours is gone, but not for long.
+
+    The others predict otherwise: a bump that is none.
+    """
+    brief = robust.samples(settings.brief_s, scene.rate)
+    gone = np.zeros(scene.present.shape, bool)
+    for m, absent in enumerate(~scene.present.T):
+        for start, stop in runs(absent):
+            gone[start:stop, m] = stop - start <= brief
+    near = [np.asarray(around, int)[: settings.rivals] for around in scene.neighbours]
+    return np.stack([gone[:, around].any(axis=1) for around in near], axis=1)
 
 
 def level(strength: np.ndarray) -> np.ndarray:
