@@ -21,10 +21,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np
-from gaps import CONFIG, MESH, PROJECT, fill_gapped, load
 
-from markermend.mesh_inference import infer_meshes
-from markermend.mesh_statistics import thin
+from gaps import CONFIG, MESH, PROJECT, fill_gapped, load
+from markermend.mesh.inference import infer_meshes
+from markermend.mesh.pair_statistics import thin
 
 LENGTHS_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 MOST_SHARE = 0.5

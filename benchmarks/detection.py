@@ -37,24 +37,29 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import yaml
-from detection_outcome import CLASSES, Outcome, print_outcome
 
-from markermend import events, frozen, hills, mesh_inference, mesh_statistics, noise, peaks, slow, steps, swaps, tails
-from markermend.contamination import Contamination
+from detection_outcome import CLASSES, Outcome, print_outcome
+from markermend.core import events
+from markermend.core.mesh import Mesh
+from markermend.core.recording import Recording
+from markermend.detection import frozen, labels, noise, peaks, steps, tails
+from markermend.detection import slow as detection_slow
+from markermend.detection.published import slow
 from markermend.formats import files
-from markermend.mesh import Mesh
-from markermend.predictors import Scene
-from markermend.predictors.registry import REGISTRY, SHARED, members
-from markermend.procedures import PROCEDURES
-from markermend.recording import Recording
-from markermend.repair import RepairOptions, repair
+from markermend.mesh import inference, pair_statistics
+from markermend.prediction.registry import REGISTRY, SHARED, members
+from markermend.prediction.scene import Scene
+from markermend.repair.candidates import RepairOptions
+from markermend.repair.repair import repair
+from markermend.simulation.contamination import Contamination
+from markermend.simulation.protocols import PROCEDURES
 
 PROJECT = Path(__file__).resolve().parents[1]
 UNMEASURED = {
     "frozen": (frozen.detect_frozen, frozen.FrozenSettings),
     "tails": (tails.detect_tails, tails.TailSettings),
 }
-DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": slow}
+DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": detection_slow}
 GLITCHES = Path(__file__).with_name("confirmed_glitches.tsv")
 BORDER = 2
 """Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
@@ -82,17 +87,17 @@ def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
             given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
             found[kind] = look(scene, settings=settings(**config[kind]), **given)
             claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-        swapped = swaps.detect_swaps(scene, markers=recording.markers, settings=swaps.SwapSettings(**config["swaps"]))
-        scene = replace(scene, positions=swaps.undone(scene.positions, swapped, recording.markers))
+        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=labels.SwapSettings(**config["swaps"]))
+        scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
     for kind, module in DETECTORS.items():
         settings = module.settings({**config[kind], "preset": preset})
-        if isinstance(settings, hills.CoordinateSlow):
-            predictor = hills.predictor(settings, config)
+        if isinstance(settings, slow.CoordinateSlow):
+            predictor = slow.predictor(settings, config)
         given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
         result = getattr(module, f"detect_{kind}")(scene, settings=settings, **given)
         found[kind] = result[0] if kind == "steps" else result
         claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-    return {**found, "steps": swaps.among(found["steps"], swapped)}
+    return {**found, "steps": labels.among(found["steps"], swapped)}
 
 
 def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[np.ndarray, bool]:
@@ -150,8 +155,8 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
 def infer(recording: Recording, config: dict) -> Mesh:
     """The mesh of a recording by itself."""
     settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    thinned = mesh_statistics.thin(recording, frames=settings["frames"])
-    return mesh_inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], **settings)
+    thinned = pair_statistics.thin(recording, frames=settings["frames"])
+    return inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], **settings)
 
 
 def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:

@@ -15,12 +15,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 import numpy as np
 import yaml
 
-from markermend import mesh, settings, storage
-from markermend.mesh_inference import infer_meshes
-from markermend.mesh_statistics import thin
-from markermend.predictors.registry import FAMILIES
-from markermend.recording import MEASURED, MISSING, Recording, Restored
-from markermend.walker import make_body, walk
+from markermend.core.recording import MEASURED, MISSING, Recording, Restored
+from markermend.mesh.inference import infer_meshes
+from markermend.mesh.pair_statistics import thin
+from markermend.planning import config
+from markermend.prediction.registry import FAMILIES
+from markermend.simulation.walker import walk
+from markermend.simulation.walker_body import make_body
+from markermend.storage import mesh_file, stage_files
 
 PROJECT = Path(__file__).resolve().parents[1]
 CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
@@ -67,15 +69,15 @@ def fill(recording, **options):
     section = {**CONFIG["fill"], **{name: CONFIG[name] for name in SHARED}, "decisions": [], **options}
     with tempfile.TemporaryDirectory() as folder:
         files = {name: Path(folder, file) for name, file in FILES.items()}
-        storage.write_recording(files["repaired"], restored(recording), {})
-        mesh.write(files["mesh"], [mesh_of(recording)], {})
+        stage_files.write_recording(files["repaired"], restored(recording), {})
+        mesh_file.write(files["mesh"], [mesh_of(recording)], {})
         script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
-        command = [sys.executable, "-c", WATCH, *script, *shlex.split(settings.flags(section))]
+        command = [sys.executable, "-c", WATCH, *script, *shlex.split(config.flags(section))]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
             raise RuntimeError(done.stderr[-2000:])
         seconds, megabytes = map(float, done.stdout.split())
-        return Run(storage.read_recording(files["filled"]), seconds, megabytes)
+        return Run(stage_files.read_recording(files["filled"]), seconds, megabytes)
 
 
 def restored(recording):

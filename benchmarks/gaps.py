@@ -29,15 +29,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 import numpy as np
 import yaml
 
-from markermend.ensemble import Ensemble, EnsembleOptions
-from markermend.fill import fill_gaps
-from markermend.fillable import FillOptions
+from markermend.core.recording import MEASURED, MISSING, Restored
+from markermend.filling.eligibility import FillOptions
+from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.filling.fill import fill_gaps
 from markermend.formats import files
-from markermend.ingest import ingest
-from markermend.mesh_inference import infer_meshes
-from markermend.mesh_statistics import thin
-from markermend.predictors.registry import FAMILIES, members
-from markermend.recording import MEASURED, MISSING, Restored
+from markermend.formats.ingest import ingest
+from markermend.mesh.inference import infer_meshes
+from markermend.mesh.pair_statistics import thin
+from markermend.prediction.registry import FAMILIES, members
 
 PROJECT = Path(__file__).resolve().parents[1]
 CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))

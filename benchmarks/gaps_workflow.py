@@ -22,8 +22,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np
 import yaml
-from gaps import CONFIG, LIFTED, PROJECT, fill_case, load, score
 
+from gaps import CONFIG, LIFTED, PROJECT, fill_case, load, score
 from markermend.formats import files
 
 UNLABELLED = CONFIG["ingest"]["unlabelled"]

@@ -15,12 +15,12 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import gaps
 import numpy as np
-from fill_runs import CONFIG, PROJECT, fill, mesh_of, walker, with_gaps
 from scipy.interpolate import CubicSpline
 
-from markermend.recording import Recording
+import gaps
+from fill_runs import CONFIG, PROJECT, fill, mesh_of, walker, with_gaps
+from markermend.core.recording import Recording
 
 
 @dataclass(frozen=True)

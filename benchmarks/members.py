@@ -21,10 +21,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import numpy as np
-from gaps import CONFIG, PROJECT, fill_case, score
 
-from markermend.predictors.networks import KINDS as NETWORKS
-from markermend.predictors.registry import REGISTRY
+from gaps import CONFIG, PROJECT, fill_case, score
+from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
+from markermend.prediction.registry import REGISTRY
 
 CONDITIONS = ("g1_L1", "g3_L0.5", "g3_L2", "g6_L1", "sp2_10", "sp2_50", "sp2_200")
 SLOW = ("replicated_network", "bolero", *NETWORKS)

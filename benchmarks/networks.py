@@ -20,10 +20,11 @@ import numpy as np
 import torch
 import yaml
 
-from markermend.predictors import Scene
-from markermend.predictors.network_options import NetworkOptions
-from markermend.predictors.networks import KINDS, Network
-from markermend.walker import make_body, walk
+from markermend.prediction.neural_network.options import NetworkOptions
+from markermend.prediction.neural_network.predictor import KINDS, Network
+from markermend.prediction.scene import Scene
+from markermend.simulation.walker import walk
+from markermend.simulation.walker_body import make_body
 
 PROJECT = Path(__file__).resolve().parents[1]
 OPTIONS = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))["fill"]["networks"]

@@ -11,6 +11,7 @@ its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at 
 import argparse
 
 import numpy as np
+
 from fill_runs import fill, walker, with_gaps
 
 BASE = {"frames": 4_000, "markers": 41, "gaps": 10}

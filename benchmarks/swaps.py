@@ -22,10 +22,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 import numpy as np
 import yaml
 
-from markermend import mesh_inference, mesh_statistics
+from markermend.detection.labels import SwapSettings, detect_swaps, undone
 from markermend.formats import files
-from markermend.predictors import Scene
-from markermend.swaps import SwapSettings, detect_swaps, undone
+from markermend.mesh import inference, pair_statistics
+from markermend.prediction.scene import Scene
 
 PROJECT = Path(__file__).resolve().parents[1]
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
@@ -41,7 +41,7 @@ def read(path: Path, config: dict) -> tuple[tuple[str, ...], Scene]:
     recording = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
     recording = replace(recording, facts={"recording": path.stem})
     settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    mesh = mesh_inference.infer_mesh([mesh_statistics.thin(recording, frames=settings["frames"])], **settings)
+    mesh = inference.infer_mesh([pair_statistics.thin(recording, frames=settings["frames"])], **settings)
     return recording.markers, Scene(recording.positions, recording.rate, mesh.neighbour_indices(recording.markers))
 
 

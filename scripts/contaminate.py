@@ -10,9 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from markermend import dataset, storage
-from markermend.procedures import PROCEDURES
-from markermend.truth import Damaged, table
+from markermend.planning import recordings
+from markermend.simulation.contaminated_files import Damaged, table
+from markermend.simulation.protocols import PROCEDURES
+from markermend.storage import atomic
 
 
 def main(argv: list[str] | None = None) -> None:
@@ -37,12 +38,12 @@ def main(argv: list[str] | None = None) -> None:
     flags = parser.parse_args(argv)
     settings = {"amplitude": flags.amplitude_mm, "share": flags.share, "unlabelled": flags.unlabelled}
     rows = []
-    for number, entry in enumerate(dataset.find(flags.recordings, str(flags.folder))):
+    for number, entry in enumerate(recordings.find(flags.recordings, str(flags.folder))):
         rng = np.random.default_rng([flags.seed, number])
         damaged = Damaged.of(entry, PROCEDURES[flags.procedure], rng=rng, **settings)
         damaged.write(flags.folder, flags.truth)
         rows += damaged.rows
-    storage.write_text(flags.truth / "truth.tsv", table(rows))
+    atomic.write_text(flags.truth / "truth.tsv", table(rows))
 
 
 if __name__ == "__main__":

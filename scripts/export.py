@@ -7,10 +7,11 @@ changes.tsv, certificate.json. A recording that was set aside is copied unchange
 
 import numpy as np
 
-from markermend import export, storage
-from markermend.formats import trc
-from markermend.recording import Recording, Restored
-from markermend.stage import Stage
+from markermend.command.stage import Stage
+from markermend.core.recording import Recording, Restored
+from markermend.export import change_table, write_back
+from markermend.formats.text import trc
+from markermend.storage import atomic, stage_files
 
 STAGE = Stage("export", __doc__)
 STAGE.reads("source", "the original file")
@@ -23,23 +24,23 @@ STAGE.writes("trc", "the cleaned recording as TRC besides", many=True)
 
 
 def work(call):
-    measured, restored = storage.read_recording(call.markers), storage.read_recording(call.filled)
+    measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
-    certificate = export.write_cleaned(call.source, call.cleaned, measured, restored)
-    rows = export.list_changes(measured, restored)
-    storage.write_text(call.changes, export.changes_table(rows))
+    certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
+    rows = change_table.list_changes(measured, restored)
+    atomic.write_text(call.changes, change_table.changes_table(rows))
     for path in call.trc:
         trc.write_new(path, recording=restored)
-    storage.write_json(call.certificate, certificate)
+    atomic.write_json(call.certificate, certificate)
     return f"{certificate['changed_samples']} samples changed in {len(rows)} places, every other byte equal"
 
 
 def set_aside(call, note):
-    certificate = export.pass_through(call.source, call.cleaned, note.stage, note.reason)
-    storage.write_text(call.changes, export.changes_table([]))
+    certificate = write_back.pass_through(call.source, call.cleaned, note.stage, note.reason)
+    atomic.write_text(call.changes, change_table.changes_table([]))
     for path in call.trc:
         trc.write_new(path, recording=Recording((), np.empty((0, 0, 3)), 1.0))
-    storage.write_json(call.certificate, certificate)
+    atomic.write_json(call.certificate, certificate)
 
 
 def main(argv=None):

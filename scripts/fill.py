@@ -6,12 +6,13 @@ Writes: 07_filled.parquet.
 
 from dataclasses import replace
 
-from markermend import decisions, mesh, storage
-from markermend.ensemble import Ensemble, EnsembleOptions
-from markermend.fill import fill_gaps
-from markermend.fillable import FillOptions
-from markermend.predictors.registry import FAMILIES, REGISTRY, members
-from markermend.stage import Stage, boolean, mapping, objects, optional
+from markermend.command.stage import Stage, boolean, mapping, objects, optional
+from markermend.core import decisions
+from markermend.filling.eligibility import FillOptions
+from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.filling.fill import fill_gaps
+from markermend.prediction.registry import FAMILIES, REGISTRY, members
+from markermend.storage import mesh_file, stage_files
 
 STAGE = Stage("fill", __doc__)
 STAGE.reads("repaired", "trajectories after repair")
@@ -37,8 +38,8 @@ for family, whose in FAMILIES.items():
 
 
 def work(call):
-    restored = storage.read_recording(call.repaired)
-    body = mesh.read(call.mesh, restored.facts["recording"])
+    restored = stage_files.read_recording(call.repaired)
+    body = mesh_file.read(call.mesh, restored.facts["recording"])
     settings = {name: call.options[name] for name in FAMILIES}
     own = {name: value for name, value in call.options.items() if name not in settings}
     names, most, decided = (own.pop(name) for name in ("members", "trial_frames", "decisions"))
@@ -57,7 +58,7 @@ def work(call):
         decisions=decisions.read(decided, restored.first_frame),
         alone={name: together([name], replace(averaging, longest_s={})) for name in sorted(wanted)},
     )
-    storage.write_recording(call.filled, filled, call.facts)
+    stage_files.write_recording(call.filled, filled, call.facts)
     return f"{len(filled.facts['fills'])} gaps filled, {len(filled.facts['gaps_left'])} left"
 
 

@@ -4,10 +4,10 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_frozen.parquet.
 """
 
-from markermend import unmeasured
-from markermend.frozen import FrozenSettings, detect_frozen
+from markermend.command import detector
+from markermend.detection.frozen import FrozenSettings, detect_frozen
 
-STAGE = unmeasured.stage("frozen", __doc__, finds="frozen stretches")
+STAGE = detector.unmeasured_stage("frozen", __doc__, finds="frozen stretches")
 STAGE.option("frames", int, "frames with the same position, at least")
 STAGE.option("neighbours", int, "the nearest neighbours, which must move meanwhile")
 STAGE.option("floor_mm", float, "by how much they, and the marker by what they tell, must have moved, mm")
@@ -15,7 +15,7 @@ STAGE.option("sigmas", float, "and the marker by so many standard deviations of 
 
 
 def work(call):
-    return unmeasured.search(call, detect_frozen, FrozenSettings)
+    return detector.search(call, detect_frozen, FrozenSettings)
 
 
 def main(argv=None):

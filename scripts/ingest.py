@@ -4,11 +4,11 @@ Reads: the original file.
 Writes: 01_markers.parquet.
 """
 
-from markermend import storage
+from markermend.command.stage import Stage, optional
 from markermend.formats import files
-from markermend.ingest import ingest
-from markermend.naming import printable
-from markermend.stage import Stage, optional
+from markermend.formats.ingest import ingest
+from markermend.storage import stage_files
+from markermend.storage.folder_names import printable
 
 STAGE = Stage("ingest", __doc__)
 STAGE.reads("source", "the original: .c3d, .trc, .csv or .tsv")
@@ -27,7 +27,7 @@ def work(call):
     reading = files.read(call.source, unlabelled=options.pop("unlabelled"), rate=options.pop("rate"))
     recording = ingest(reading, source=printable(call.source.name), **options)
     recording.facts["source"]["sha256"] = call.facts["inputs"]["source"]
-    storage.write_recording(call.markers, recording, call.facts)
+    stage_files.write_recording(call.markers, recording, call.facts)
     gone = recording.missing.mean()
     return (
         f"{recording.frames} frames of {len(recording.markers)} markers at {recording.rate:g} Hz, {gone:.1%} missing, "

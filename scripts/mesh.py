@@ -6,9 +6,10 @@ Writes: mesh.json.
 
 from dataclasses import replace
 
-from markermend import mesh, mesh_inference, mesh_statistics, mesh_supplied, storage
-from markermend.recording import SetAside
-from markermend.stage import Stage
+from markermend.command.stage import Stage
+from markermend.core.recording import SetAside
+from markermend.mesh import inference, pair_statistics, user_mesh
+from markermend.storage import mesh_file, stage_files
 
 STAGE = Stage("mesh", __doc__)
 STAGE.reads("markers", "trajectories as ingested, of every recording of the subject", many=True)
@@ -31,18 +32,18 @@ def work(call):
     recordings, aside = [], None
     for path in call.markers:
         try:
-            recording = storage.read_recording(path)
+            recording = stage_files.read_recording(path)
         except SetAside as note:
             aside = note
             continue
         facts = {"recording": path.parent.name, **recording.facts}
-        recordings.append(mesh_statistics.thin(replace(recording, facts=facts), frames=call.options["frames"]))
+        recordings.append(pair_statistics.thin(replace(recording, facts=facts), frames=call.options["frames"]))
     if not recordings and aside is not None:
         raise aside
-    supplied = [own for path in call.mesh_files for own in mesh_supplied.read(path)]
-    meshes = mesh_inference.infer_meshes(recordings, supplied=supplied, **call.options)
+    supplied = [own for path in call.mesh_files for own in user_mesh.read(path)]
+    meshes = inference.infer_meshes(recordings, supplied=supplied, **call.options)
     call.facts["inputs"]["markers"].sort()
-    mesh.write(call.mesh, meshes, call.facts)
+    mesh_file.write(call.mesh, meshes, call.facts)
     return "; ".join(f"{len(m.segments)} segments of {len(m.markers)} markers" for m in meshes)
 
 

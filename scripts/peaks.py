@@ -4,16 +4,18 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_peaks.parquet.
 """
 
-from markermend import detection, peaks, storage
+from markermend.command import detector
+from markermend.detection import peaks
+from markermend.storage import stage_files
 
-STAGE = detection.stage("peaks", __doc__, finds="isolated peaks", presets=["default", "coordinates", "paper"])
+STAGE = detector.stage("peaks", __doc__, finds="isolated peaks", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    given, _ = detection.arguments(call)
+    given, _ = detector.arguments(call)
     found = peaks.detect_peaks(**given, settings=peaks.settings(call.options))
-    storage.write_events(call.events, found, call.facts)
-    return detection.result(found)
+    stage_files.write_events(call.events, found, call.facts)
+    return detector.result(found)
 
 
 def main(argv=None):

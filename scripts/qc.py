@@ -4,8 +4,9 @@ Reads: 01_markers.parquet, mesh.json, the events, 06_repaired.parquet, 07_filled
 Writes: 08_qc.json, page.html.
 """
 
-from markermend import evidence, report, storage
-from markermend.stage import Stage, mapping
+from markermend.command.stage import Stage, mapping
+from markermend.report import recording_report, rendering
+from markermend.storage import atomic
 
 STAGE = Stage("qc", __doc__)
 STAGE.reads("markers", "trajectories as ingested")
@@ -24,17 +25,17 @@ STAGE.option("attention", mapping, "points that make up the attention score, by 
 
 
 def work(call):
-    seen = evidence.read(call)
-    summary = evidence.summarize(seen, call.options["attention"])
-    storage.write_json(call.qc, {**summary, **evidence.place(call.page)})
-    storage.write_text(call.page, evidence.page(seen, summary, call.options))
+    seen = recording_report.read(call)
+    summary = recording_report.summarize(seen, call.options["attention"])
+    atomic.write_json(call.qc, {**summary, **recording_report.place(call.page)})
+    atomic.write_text(call.page, recording_report.page(seen, summary, call.options))
     return f"{summary['status']}, {summary['changed_samples']} samples changed, attention {summary['attention']:.1f}"
 
 
 def set_aside(call, note):
-    summary = evidence.summarize_aside(call.markers, call.page, note)
-    storage.write_json(call.qc, summary)
-    storage.write_text(call.page, report.page_aside(summary))
+    summary = recording_report.summarize_aside(call.markers, call.page, note)
+    atomic.write_json(call.qc, summary)
+    atomic.write_text(call.page, rendering.page_aside(summary))
 
 
 def main(argv=None):

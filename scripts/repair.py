@@ -4,11 +4,13 @@ Reads: 01_markers.parquet, mesh.json, the events files, in the order of the dete
 Writes: 06_repaired.parquet.
 """
 
-from markermend import decisions, mesh, storage
-from markermend.predictors.registry import FAMILIES, REGISTRY, SHARED, members
-from markermend.repair import RepairOptions, repair
-from markermend.repair_methods import METHODS
-from markermend.stage import Stage, mapping, objects
+from markermend.command.stage import Stage, mapping, objects
+from markermend.core import decisions
+from markermend.prediction.registry import FAMILIES, REGISTRY, SHARED, members
+from markermend.repair.candidates import RepairOptions
+from markermend.repair.methods import METHODS
+from markermend.repair.repair import repair
+from markermend.storage import mesh_file, stage_files
 
 STAGE = Stage("repair", __doc__)
 STAGE.reads("markers", "trajectories as ingested")
@@ -34,9 +36,9 @@ for family in SHARED:
 
 
 def work(call):
-    recording = storage.read_recording(call.markers)
-    body = mesh.read(call.mesh, recording.facts["recording"])
-    found = {storage.read_facts(path)["stage"]: storage.read_events(path) for path in call.events}
+    recording = stage_files.read_recording(call.markers)
+    body = mesh_file.read(call.mesh, recording.facts["recording"])
+    found = {stage_files.read_facts(path)["stage"]: stage_files.read_events(path) for path in call.events}
     settings = {name: call.options[name] for name in SHARED}
     own = {name: value for name, value in call.options.items() if name not in settings}
     decided = own.pop("decisions")
@@ -52,7 +54,7 @@ def work(call):
         options=RepairOptions(**own),
         decisions=decisions.read(decided, recording.first_frame),
     )
-    storage.write_recording(call.repaired, result, call.facts)
+    stage_files.write_recording(call.repaired, result, call.facts)
     return f"{len(result.facts['repairs'])} repairs, {len(result.facts['repairs_left'])} findings not repaired"
 
 

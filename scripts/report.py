@@ -6,8 +6,9 @@ Writes: index.html, summary.tsv, plotly.min.js (the one plotting script that all
 
 import json
 
-from markermend import report, storage
-from markermend.stage import Stage
+from markermend.command.stage import Stage
+from markermend.report import rendering
+from markermend.storage import atomic
 
 STAGE = Stage("report", __doc__)
 STAGE.reads("qc", "recordings in numbers", many=True, optional=True)
@@ -18,10 +19,10 @@ STAGE.writes("script", "the plotting script")
 
 def work(call):
     summaries = [json.loads(path.read_text(encoding="utf-8")) for path in call.qc]
-    storage.write_text(call.index, report.index(summaries))
-    storage.write_text(call.summary, report.table(summaries))
-    with storage.replacing(call.script) as temporary:
-        temporary.write_bytes(report.plotly_script().read_bytes())
+    atomic.write_text(call.index, rendering.index(summaries))
+    atomic.write_text(call.summary, rendering.table(summaries))
+    with atomic.replacing(call.script) as temporary:
+        temporary.write_bytes(rendering.plotly_script().read_bytes())
     aside = sum(summary["status"] == "set aside" for summary in summaries)
     return f"{len(summaries)} recordings, {aside} set aside"
 

@@ -4,23 +4,26 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 05_slow.parquet.
 """
 
-from markermend import detection, hills, slow, storage
-from markermend.predictors.loose import LOOSE
-from markermend.stage import mapping
+from markermend.command import detector
+from markermend.command.stage import mapping
+from markermend.detection import slow as detection_slow
+from markermend.detection.published import slow
+from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.storage import stage_files
 
-STAGE = detection.stage("slow", __doc__, finds="slow changes", presets=["default", "paper"])
+STAGE = detector.stage("slow", __doc__, finds="slow changes", presets=["default", "paper"])
 for name in LOOSE:
     STAGE.option(name, mapping, f"settings of the predictor {name}, which the preset `paper` may use")
 
 
 def work(call):
-    given, _ = detection.arguments(call)
-    settings = slow.settings(call.options)
-    if isinstance(settings, hills.CoordinateSlow):
-        given["predictor"] = hills.predictor(settings, call.options)
-    found = slow.detect_slow(**given, settings=settings)
-    storage.write_events(call.events, found, call.facts)
-    return detection.result(found)
+    given, _ = detector.arguments(call)
+    settings = detection_slow.settings(call.options)
+    if isinstance(settings, slow.CoordinateSlow):
+        given["predictor"] = slow.predictor(settings, call.options)
+    found = detection_slow.detect_slow(**given, settings=settings)
+    stage_files.write_events(call.events, found, call.facts)
+    return detector.result(found)
 
 
 def main(argv=None):

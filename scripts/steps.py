@@ -4,17 +4,19 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 04_steps.parquet, with the jumps that have no counterpart among its facts.
 """
 
-from markermend import detection, steps, storage, swaps
+from markermend.command import detector
+from markermend.detection import labels, steps
+from markermend.storage import stage_files
 
-STAGE = detection.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
+STAGE = detector.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    given, swapped = detection.arguments(call)
+    given, swapped = detector.arguments(call)
     found, left = steps.detect_steps(**given, settings=steps.settings(call.options))
-    found = swaps.among(found, swapped)
-    storage.write_events(call.events, found, {**call.facts, "open_steps": [vars(step) for step in left]})
-    return f"{detection.result(found)}; {len(swapped) // 2} swaps among them; {len(left)} open steps"
+    found = labels.among(found, swapped)
+    stage_files.write_events(call.events, found, {**call.facts, "open_steps": [vars(step) for step in left]})
+    return f"{detector.result(found)}; {len(swapped) // 2} swaps among them; {len(left)} open steps"
 
 
 def main(argv=None):

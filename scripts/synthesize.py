@@ -8,9 +8,9 @@ trajectories, and peaks, noise, steps, slow and gaps.parquet, the damage as even
 import argparse
 from pathlib import Path
 
-from markermend import storage
-from markermend.formats.c3d_new import write_new
-from markermend.session import Take, session
+from markermend.formats.c3d.writer import write_new
+from markermend.simulation.session import Take, session
+from markermend.storage import stage_files
 
 
 def write(take: Take, subject: str, folder: Path, truth: Path) -> None:
@@ -23,9 +23,9 @@ def write(take: Take, subject: str, folder: Path, truth: Path) -> None:
         storage=take.storage,
         groups={"SUBJECTS": {"USED": 1, "NAMES": [subject]}},
     )
-    storage.write_recording(truth / subject / take.name / "clean.parquet", take.clean, {"stage": "truth"})
+    stage_files.write_recording(truth / subject / take.name / "clean.parquet", take.clean, {"stage": "truth"})
     for kind, events in take.truth.items():
-        storage.write_events(truth / subject / take.name / f"{kind}.parquet", events, {"stage": kind})
+        stage_files.write_events(truth / subject / take.name / f"{kind}.parquet", events, {"stage": kind})
 
 
 def main(argv: list[str] | None = None) -> None:

@@ -4,10 +4,10 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_tails.parquet.
 """
 
-from markermend import unmeasured
-from markermend.tails import TailSettings, detect_tails
+from markermend.command import detector
+from markermend.detection.tails import TailSettings, detect_tails
 
-STAGE = unmeasured.stage("tails", __doc__, finds="noisy tails")
+STAGE = detector.unmeasured_stage("tails", __doc__, finds="noisy tails")
 STAGE.option("longest_s", float, "longest tail, s")
 STAGE.option("before_s", float, "how long the marker must be seen before that, further from the gap, s")
 STAGE.option("activity_s", float, "time around over which the usual size of changes is taken, s")
@@ -18,7 +18,7 @@ STAGE.option("weak", float, "half of its samples must exceed this share of that 
 
 
 def work(call):
-    return unmeasured.search(call, detect_tails, TailSettings)
+    return detector.search(call, detect_tails, TailSettings)
 
 
 def main(argv=None):

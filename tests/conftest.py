@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from markermend.contamination import Contamination
-from markermend.damage import Recipe, integers, uniform
-from markermend.events import Event
-from markermend.recording import Recording
-from markermend.walker import Walker, make_body, walk
+from markermend.core.events import Event
+from markermend.core.recording import Recording
+from markermend.simulation.artifact_models import Recipe, integers, uniform
+from markermend.simulation.contamination import Contamination
+from markermend.simulation.walker import Walker, walk
+from markermend.simulation.walker_body import make_body
 
 settings.register_profile("the same examples each time", derandomize=True)
 settings.load_profile("the same examples each time")

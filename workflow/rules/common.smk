@@ -19,12 +19,14 @@ PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
 sys.path.insert(0, SCRIPTS)
 
-from markermend import dataset, decision_table, outcome, provenance, settings
-from markermend.events import CLASSES
-from markermend.predictors.loose import LOOSE
-from markermend.predictors.networks import KINDS as NETWORKS
-from markermend.predictors.registry import SHARED
-from markermend.storage import sha256, write_json, write_text
+from markermend.core.artifacts import CLASSES
+from markermend.planning import code_hashes, decision_table, run_facts, run_summary
+from markermend.planning import config as settings
+from markermend.planning import recordings as dataset
+from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
+from markermend.prediction.registry import SHARED
+from markermend.storage.atomic import sha256, write_json, write_text
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
@@ -227,7 +229,7 @@ def options(stage, *shared, without=()):
 
 def code(stage, *extra):
     """The stage's script and modules by content, one entry each: an edit reruns the stages that use the module."""
-    return provenance.code(PROJECT / "scripts" / f"{stage}.py", map(PROJECT.joinpath, extra))
+    return code_hashes.code(PROJECT / "scripts" / f"{stage}.py", map(PROJECT.joinpath, extra))
 
 
 def failures(stage):
@@ -242,6 +244,6 @@ def failures(stage):
 def close():
     """Write down the facts of the run, and print what it came to."""
     paths = [QUALITY.format(subject=subject, recording=recording) for subject, recording in RECORDINGS]
-    facts = provenance.run_facts(PROJECT, config=config, recordings=len(RECORDINGS), started=STARTED)
+    facts = run_facts.run_facts(PROJECT, config=config, recordings=len(RECORDINGS), started=STARTED)
     write_json(Path(RESULTS, "report", "provenance.json"), facts)
-    print(outcome.summary(map(Path, paths), Path(RESULTS, "report", "index.html")), file=sys.stderr)
+    print(run_summary.summary(map(Path, paths), Path(RESULTS, "report", "index.html")), file=sys.stderr)

@@ -30,7 +30,7 @@ rule qc:
         mem_mb=2000,
         runtime=10,
     params:
-        *code("qc", "workflow/report"),
+        *code("qc", "scripts/markermend/report/templates"),
         options=options("qc"),
         failures=failures("qc"),
     message:
@@ -59,7 +59,7 @@ rule report:
         mem_mb=4000,
         runtime=20,
     params:
-        *code("report", "workflow/report"),
+        *code("report", "scripts/markermend/report/templates"),
         options=options("report"),
         failures=failures("report"),
         list=QUALITY_LIST,

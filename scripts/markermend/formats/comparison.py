@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from markermend.formats import sheet, text
-from markermend.formats.c3d_layout import locate
-from markermend.formats.c3d_parameters import read_section
+from markermend.formats.c3d.data_layout import locate
+from markermend.formats.c3d.parameters import read_section
+from markermend.formats.text import lines, reader
 
 CHUNK = 1 << 24
 """Bytes compared at a time."""
@@ -64,10 +64,10 @@ def _compare_cells(
     original: Path, cleaned: Path, format: str, changed: np.ndarray, columns: Sequence[int]
 ) -> Difference:
     """Compare text files cell by cell: lines without a changed sample must be equal, in others only its cells may differ."""
-    before, after = sheet.load(original), sheet.load(cleaned)
+    before, after = lines.load(original), lines.load(cleaned)
     if len(before.lines) != len(after.lines):
         return Difference(0, False)
-    layout = text.FORMATS[format](before)
+    layout = reader.FORMATS[format](before)
     row_of = {line: row for row, line in enumerate(layout.rows)}
     count, equal = 0, before.joined([b""] * len(before.lines)) == after.joined([b""] * len(after.lines))
     for number, (old, new) in enumerate(zip(before.lines, after.lines, strict=True)):
@@ -76,7 +76,7 @@ def _compare_cells(
         row = row_of.get(number)
         allowed = () if row is None else (layout.columns[columns[m]] for m in np.flatnonzero(changed[row]).tolist())
         cells = {cell for triple in allowed for cell in triple}
-        olds, news = (sheet.split(line.removesuffix(b"\r"), layout.delimiter) for line in (old, new))
+        olds, news = (lines.split(line.removesuffix(b"\r"), layout.delimiter) for line in (old, new))
         equal &= old.endswith(b"\r") == new.endswith(b"\r")
         olds += [b""] * (len(news) - len(olds))
         if len(olds) != len(news):

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from markermend.formats import PatchResult, Reading
-from markermend.recording import BadRecording
+from markermend.core.recording import BadRecording
+from markermend.formats.reading import PatchResult, Reading
 
 READABLE = (".c3d", ".trc", ".csv", ".tsv")
 """Endings of the files that can be read, in small letters; what a folder of recordings is searched for."""
@@ -30,12 +30,12 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
     if rate is not None and not 0 < rate < np.inf:
         raise BadRecording(f"The rate {rate:g} Hz given for {path.name} is impossible: correct the recordings table")
     if ending != ".c3d":
-        from markermend.formats import text
+        from markermend.formats.text import reader as text_reader
 
-        return text.read(path, unlabelled=unlabelled, rate=rate)
-    from markermend.formats import c3d
+        return text_reader.read(path, unlabelled=unlabelled, rate=rate)
+    from markermend.formats.c3d import reader
 
-    reading = c3d.read(path, unlabelled=unlabelled)
+    reading = reader.read(path, unlabelled=unlabelled)
     return reading if rate is None else replace(reading, recording=replace(reading.recording, rate=float(rate)))
 
 
@@ -53,9 +53,9 @@ def write_back(
     format, columns: as read. positions: (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers).
     """
     if format == "c3d":
-        from markermend.formats import c3d
+        from markermend.formats.c3d import reader
 
-        return c3d.patch(original, target, positions=positions, changed=changed, columns=columns)
-    from markermend.formats import text
+        return reader.patch(original, target, positions=positions, changed=changed, columns=columns)
+    from markermend.formats.text import reader as text_reader
 
-    return text.patch(original, target, format=format, positions=positions, changed=changed, columns=columns)
+    return text_reader.patch(original, target, format=format, positions=positions, changed=changed, columns=columns)

@@ -1,0 +1,111 @@
+"""What the commands of the detectors share: their files, their flags, what they read, and their line of result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from markermend.command import detector
+from markermend.command.stage import Stage, mapping
+from markermend.core import events
+from markermend.core.events import Event
+from markermend.core.recording import Recording
+from markermend.detection import labels
+from markermend.detection.labels import SwapSettings
+from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.prediction.local_ridge.predictor import LocalRidge
+from markermend.prediction.scene import Scene
+from markermend.storage import mesh_file as storage_mesh_file
+from markermend.storage import stage_files
+
+PRESETS = {
+    "default": "against the neighbours, all axes together",
+    "coordinates": "coordinate by coordinate, with robust thresholds",
+    "paper": "as published (skurowski2022)",
+}
+"""The ways of detection, and what they are."""
+
+
+def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) -> Stage:
+    """A detector of artifacts as a command: its files and its options, the same for each but for the presets it has."""
+    command = files(name, description, finds=finds)
+    command.option("preset", str, "which of the settings below to use", choices=list(presets))
+    for preset in presets:
+        command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
+    command.option("local_ridge", mapping, "settings of the predictor")
+    command.option(
+        "swaps", mapping, "what counts as swapped labels, which are undone before anything else is looked for"
+    )
+    return command
+
+
+def files(name: str, description: str, *, finds: str) -> Stage:
+    """A detector as a command: its files alone."""
+    command = Stage(name, description)
+    command.reads("markers", "trajectories as ingested")
+    command.reads("mesh", "who the neighbours are")
+    command.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
+    command.writes("events", f"the {finds} found")
+    return command
+
+
+def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
+    """What every detector is given, from a stage's files and options, and the swaps that were undone for it.
+
+    The preset `paper` knows no swaps. Raises SetAside where the recording was set aside.
+    """
+    recording, scene, earlier = read(call.markers, call.mesh, call.earlier)
+    swapped: list[events.Event] = []
+    if call.options["preset"] != "paper":
+        settings = SwapSettings(**call.options["swaps"])
+        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=settings)
+        scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
+    predictor = LocalRidge(RidgeOptions(**call.options["local_ridge"]))
+    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}, swapped
+
+
+def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording, Scene, np.ndarray]:
+    """Read a recording, its scene, and the mask, like its positions, of what earlier detectors claimed, but for swaps.
+
+    Raises SetAside where an earlier stage set the recording aside.
+    """
+    recording = stage_files.read_recording(markers)
+    network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
+    near, relatives = network.neighbour_indices(recording.markers), network.relative_indices(recording.markers)
+    scene = Scene(recording.positions, recording.rate, near, relatives=relatives)
+    claimed = np.zeros(recording.positions.shape, bool)
+    for path in earlier:
+        artifacts = [event for event in stage_files.read_events(path) if event.partner is None]
+        claimed |= events.coordinates(artifacts, recording.frames, recording.markers)
+    return recording, scene, claimed
+
+
+def result(found: list[events.Event]) -> str:
+    """The line of result that a detector logs."""
+    return f"{len(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
+
+
+def unmeasured_stage(name: str, description: str, *, finds: str) -> Stage:
+    """A detector of such samples as a command: its files, and the predictor's settings."""
+    command = detector.files(name, description, finds=finds)
+    command.option("local_ridge", mapping, "settings of the predictor")
+    return command
+
+
+def search(call: Any, detect: Callable[..., list[Event]], settings: type) -> str:
+    """Do the work of such a detector as a command, and return the line of result.
+
+    call: the stage's files and options. detect: the detector. settings: what its own options make. Raises SetAside where
+    the recording was set aside.
+    """
+    recording, scene, earlier = detector.read(call.markers, call.mesh, call.earlier)
+    options = dict(call.options)
+    predictor = LocalRidge(RidgeOptions(**options.pop("local_ridge")))
+    given = {"markers": recording.markers, "earlier": earlier, "predictor": predictor}
+    found = detect(scene, settings=settings(**options), **given)
+    stage_files.write_events(call.events, found, call.facts)
+    return detector.result(found)

@@ -1,0 +1,1 @@
+"""What a recording, an event, a mesh and a decision are."""

@@ -1,0 +1,86 @@
+"""What a recording is: marker trajectories in mm at a fixed rate, and what restoration adds to them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from markermend.numerics.intervals import runs
+
+ORIGINS = ("measured", "peak", "noise", "step", "swap", "slow", "filled", "missing")
+"""What a written sample is: as measured, repaired by class, filled, or missing. Stored by name, coded by position here."""
+
+MEASURED, FILLED, MISSING = ORIGINS.index("measured"), ORIGINS.index("filled"), ORIGINS.index("missing")
+
+
+class BadRecording(Exception):
+    """A recording that cannot be used, with a reason that a person can act on."""
+
+
+class SetAside(Exception):
+    """A recording that an earlier stage set aside; carries that stage's name and its reason."""
+
+    def __init__(self, stage: str, reason: str) -> None:
+        super().__init__(reason)
+        self.stage = stage
+        self.reason = reason
+
+
+@dataclass(frozen=True)
+class Recording:
+    """The labelled markers of one recording.
+
+    markers: unique names, one per trajectory. positions: float64 (frames, markers, 3), mm, laboratory axes as
+    recorded, NaN = missing (all three axes or none). rate: Hz. first_frame: the capture program's number of row 0.
+    facts: what is known about how the recording came to be (JSON values only).
+    """
+
+    markers: tuple[str, ...]
+    positions: np.ndarray
+    rate: float
+    first_frame: int = 1
+    facts: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.positions.ndim != 3 or self.positions.shape[1:] != (len(self.markers), 3):
+            raise ValueError(f"positions {self.positions.shape} do not fit {len(self.markers)} markers")
+        if len(set(self.markers)) != len(self.markers):
+            raise ValueError("marker names are not unique")
+
+    @property
+    def frames(self) -> int:
+        """Number of frames."""
+        return self.positions.shape[0]
+
+    @property
+    def missing(self) -> np.ndarray:
+        """Bool (frames, markers): True where the marker was not seen."""
+        return np.isnan(self.positions).any(axis=2)
+
+
+@dataclass(frozen=True)
+class Restored(Recording):
+    """A recording after repair or filling, with the story of every sample.
+
+    origin: uint8 (frames, markers), positions in ORIGINS. error, error95: float64 (frames, markers), mm, the radii of
+    the balls around the written position that hold the true one with probability 0.68 and 0.95; 0 where measured,
+    NaN where missing.
+    """
+
+    origin: np.ndarray = field(default_factory=lambda: np.empty((0, 0), np.uint8))
+    error: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
+    error95: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
+
+
+def gaps(recording: Recording) -> list[tuple[int, int, int]]:
+    """List the gaps of a recording as (marker index, start, stop), half-open, by marker then start."""
+    missing = recording.missing
+    return [(m, start, stop) for m in range(missing.shape[1]) for start, stop in runs(missing[:, m])]
+
+
+def changed(before: Recording, after: Recording) -> np.ndarray:
+    """Bool (frames, markers): True where the position is not the same, bit for bit; missing equals missing."""
+    same = (before.positions == after.positions) | (np.isnan(before.positions) & np.isnan(after.positions))
+    return ~same.all(axis=2)

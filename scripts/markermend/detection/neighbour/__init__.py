@@ -1,0 +1,1 @@
+"""Detection in the residual of a prediction from the neighbours."""

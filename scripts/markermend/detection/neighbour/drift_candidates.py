@@ -1,0 +1,184 @@
+"""How clearly do slow changes stand out, on each marker and at each moment, from what is to be expected there?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from markermend.detection.neighbour import residual_scale
+from markermend.numerics import interpolation, intervals, matched_filter
+from markermend.numerics.intervals import runs
+from markermend.prediction.scene import Scene
+
+
+@dataclass(frozen=True)
+class NeighbourSlow:
+    """Settings of the detector on all coordinates together (config slow.default).
+
+    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much
+    of their length is looked at on either side. taps: finest detail, in parts of the length. scales_s, longest_s:
+    correlation lengths and longest lag of the residual's covariance. clip_sigmas: residuals beyond so many robust
+    sigmas do not count in it. blocks: parts of the recording left out in turn to learn how novelty widens residuals.
+    neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units of that. floor_mm: least
+    height. noise_mm, sure: where the expected level amounts to more than this, a bump must be so many times as clear as
+    the threshold asks. least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by
+    this factor than the second clearest elsewhere on the marker, unless it is so many times as clear as the threshold
+    asks. rest: just before and after, the residual is no further from its usual level than this part of the height.
+    shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
+    missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
+    height are left out in turn; without them, this part of the threshold must still be reached.
+    """
+
+    ridge: Mapping[str, Any]
+    lengths_s: tuple[float, ...]
+    flank: float
+    taps: int
+    scales_s: tuple[float, ...]
+    longest_s: float
+    clip_sigmas: float
+    blocks: int
+    neighbours: int
+    sigmas: float
+    floor_mm: float
+    noise_mm: float
+    sure: float
+    least: float
+    apart: float
+    plain: float
+    rest: float
+    shortest_s: float
+    brief_s: float
+    rivals: int
+    suspect: float
+    kept: float
+
+
+@dataclass(frozen=True)
+class Matches:
+    """How clearly bumps stand out.
+
+    residual: (frames, markers, 3), mm. score: (frames, markers), that of the best length, in units of the threshold; 0
+    where nothing is known. length: of that bump, frames. noise: the height to expect of it, mm. expected: (lengths, frames, markers), see
+    liveliness.expected. level: (lengths, markers), the median strength.
+    """
+
+    residual: np.ndarray
+    score: np.ndarray
+    length: np.ndarray
+    noise: np.ndarray
+    expected: np.ndarray
+    level: np.ndarray
+
+    def judge_anew(
+        self, residual: np.ndarray, wider: np.ndarray, *, marker: int, rate: float, settings: NeighbourSlow
+    ) -> np.ndarray:
+        """Score (frames,) of a marker with another residual (frames, 3), mm: see `match`; what is expected, grown with its level."""
+        own, _ = match(residual, wider, frames(settings, rate), rate=rate, settings=settings)
+        growth = np.maximum(level(own) / self.level[:, marker], 1)
+        return np.nan_to_num(own / (settings.sigmas * self.expected[:, :, marker] * growth[:, None])).max(axis=0)
+
+
+def match(
+    residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, settings: NeighbourSlow
+) -> tuple[np.ndarray, np.ndarray]:
+    """Strength of bumps of each length (lengths, frames) in one marker's residual, and the deviation of their height, mm.
+
+    residual: (frames, 3), mm. wider: (frames,), what it is divided by, so that its covariance is the same throughout.
+    """
+    strength = np.full((len(lengths), len(residual)), np.nan, np.float32)
+    deviation = np.full(strength.shape, np.nan, np.float32)
+    if np.isnan(residual).all():
+        return strength, deviation
+    signal = interpolation.bridge_linearly(residual / wider[:, None], intervals.samples(settings.brief_s, rate))
+    covariance = matched_filter.usual_covariance(
+        signal,
+        sigmas=settings.clip_sigmas,
+        rate=rate,
+        scales_s=np.array(settings.scales_s),
+        longest_s=settings.longest_s,
+    )
+    for number, length in enumerate(lengths):
+        bump = matched_filter.make_filter(
+            covariance, length=length, flank=settings.flank, taps=settings.taps, rate=rate
+        )
+        strength[number] = matched_filter.strength(signal, bump)
+        deviation[number] = bump.deviation * wider
+    return strength, deviation
+
+
+def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: NeighbourSlow) -> Matches:
+    """Measure how clearly bumps stand out in the residuals of all markers; wider: see `match`."""
+    rate, lengths = scene.rate, frames(settings, scene.rate)
+    brief = briefly_gone(scene, settings)
+    steady = np.where(brief[:, :, None], np.nan, residual)
+    each = [match(steady[:, m], wider[:, m], lengths, rate=rate, settings=settings) for m in range(residual.shape[1])]
+    strength = np.stack([own for own, _ in each], axis=2)
+    smooth = max(3, intervals.samples(settings.brief_s, rate, odd=True))
+    moving = residual_scale.motion(
+        scene.positions, scene.neighbours, rate=rate, near=settings.neighbours, smooth=smooth
+    )
+    expected = np.stack(
+        [
+            residual_scale.expected(
+                own, scene.neighbours, moving, near=settings.neighbours, window=length, least=settings.least
+            ).astype(np.float32)
+            for own, length in zip(strength, lengths, strict=True)
+        ]
+    )
+    clearest = [best(*own, expected[:, :, m], lengths, settings=settings) for m, own in enumerate(each)]
+    score, length, noise = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
+    return Matches(residual, score, length, noise, expected, np.stack([level(own) for own, _ in each], axis=1))
+
+
+def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: NeighbourSlow) -> float:
+    """How clear a bump in [start, stop) must be, given the scores (frames,) of its marker, in units of the threshold.
+
+    What the marker does at other times as well is motion.
+    """
+    elsewhere, reach = score.copy(), frames(settings, rate)[-1]
+    elsewhere[max(0, start - reach) : stop + reach] = 0
+    top = int(elsewhere.argmax())
+    elsewhere[max(0, top - reach) : top + reach] = 0
+    return float(np.clip(settings.apart * elsewhere.max(), 1, settings.plain))
+
+
+def briefly_gone(scene: Scene, settings: NeighbourSlow) -> np.ndarray:
+    """Bool (frames, markers): True where one of a marker's nearest neighbours is gone, but not for long.
+
+    The others predict otherwise: a bump that is none.
+    """
+    brief = intervals.samples(settings.brief_s, scene.rate)
+    gone = np.zeros(scene.present.shape, bool)
+    for m, absent in enumerate(~scene.present.T):
+        for start, stop in runs(absent):
+            gone[start:stop, m] = stop - start <= brief
+    near = [np.asarray(around, int)[: settings.rivals] for around in scene.neighbours]
+    return np.stack([gone[:, around].any(axis=1) for around in near], axis=1)
+
+
+def level(strength: np.ndarray) -> np.ndarray:
+    """Median (lengths,) of what is known of strengths (lengths, frames); 1 where nothing is."""
+    return np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in strength)])
+
+
+def frames(settings: NeighbourSlow, rate: float) -> list[int]:
+    """The lengths of the bumps to look for, in frames: long enough to have a shape."""
+    return [max(5, intervals.samples(length, rate)) for length in settings.lengths_s]
+
+
+def best(
+    strength: np.ndarray,
+    deviation: np.ndarray,
+    expected: np.ndarray,
+    lengths: Sequence[int],
+    *,
+    settings: NeighbourSlow,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Score, length and expected height (frames,) of the bump that stands out most from that; given (lengths, frames)."""
+    score = np.nan_to_num(strength / (settings.sigmas * expected))
+    first = score.argmax(axis=0)[None]
+    noise = np.take_along_axis(deviation * expected, first, axis=0)[0]
+    return np.take_along_axis(score, first, axis=0)[0], np.asarray(lengths)[first[0]], noise

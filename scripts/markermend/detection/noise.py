@@ -1,0 +1,93 @@
+"""Heavy noise: a marker jumps from sample to sample for a while (skurowski2022 3.4.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from markermend.core import events
+from markermend.core.events import Event
+from markermend.detection import inputs
+from markermend.detection.neighbour import increments as neighbour_increments
+from markermend.detection.neighbour.increments import Changes, SuddenSettings
+from markermend.detection.published import coordinatewise
+from markermend.detection.published.noise import CoordinateNoise, find_noise
+from markermend.numerics import intervals
+from markermend.numerics.intervals import runs
+from markermend.prediction.scene import ResidualSource, Scene
+
+
+@dataclass(frozen=True)
+class NeighbourNoise(SuddenSettings):
+    """Settings of the detector against the neighbours (config noise.default), beside those of sudden changes.
+
+    link_s: sudden changes so near belong together. shortest_s: shortest stretch. density: share of its samples that
+    change suddenly. minimum_changes: and how many of them at least.
+    """
+
+    link_s: float
+    shortest_s: float
+    density: float
+    minimum_changes: int
+
+
+def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourNoise) -> list[Event]:
+    """Find the stretches of heavy noise of one marker among its sudden changes."""
+    score, vector = changes.score[:, marker], changes.vector[:, marker]
+    shortest, link = intervals.samples(settings.shortest_s, rate), intervals.samples(settings.link_s, rate)
+    found = []
+    for start, stop in runs(~np.isnan(changes.residual[:, marker, 0])):
+        for group in neighbour_increments.clusters(start + np.flatnonzero(score[start:stop] > 1), link):
+            length = int(group[-1] - group[0])
+            enough = max(settings.minimum_changes, settings.density * length)
+            if length >= shortest and len(group) >= enough:
+                best = float(score[group].max())
+                # Next to a gap the noise has no closing edge: a remainder as quiet as it is amid the noise goes with it.
+                quiet = int(np.diff(group).max())
+                first = start if group[0] - start <= quiet else int(group[0])
+                last = stop if stop - group[-1] <= quiet else int(group[-1])
+                found.append(Event(name, first, last, best, events.carrying(vector[group])))
+    return found
+
+
+def settings(options: Mapping[str, Any]) -> CoordinateNoise | NeighbourNoise:
+    """The settings of the preset that the config section `noise` asks for; raises ValueError for an unknown one."""
+    kinds = {"default": NeighbourNoise, "coordinates": CoordinateNoise, "paper": CoordinateNoise}
+    return inputs.preset(options, kinds)
+
+
+def detect_noise(
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: CoordinateNoise | NeighbourNoise,
+    predictor: ResidualSource,
+) -> list[Event]:
+    """Find the stretches of heavy noise of a recording.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detector against the neighbours alone.
+    """
+    rate = scene.rate
+    if isinstance(settings, CoordinateNoise):
+        return coordinatewise.detect(
+            scene,
+            lambda signal, _: find_noise(signal, rate=rate, settings=settings),
+            markers=markers,
+            earlier=earlier,
+            bridge_s=settings.bridge_s,
+        )
+    found, _ = neighbour_increments.detect(
+        scene,
+        markers=markers,
+        earlier=earlier,
+        settings=settings,
+        predictor=predictor,
+        judge=lambda changes, m: judge_noise(changes, m, name=markers[m], rate=rate, settings=settings),
+    )
+    return found

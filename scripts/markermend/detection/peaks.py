@@ -1,0 +1,67 @@
+"""Isolated peaks: a marker is elsewhere for a few samples and back again (skurowski2022 3.4.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from markermend.core import events
+from markermend.core.events import Event
+from markermend.detection import inputs
+from markermend.detection.neighbour import pulses, residual_windows
+from markermend.detection.neighbour.pulses import ExcursionSettings
+from markermend.detection.neighbour.residual_windows import Courses
+from markermend.detection.published import coordinatewise
+from markermend.detection.published.peaks import CoordinatePeaks, find_peaks
+from markermend.prediction.scene import ResidualSource, Scene
+
+
+def settings(options: Mapping[str, Any]) -> CoordinatePeaks | ExcursionSettings:
+    """The settings of the preset that the config section `peaks` asks for; raises ValueError for an unknown one."""
+    kinds = {"default": ExcursionSettings, "coordinates": CoordinatePeaks, "paper": CoordinatePeaks}
+    return inputs.preset(options, kinds)
+
+
+def detect_peaks(
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: CoordinatePeaks | ExcursionSettings,
+    predictor: ResidualSource,
+) -> list[Event]:
+    """Find the isolated peaks of a recording.
+
+    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
+    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detector against the neighbours alone.
+    """
+    rate = scene.rate
+    if isinstance(settings, CoordinatePeaks):
+        return coordinatewise.detect(
+            scene,
+            lambda signal, _: find_peaks(signal, rate=rate, settings=settings),
+            markers=markers,
+            earlier=earlier,
+            bridge_s=settings.bridge_s,
+        )
+
+    maps, length = pulses.of_longest(rate, settings)
+
+    def judge(course: Courses, m: int) -> list[Event]:
+        found = pulses.find(course, m, rate=rate, settings=settings)
+        return [Event(markers[m], one.start, one.stop, one.score, events.carrying(one.off)) for one in found]
+
+    found, _ = residual_windows.detect(
+        scene,
+        markers=markers,
+        earlier=earlier,
+        settings=settings,
+        maps=maps,
+        length=length,
+        predictor=predictor,
+        judge=judge,
+    )
+    return found

@@ -1,0 +1,1 @@
+"""Detection coordinate by coordinate, as published (skurowski2022)."""

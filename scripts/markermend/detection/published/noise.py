@@ -1,0 +1,60 @@
+"""Heavy noise of one coordinate as published (skurowski2022 3.4.3)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.detection.published import increments
+from markermend.detection.published.increments import difference_high_pass
+from markermend.numerics import filters, intervals, morphology
+from markermend.numerics.intervals import runs
+
+
+@dataclass(frozen=True)
+class CoordinateNoise:
+    """Settings of the detector of one coordinate (config noise.coordinates and noise.paper).
+
+    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
+    robust.threshold. shortest_s: shortest stretch. density: share of its samples that exceed the threshold.
+    minimum_changes: and how many of them at least. bridge_s: slopes on either side of what
+    earlier detectors claimed are taken over this time.
+    """
+
+    window_s: float
+    order: int
+    scale: str
+    sigmas: float
+    floor_mm: float
+    shortest_s: float
+    density: float
+    minimum_changes: int
+    bridge_s: float
+
+
+def find_noise(signal: np.ndarray, *, rate: float, settings: CoordinateNoise) -> tuple[np.ndarray, np.ndarray]:
+    """Find the stretches of heavy noise of one coordinate (skurowski2022 eq 26-30).
+
+    signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,). A stretch
+    goes from its first to its last sample that is far from what stands before it: the filter's smear does not count.
+    """
+    shortest = intervals.samples(settings.shortest_s, rate)
+    element = 2 * shortest - 1
+    change = difference_high_pass(signal, window_s=settings.window_s, order=settings.order, rate=rate)
+    level = increments.threshold(change, scale=settings.scale, sigmas=settings.sigmas, floor_mm=settings.floor_mm)
+    closed = morphology.closing(np.abs(change), element)
+    raw = np.where(np.isnan(closed), np.nan, closed > level)
+    areas = morphology.closing(raw, element) > 0
+    plain = filters.difference(signal)
+    jump = np.abs(plain - filters.moving_median(plain, element)) > level
+    mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
+    for start, stop in runs(areas):
+        own = start + np.flatnonzero(jump[start:stop])
+        if own.size < settings.minimum_changes:
+            continue
+        span = slice(own[0], own[-1])
+        if own[-1] - own[0] >= shortest and own.size >= settings.density * (own[-1] - own[0]):
+            mask[span] = True
+            score[span] = np.abs(change[own]).max() / max(level, 1e-9)
+    return mask, score

@@ -1,0 +1,110 @@
+"""Hills and valleys of a residual: slow changes as published, coordinate by coordinate (skurowski2022 3.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from markermend.core.events import Event
+from markermend.detection.published import coordinatewise, increments
+from markermend.numerics import intervals
+from markermend.numerics.intervals import runs
+from markermend.prediction.lagged_regression.polynomial import Polynomial
+from markermend.prediction.lagged_regression.predictor import LooseOptions
+from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork, ReplicatedOptions
+from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.prediction.local_ridge.predictor import LocalRidge
+from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.time_smoothers import MovingMedian, SavitzkyGolay
+
+
+@dataclass(frozen=True)
+class CoordinateSlow:
+    """Settings of the detector of one coordinate of the residual (config slow.paper).
+
+    predictor: whose residual, one of PREDICTORS. smooth_s, order: window and order of a predictor that smooths. scale:
+    `mad` or `std`, of the residual. sigmas: upper threshold, in its standard deviations. lower: lower threshold,
+    likewise. top_s: shortest stretch beyond the upper threshold. shortest_s: shortest stretch beyond the lower one.
+    bridge_s: slopes on either side of what earlier detectors claimed are taken over this time.
+    """
+
+    predictor: str
+    smooth_s: float
+    order: int
+    scale: str
+    sigmas: float
+    lower: float
+    top_s: float
+    shortest_s: float
+    bridge_s: float
+
+
+PREDICTORS = ("replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge")
+"""Whose residual may be judged: the four of the paper, and the local ridge."""
+
+
+def predictor(settings: CoordinateSlow, families: Mapping[str, Mapping[str, Any]]) -> ResidualSource:
+    """Make the predictor that the settings name; families: settings of the predictors that other stages share, by name.
+
+    Raises ValueError for a name that is not in PREDICTORS.
+    """
+    if settings.predictor == "replicated_network":
+        return ReplicatedNetwork(ReplicatedOptions(**families["replicated_network"]))
+    if settings.predictor == "polynomial":
+        return Polynomial(LooseOptions(**families["polynomial"]))
+    if settings.predictor == "savitzky_golay":
+        return SavitzkyGolay(window_s=settings.smooth_s, order=settings.order)
+    if settings.predictor == "moving_median":
+        return MovingMedian(window_s=settings.smooth_s)
+    if settings.predictor == "local_ridge":
+        return LocalRidge(RidgeOptions(**families["local_ridge"]))
+    raise ValueError(f"predictor {settings.predictor!r} is none of {', '.join(PREDICTORS)}")
+
+
+def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]]:
+    """Hysteresis with re-growing: stretches of a level above `lower` that exceed 1 for `top` samples in a row at least.
+
+    level: (frames,), NaN = missing, at which a stretch ends.
+    """
+    tops = np.array([start for start, stop in runs(np.nan_to_num(level) > 1) if stop - start >= top], int)
+    grown = list(runs(np.nan_to_num(level) > lower))
+    return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
+
+
+def find_slow(residual: np.ndarray, *, rate: float, settings: CoordinateSlow) -> tuple[np.ndarray, np.ndarray]:
+    """Find the hills and valleys of one coordinate of the residual (skurowski2022 3.5, steps 1-4).
+
+    residual: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
+    """
+    finite = residual[np.isfinite(residual)]
+    centre = float(np.median(finite)) if finite.size else 0.0
+    sigma = increments.threshold(residual, scale=settings.scale, sigmas=1.0, floor_mm=1e-9)
+    level = (residual - centre) / (settings.sigmas * sigma)
+    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
+    top, shortest = intervals.samples(settings.top_s, rate), intervals.samples(settings.shortest_s, rate)
+    for sign in (1, -1):
+        for start, stop in regrow(sign * level, lower=settings.lower / settings.sigmas, top=top):
+            if stop - start >= shortest:
+                mask[start:stop] = True
+                score[start:stop] = (sign * level[start:stop]).max()
+    return mask, score
+
+
+def detect(
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: CoordinateSlow, predictor: ResidualSource
+) -> list[Event]:
+    """Find the slow changes of a recording in the residuals of its coordinates.
+
+    earlier: bool, like positions, what detectors before claimed: bridged for the predictor, and not found again.
+    """
+    reach = intervals.samples(settings.bridge_s, scene.rate)
+    bridged = replace(scene, positions=coordinatewise.bridged(scene.positions, earlier, reach))
+    return coordinatewise.find_in_each(
+        predictor.residuals(bridged),
+        lambda residual, _: find_slow(residual, rate=scene.rate, settings=settings),
+        markers=markers,
+        earlier=earlier,
+    )

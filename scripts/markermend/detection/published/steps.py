@@ -1,0 +1,81 @@
+"""Steps of one coordinate as published (skurowski2022 3.4.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.core import events
+from markermend.core.events import Event, OpenStep
+from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published.increments import difference_high_pass
+from markermend.numerics import filters, intervals
+from markermend.prediction.scene import Scene
+
+
+@dataclass(frozen=True)
+class CoordinateSteps:
+    """Settings of the detector of one coordinate (config steps.coordinates and steps.paper).
+
+    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
+    robust.threshold. shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part
+    of the other. bridge_s: slopes on either side of what
+    earlier detectors claimed are taken over this time.
+    """
+
+    window_s: float
+    order: int
+    scale: str
+    sigmas: float
+    floor_mm: float
+    shortest_s: float
+    longest_s: float
+    ratio: float
+    bridge_s: float
+
+
+def find_steps(
+    signal: np.ndarray, *, rate: float, settings: CoordinateSteps
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find the steps of one coordinate (skurowski2022 3.4.4): intervals between opposite jumps.
+
+    signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask, a score, both (frames,), and the
+    frames of jumps without a counterpart (open steps).
+    """
+    change = difference_high_pass(signal, window_s=settings.window_s, order=settings.order, rate=rate)
+    level = increments.threshold(change, scale=settings.scale, sigmas=settings.sigmas, floor_mm=settings.floor_mm)
+    window = max(intervals.samples(settings.window_s, rate, odd=True), 2 * settings.order + 1)
+    at = increments.edges(change, level, window // 2)
+    pairs, alone = increments.derivative_pairs(
+        change,
+        at,
+        shortest=intervals.samples(settings.shortest_s, rate),
+        longest=intervals.samples(settings.longest_s, rate),
+        ratio=settings.ratio,
+    )
+    mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
+    for start, stop in pairs:
+        mask[start:stop] = True
+        score[start:stop] = min(abs(change[start]), abs(change[stop])) / max(level, 1e-9)
+    return mask, score, alone
+
+
+def _detect_in_coordinates(
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: CoordinateSteps
+) -> tuple[list[Event], list[OpenStep]]:
+    """See detect_steps: coordinate by coordinate."""
+    alone: dict[tuple[str, int], float] = {}
+
+    def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
+        change = filters.difference(signal)
+        change -= filters.moving_median(change, intervals.samples(settings.window_s, scene.rate, odd=True))
+        for frame in left.tolist():
+            alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
+        return mask, score
+
+    found = coordinatewise.detect(scene, find, markers=markers, earlier=earlier, bridge_s=settings.bridge_s)
+    within = events.mask(found, len(scene.positions), markers)
+    return found, [OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]]

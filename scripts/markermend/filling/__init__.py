@@ -1,0 +1,1 @@
+"""Gap filling by model averaging."""

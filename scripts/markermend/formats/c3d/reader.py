@@ -1,0 +1,152 @@
+"""C3D files: markers read, edited samples written back into a copy that is otherwise the original, byte for byte."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from markermend.core.recording import BadRecording, Recording
+from markermend.formats.c3d import points as c3d_points
+from markermend.formats.c3d.data_layout import Layout, locate
+from markermend.formats.c3d.parameters import Section, read_section
+from markermend.formats.labels import is_unlabelled, tidy_labels
+from markermend.formats.reading import PatchResult, Reading
+
+MILLIMETRES = {"mm": 1.0, "m": 1000.0, "cm": 10.0, "dm": 100.0, "in": 25.4, "inch": 25.4, "ft": 304.8}
+"""Length of a unit in mm, by its name in small letters."""
+
+MODEL_GROUPS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
+"""Parameters of POINT that list the labels of model outputs, whether TYPE_GROUPS names them or not."""
+
+LARGEST_IN_METRES = 20.0
+"""Coordinates that stay below this are metres: a capture volume in mm exceeds it, one in m does not."""
+
+
+def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
+    """Read the labelled markers of a C3D file, in mm, with the samples that the missing-sample rule catches as NaN.
+
+    unlabelled: regular expressions for the names of trajectories that nobody labelled. The rate is NaN where the file
+    has none. Raises BadRecording where the file is not a C3D file, or holds no points.
+    """
+    section, layout = _open(path)
+    names, warnings = _names(section, layout)
+    outputs = _model_outputs(section, names)
+    nameless = [name for name in names if name not in outputs and is_unlabelled(name, unlabelled)]
+    columns = [c for c, name in enumerate(names) if name not in outputs and name not in set(nameless)]
+    positions, missing, residual_warnings = _positions(path, section, layout, columns)
+    unit, factors, unit_warnings = _units(section, columns, positions)
+    positions *= factors[:, None]
+    recording = Recording(tuple(names[c] for c in columns), positions, layout.rate, layout.first_frame)
+    return Reading(
+        recording,
+        "c3d",
+        unit,
+        tuple(columns),
+        tuple(nameless),
+        tuple(name for name in names if name in outputs),
+        missing,
+        (*layout.warnings, *warnings, *residual_warnings, *unit_warnings),
+    )
+
+
+def patch(
+    original: Path, target: Path, *, positions: np.ndarray, changed: np.ndarray, columns: Sequence[int]
+) -> PatchResult:
+    """Copy the original to `target` and overwrite the changed samples in its data block, and nothing else.
+
+    positions: (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers). columns: the markers' places in
+    the file, as read. A sample is written with word 4 = 0 (not measured), or as zeros and -1 where missing; in integer
+    files it is rounded to the scale. What the number format cannot hold is left as in the original, and reported.
+    """
+    section, layout = _open(original)
+    if positions.shape != (layout.frames, len(columns), 3):
+        raise ValueError(f"positions {positions.shape} do not fit {layout.frames} frames of {len(columns)} markers")
+    _, factors, _ = _units(section, columns, _positions(original, section, layout, columns)[0])
+    shutil.copyfile(original, target)
+    frame, marker = np.nonzero(changed)
+    stored, refused = c3d_points.encode(positions[frame, marker] / factors[marker, None], layout, section.coding)
+    column = np.asarray(columns, int)[marker]
+    kept = ~refused
+    if kept.any():
+        points = c3d_points.map_points(target, layout, section.coding, writable=True)
+        points[frame[kept], column[kept]] = stored[kept]
+    left = zip(frame[refused].tolist(), column[refused].tolist(), strict=True)
+    return PatchResult(int(kept.sum()), tuple(left))
+
+
+def _open(path: Path) -> tuple[Section, Layout]:
+    """Parameters and layout of a file."""
+    section = read_section(path)
+    return section, locate(section, path.stat().st_size, path.name)
+
+
+def _positions(
+    path: Path, section: Section, layout: Layout, columns: Sequence[int]
+) -> tuple[np.ndarray, dict[str, int], list[str]]:
+    """Positions (frames, columns, 3) in the file's unit, NaN where missing; missing samples per clause; warnings."""
+    stored = c3d_points.map_points(path, layout, section.coding)
+    positions, word4 = c3d_points.decode(stored[:, np.asarray(columns, int)], layout, section.coding)
+    missing, believed = c3d_points.missing_clauses(positions, word4)
+    for caught in missing.values():
+        positions[caught] = np.nan
+    counts = {clause: int(caught.sum()) for clause, caught in missing.items()}
+    warnings = [] if believed else ["Every residual is -1 although the positions are real; the positions are kept."]
+    return positions, counts, warnings
+
+
+def _names(section: Section, layout: Layout) -> tuple[list[str], list[str]]:
+    """One unique name per point, from LABELS, LABELS2 and so on, and warnings."""
+    labels = section.texts("POINT", "LABELS")
+    page = 2
+    while len(labels) < layout.points and (more := section.texts("POINT", f"LABELS{page}")):
+        labels += more
+        page += 1
+    warnings = []
+    if len(labels) < layout.points:
+        warnings.append(f"Only {len(labels)} labels for {layout.points} points; the others count as unlabelled.")
+        labels += [""] * (layout.points - len(labels))
+    if any(label.strip() for label in labels[layout.points :]):
+        warnings.append(f"{len(labels)} labels for {layout.points} points; those beyond were left out.")
+    names, more_warnings = tidy_labels(labels[: layout.points])
+    return names, warnings + more_warnings
+
+
+def _model_outputs(section: Section, names: Sequence[str]) -> set[str]:
+    """The names of points that are model outputs: those in the groups of POINT:TYPE_GROUPS, or not in a unit of length."""
+    listed: set[str] = set()
+    for group in {*section.texts("POINT", "TYPE_GROUPS"), *MODEL_GROUPS}:
+        group = group.strip().upper()
+        if group not in ("LABELS", "UNITS", "DESCRIPTIONS", "POINTS", "MARKERS"):
+            listed.update(" ".join(label.split()) for label in section.texts("POINT", group))
+    units = [unit.strip().lower() for unit in section.texts("POINT", "UNITS")]
+    if len(units) >= len(names):
+        listed.update(name for name, unit in zip(names, units, strict=False) if unit and unit not in MILLIMETRES)
+    return listed & set(names)
+
+
+def _units(section: Section, columns: Sequence[int], positions: np.ndarray) -> tuple[str, np.ndarray, list[str]]:
+    """The unit of the markers, mm per unit for each, and warnings.
+
+    A blank unit is mm, unless the coordinates are so small that they are metres; a declared one is believed.
+    positions: (frames, markers, 3) in the file's unit, NaN = missing.
+    """
+    declared = [unit.strip().lower() for unit in section.texts("POINT", "UNITS")]
+    used = [declared[c] if len(declared) > max(c, 1) else (declared or [""])[0] for c in columns]
+    unknown = sorted({unit for unit in used if unit and unit not in MILLIMETRES})
+    if unknown:
+        raise BadRecording(f"POINT:UNITS is {', '.join(unknown)}, not a unit of length: correct it in the original")
+    sizes = np.abs(positions[:: max(1, len(positions) // 1000)])
+    sizes = sizes[np.isfinite(sizes)]
+    small = sizes.size > 0 and float(np.percentile(sizes, 95)) < LARGEST_IN_METRES
+    warnings = []
+    if "" in used:
+        assumed = "m" if small else "mm"
+        used = [unit or assumed for unit in used]
+        warnings.append(f"POINT:UNITS is blank; {'the coordinates are so small that m' if small else 'mm'} is assumed.")
+    elif small and "mm" in used:
+        warnings.append("POINT:UNITS is mm, but the coordinates are so small that they may be metres.")
+    factors = np.array([MILLIMETRES[unit] for unit in used])
+    return ", ".join(dict.fromkeys(used)), factors, warnings

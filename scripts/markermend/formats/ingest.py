@@ -1,0 +1,107 @@
+"""What is made of a file of a capture program before anything is cleaned: markers in mm, and facts about them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from markermend.core.recording import BadRecording, Recording
+from markermend.formats.reading import Reading
+
+ENOUGH_FRAMES = 2000
+"""Frames, spread over the recording, from which the motion of its markers is measured."""
+
+
+def ingest(
+    reading: Reading,
+    *,
+    source: str,
+    recording: str,
+    subject: str,
+    kind: str,
+    static_names: Sequence[str],
+    static_motion_mm: float,
+) -> Recording:
+    """Make a recording of what was read: the markers as they are, the rest as facts.
+
+    source: the original's name. kind: dynamic, static, or auto (see kind_of). A marker that was never seen stays, all
+    NaN, with a warning. Raises BadRecording where no marker was ever seen, or where the rate is impossible.
+    """
+    markers = reading.recording
+    missing = markers.missing
+    if not markers.markers or missing.all():
+        raise BadRecording(f"{source} has no 3-D data: {_why_empty(reading)}; leave it out of the recordings table")
+    if not (math.isfinite(markers.rate) and markers.rate > 0):
+        raise BadRecording(f"{source} has no usable rate ({markers.rate:g} Hz): give it in the recordings table")
+    warnings = list(reading.warnings)
+    never = [markers.markers[m] for m in np.flatnonzero(missing.all(axis=0))]
+    if never:
+        warnings.append(f"Never seen: {', '.join(never)}.")
+    decided, reason = kind_of(
+        markers, name=recording, kind=kind, static_names=static_names, static_motion_mm=static_motion_mm
+    )
+    facts: dict[str, Any] = {
+        "source": {
+            "name": source,
+            "format": reading.format,
+            "unit": reading.unit,
+            "columns": list(reading.columns),
+        },
+        "recording": recording,
+        "subject": subject,
+        "kind": decided,
+        "kind_reason": reason,
+        "missing": reading.missing,
+        "warnings": warnings,
+        "unlabelled": list(reading.unlabelled),
+        "model_outputs": list(reading.model_outputs),
+    }
+    return replace(markers, facts=facts)
+
+
+def kind_of(
+    recording: Recording, *, name: str, kind: str, static_names: Sequence[str], static_motion_mm: float
+) -> tuple[str, str]:
+    """Decide whether a recording is dynamic or static (never repaired or filled), and say why.
+
+    What the recordings table says goes first. Else a recording is static if a pattern of static_names (regular
+    expressions, in any case of letters) occurs in its name, or if nine markers in ten move less than static_motion_mm.
+    """
+    if kind != "auto":
+        return kind, "The recordings table says so."
+    for pattern in static_names:
+        if re.search(pattern, name, re.IGNORECASE):
+            return "static", f"Its name, {name}, matches {pattern}."
+    motion = motion_mm(recording)
+    if motion < static_motion_mm:
+        return "static", f"Nine markers in ten move {motion:.1f} mm or less; under {static_motion_mm:g} mm is static."
+    return "dynamic", f"Nine markers in ten move up to {motion:.0f} mm; under {static_motion_mm:g} mm is static."
+
+
+def motion_mm(recording: Recording) -> float:
+    """The range of motion (mm) that nine markers in ten do not exceed.
+
+    A marker's range is the distance between the 5th and the 95th percentiles of its coordinates over the frames in
+    which it was seen. At least one marker must have been seen.
+    """
+    positions = recording.positions[:: max(1, recording.frames // ENOUGH_FRAMES)]
+    seen = ~np.isnan(positions[..., 0]).all(axis=0)
+    low, high = np.nanpercentile(positions[:, seen], [5, 95], axis=0)
+    return float(np.percentile(np.linalg.norm(high - low, axis=1), 90, method="lower"))
+
+
+def _why_empty(reading: Reading) -> str:
+    """Say why there is no marker."""
+    if reading.recording.markers:
+        return "every sample of its markers is missing"
+    found = [
+        f"{len(names)} {what}"
+        for names, what in ((reading.unlabelled, "unlabelled trajectories"), (reading.model_outputs, "model outputs"))
+        if names
+    ]
+    return f"it has no labelled markers{', only ' + ' and '.join(found) if found else ''}"

@@ -1,0 +1,1 @@
+"""Tables in text files: TRC, CSV and TSV."""

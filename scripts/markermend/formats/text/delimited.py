@@ -1,0 +1,101 @@
+"""Where the trajectories stand in a plain CSV or TSV: columns named by marker and axis, as `LASI_x`, `LASI.Y`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from markermend.core.recording import BadRecording
+from markermend.formats.text.lines import Sheet, likeliest_delimiter
+from markermend.formats.text.nexus import below_axes, find_axes
+from markermend.formats.text.table_layout import Layout, frame_rows, plain_rows, unit_named, writes_decimal_comma
+
+HEADER_LINES = 12
+"""How far from the top the line that names the columns is looked for."""
+
+LONGEST_TITLE = 300
+"""Characters; a longer cell is no column's name."""
+
+_UNIT = r"(?:\s*[(\[](?P<unit>[a-zA-Z]+)[)\]]|_(?P<suffix>mm|cm|m))?"
+_AXIS_LAST = re.compile(rf"(?P<name>.*?[^\s_.:/|-])[\s_.:/|-]+(?P<axis>[xyzXYZ]){_UNIT}")
+_AXIS_FIRST = re.compile(rf"(?P<axis>[xyzXYZ])[\s_.:/|-]+(?P<name>.+?){_UNIT}")
+_FRAME = re.compile(r"(frame|field|sample|index)s?[ _]?(#|no\.?|nr\.?|number|index)?", re.IGNORECASE)
+_TIME = re.compile(
+    r"(time|t|times|timestamp|time[ _]?stamp|seconds?)[ _]?[(\[]?(?P<unit>ms|s|sec|seconds)?[)\]]?", re.IGNORECASE
+)
+
+
+def describe(sheet: Sheet) -> Layout:
+    """Find the trajectories of a CSV by its column names, in one line or in two (names above X, Y, Z).
+
+    The rate comes from a time column or the recordings table. Raises BadRecording where no trajectory is named.
+    """
+    for line in [line for line in sheet.filled(0, b"\t") if line < HEADER_LINES]:
+        delimiter = likeliest_delimiter([sheet.lines[line]])
+        if find_axes(sheet, [line], delimiter) is not None and line > 0:
+            return below_axes(sheet, line, delimiter, "csv", None)
+        titles = sheet.texts(line, delimiter)
+        found = _trajectories(titles)
+        if found:
+            return _layout(sheet, line, delimiter, titles, found)
+    raise BadRecording(
+        f"{sheet.name} has no line that names columns by marker and axis (LASI_x, LASI_y, LASI_z): add one, or export"
+        " the recording as C3D or TRC"
+    )
+
+
+def _trajectories(titles: Sequence[str]) -> dict[tuple[str, int], dict[str, tuple[int, str]]]:
+    """Column and unit of each axis by marker; the second bearer of a name is a trajectory of its own."""
+    short = {i: title for i, title in enumerate(titles) if len(title) <= LONGEST_TITLE}
+    matches = {i: _AXIS_LAST.fullmatch(title) or _AXIS_FIRST.fullmatch(title) for i, title in short.items()}
+    axes: dict[tuple[str, int], dict[str, tuple[int, str]]] = {}
+    seen: dict[tuple[str, str], int] = {}
+    for column, match in matches.items():
+        if match:
+            title = (match["name"].strip(), match["axis"].lower())
+            bearer = seen[title] = seen.get(title, -1) + 1
+            axes.setdefault((title[0], bearer), {})[title[1]] = (column, match["unit"] or match["suffix"] or "")
+    return axes if any(len(found) == 3 for found in axes.values()) else {}
+
+
+def _layout(
+    sheet: Sheet,
+    line: int,
+    delimiter: bytes,
+    titles: Sequence[str],
+    found: dict[tuple[str, int], dict[str, tuple[int, str]]],
+) -> Layout:
+    """The layout of a table below one line of titles."""
+    whole = {key: axes for key, axes in found.items() if len(axes) == 3}
+    units = {unit_named(sheet, unit) for axes in whole.values() for _, unit in axes.values() if unit}
+    if len(units) > 1:
+        raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(units))})")
+    frame = next((i for i, title in enumerate(titles) if _FRAME.fullmatch(title) or (i == 0 and not title)), None)
+    time, clock = next(
+        ((i, match) for i, title in enumerate(titles) if (match := _TIME.fullmatch(title))), (None, None)
+    )
+    warnings = [
+        f"Columns of '{name}' do not have all of x, y, z and are left alone."
+        for (name, _), axes in found.items()
+        if len(axes) < 3
+    ]
+    if 0 in (frame, time):
+        rows, more = frame_rows(sheet, line + 1, delimiter, section=False)
+        warnings += more
+    else:
+        rows = plain_rows(sheet, line + 1, delimiter)
+    return Layout(
+        format="csv",
+        delimiter=delimiter,
+        rows=rows,
+        names=tuple(name for name, _ in whole),
+        columns=tuple((axes["x"][0], axes["y"][0], axes["z"][0]) for axes in whole.values()),
+        unit=units.pop() if units else None,
+        rate=None,
+        frame=frame,
+        time=time,
+        seconds=0.001 if clock and (clock["unit"] or "").lower() == "ms" else 1.0,
+        decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
+        own_missing=True,
+        warnings=tuple(warnings),
+    )

@@ -1,0 +1,118 @@
+"""A text file of a capture program as lines of cells, kept byte for byte.
+
+Splitting and joining give back the very bytes of the file, so a cell can be replaced and nothing else changes.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from markermend.core.recording import BadRecording
+
+BLANKS = b" \t\r\n\f\v\0"
+_QUOTED = re.compile(rb'\s*"(?:[^"]|"")*"')
+_POINT = re.compile(rb"\s*[+-]?\d*\.\d+(?:[eE][+-]?\d+)?\s*")
+_COMMA = re.compile(rb"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The lines of a text file.
+
+    name: of the file. mark: the byte order mark, or nothing. lines: what stands between the newlines. newline: the
+    byte that ends a line (a carriage return before it stays in the line). encoding: of the header's text.
+    """
+
+    name: str
+    mark: bytes
+    lines: tuple[bytes, ...]
+    newline: bytes
+    encoding: str
+
+    @property
+    def complete(self) -> bool:
+        """True if the last line ends with a newline, so was not cut off."""
+        return not self.lines[-1]
+
+    def joined(self, lines: Sequence[bytes]) -> bytes:
+        """The bytes of the file that has these lines instead."""
+        return self.mark + self.newline.join(lines)
+
+    def texts(self, line: int, delimiter: bytes) -> list[str]:
+        """The cells of a line as text, without quotes and outer blanks; none beyond the end of the file."""
+        if line >= len(self.lines):
+            return []
+        return [plain_text(cell.decode(self.encoding, "replace")) for cell in split(self.lines[line], delimiter)]
+
+    def filled(self, start: int, delimiter: bytes) -> list[int]:
+        """Numbers of the lines from start on that have more in them than delimiters and blanks."""
+        void = BLANKS + delimiter
+        return [i for i in range(start, len(self.lines)) if self.lines[i].strip(void)]
+
+
+def load(path: Path) -> Sheet:
+    """Read a text file.
+
+    Raises BadRecording for a file that is empty, not text, or in a two-byte encoding.
+    """
+    content = path.read_bytes()
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        raise BadRecording(f"{path.name} is UTF-16 text, which is not read: save it as UTF-8")
+    mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
+    content = content[len(mark) :]
+    if not content.strip(BLANKS):
+        raise BadRecording(f"{path.name} is empty: export the recording again")
+    if content.count(0) > len(content) // 100:
+        raise BadRecording(f"{path.name} is not a text file: name it by what it is, or export it as text")
+    newline = b"\n" if b"\n" in content else b"\r"
+    try:
+        content.decode()
+        encoding = "utf-8"
+    except UnicodeDecodeError:
+        encoding = "latin-1"
+    return Sheet(path.name, mark, tuple(content.split(newline)), newline, encoding)
+
+
+def split(line: bytes, delimiter: bytes) -> list[bytes]:
+    """Cut a line into cells at each delimiter outside quotes; joining them by the delimiter gives the line again."""
+    if b'"' not in line:
+        return line.split(delimiter)
+    cells, start = [], 0
+    while True:
+        quoted = _QUOTED.match(line, start)
+        stop = line.find(delimiter, quoted.end() if quoted else start)
+        if stop < 0:
+            cells.append(line[start:])
+            return cells
+        cells.append(line[start:stop])
+        start = stop + len(delimiter)
+
+
+def plain_text(cell: str) -> str:
+    """The text of a cell without outer blanks and quotes."""
+    text = cell.strip(" \t\r\n\f\v\0")
+    return text[1:-1].replace('""', '"').strip() if len(text) > 1 and text[0] == text[-1] == '"' else text
+
+
+def is_number(cell: str) -> bool:
+    """Tell whether a cell of text holds a finite number, with a decimal point or comma."""
+    return re.fullmatch(r"[+-]?(\d+(?:[.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?", cell) is not None
+
+
+def likeliest_delimiter(lines: Iterable[bytes]) -> bytes:
+    """The delimiter of some lines: tab, semicolon or comma, whichever comes first there; tab before the others."""
+    text = b"\n".join(lines)
+    return next((mark for mark in (b"\t", b";", b",") if mark in text), b",")
+
+
+def has_decimal_comma(lines: Iterable[bytes], delimiter: bytes) -> bool:
+    """Tell whether numbers are written with a decimal comma: some are and none with a decimal point.
+
+    Never so where commas delimit the cells, except for numbers in quotes.
+    """
+    cells = [cell.strip(BLANKS).strip(b'"') for line in lines for cell in split(line, delimiter)]
+    return any(map(_COMMA.fullmatch, cells)) and not any(map(_POINT.fullmatch, cells))

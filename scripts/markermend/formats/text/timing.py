@@ -1,0 +1,98 @@
+"""When the rows of a text file were captured: the frame rate and the number of the first frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.core.recording import BadRecording
+from markermend.formats.text.cells import parse
+from markermend.formats.text.lines import Sheet
+from markermend.formats.text.table_layout import Layout
+
+TOLERANCE = 0.01
+"""Rates that differ by no more than this share are the same rate."""
+
+SLOWEST = 1.0
+"""Hz. Times that give a rate no higher than this are milliseconds."""
+
+WHOLE = 0.002
+"""A rate from rounded times that is this near to a whole number (share) is that number."""
+
+LEAP = 2.5
+"""Steps between times this many times the usual one, or longer, are leaps; shorter ones may be due to rounding."""
+
+SHORTEST = 1e-9
+"""s. No system captures frames nearer to each other."""
+
+LARGEST_FRAME = 2**53
+"""Beyond, whole numbers are not told apart."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """rate: Hz. first_frame: the capture program's number of row 0. warnings: one sentence each."""
+
+    rate: float
+    first_frame: int
+    warnings: tuple[str, ...]
+
+
+def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
+    """Work out the rate and the first frame of a file.
+
+    rate: Hz, as a person says, or None; then what the header says counts, then the time column.
+    Raises BadRecording where none gives a finite rate above zero.
+    """
+    columns = [column for column in (layout.frame, layout.time) if column is not None]
+    numbers = dict(zip(columns, parse(sheet, layout, columns)[0].T, strict=True)) if columns else {}
+    first, warnings = _frames(numbers.get(layout.frame) if layout.frame is not None else None)
+    timed, uneven = _rate_of_times(numbers.get(layout.time) if layout.time is not None else None, layout.seconds)
+    warnings += uneven
+    if rate is None and layout.rate is None and timed is not None and timed <= SLOWEST:
+        timed *= 1000
+        warnings.append("By the size of its numbers the time column is taken to be in milliseconds.")
+    chosen = next((value for value in (rate, layout.rate, timed) if value is not None), None)
+    if chosen is None or not 0 < chosen < float("inf"):
+        raise BadRecording(f"{sheet.name} gives no usable frame rate: give its `rate` in the recordings table")
+    for value, source in ((layout.rate, "header"), (timed, "time column")):
+        if value is not None and abs(value - chosen) > TOLERANCE * chosen:
+            warnings.append(f"The {source} says {value:.6g} Hz; {chosen:.6g} Hz is taken.")
+    return Timing(float(chosen), first, tuple(warnings))
+
+
+def _frames(numbers: np.ndarray | None) -> tuple[int, list[str]]:
+    """The number of the first frame, 1 if unknown, and what is odd about the numbers."""
+    if numbers is None:
+        return 1, []
+    first = numbers[0]
+    if not abs(first) < LARGEST_FRAME or first != round(first):
+        return 1, ["The first row has no whole frame number: frames are counted from 1."]
+    steps = np.diff(numbers)
+    odd = np.flatnonzero(~(steps == 1))
+    if not odd.size:
+        return int(first), []
+    kinds = [
+        (f"{int((steps == 0).sum())} repeat", (steps == 0).any()),
+        (f"{int((steps < 0).sum())} go back", (steps < 0).any()),
+        (f"{int((steps > 1).sum())} leap", (steps > 1).any()),
+        (f"{int(np.isnan(numbers).sum())} are no numbers", np.isnan(numbers).any()),
+    ]
+    said = ", ".join(text for text, present in kinds if present) or "some are not whole"
+    return int(first), [
+        f"Frame numbers do not count up by one ({said}; first in row {odd[0] + 2}): rows are counted instead."
+    ]
+
+
+def _rate_of_times(times: np.ndarray | None, seconds: float) -> tuple[float | None, list[str]]:
+    """The rate (Hz) at which times count up, or None where they do not, and what is odd about them."""
+    steps = np.diff(times) * seconds if times is not None else np.empty(0)
+    steps = steps[np.isfinite(steps)]
+    step = float(np.median(steps)) if steps.size else 0.0
+    if not 0 < step < float("inf"):
+        return None, []
+    even = (steps >= 0) & (steps < LEAP * step)
+    rate = 1 / max(float(steps[even].mean()), SHORTEST)
+    rate = float(round(rate)) if abs(rate - round(rate)) < WHOLE * rate else rate
+    return rate, [] if even.all() else [f"{int((~even).sum())} times leap or go back: rows are taken as evenly spaced."]

@@ -1,0 +1,121 @@
+"""Where the trajectories stand in a TRC file (Motion Analysis, OpenSim), and how to write a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from markermend.core.recording import BadRecording, Recording
+from markermend.formats.text.lines import Sheet, likeliest_delimiter
+from markermend.formats.text.table_layout import (
+    MILLIMETRES,
+    Layout,
+    consecutive,
+    count_named,
+    frame_rows,
+    rate_named,
+    row_widths,
+    unit_named,
+    writes_decimal_comma,
+)
+from markermend.storage.atomic import write_text
+
+HEADER_LINES = 5
+"""How far from the top the line that names the header's fields is looked for."""
+
+DECIMALS = {"mm": 5, "cm": 6, "m": 8}
+"""Decimals that a new file is written with: a hundred times finer than any system measures."""
+
+
+def describe(sheet: Sheet) -> Layout:
+    """Find the trajectories of a TRC file; its rows and labels count, not the numbers of its header.
+
+    Raises BadRecording where the header is cut off or the labels cannot be matched with the columns.
+    """
+    fields = next((i for i, line in enumerate(sheet.lines[:HEADER_LINES]) if b"DataRate" in line), None)
+    if fields is None:
+        raise BadRecording(f"{sheet.name} is no TRC file: its first lines do not name DataRate. Export it again")
+    delimiter = likeliest_delimiter(sheet.lines[fields : fields + 1])
+    header = dict(zip(sheet.texts(fields, delimiter), sheet.texts(fields + 1, delimiter), strict=False))
+    title = next(iter(sheet.filled(fields + 2, delimiter)), len(sheet.lines))
+    labels = sheet.texts(title, delimiter)
+    if not labels or not labels[0].lower().startswith("frame"):
+        raise BadRecording(f"{sheet.name}: the header of this TRC file is cut off before the labels. Export it again")
+    rows, warnings = frame_rows(sheet, title + 1, delimiter, section=False)
+    first = 2 if labels[1:2] and labels[1].lower().startswith("time") else 1
+    widths = row_widths(sheet, rows, delimiter)
+    names, starts, more = _match(sheet, labels, first, widths)
+    return Layout(
+        format="trc",
+        delimiter=delimiter,
+        rows=rows,
+        names=names,
+        columns=consecutive(starts),
+        unit=unit_named(sheet, header["Units"]) if header.get("Units") else None,
+        rate=rate_named(header.get("DataRate", "")),
+        time=1 if first == 2 else None,
+        frames=count_named(header.get("NumFrames", "")),
+        decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
+        warnings=(*warnings, *more, *_count_warnings(header.get("NumMarkers", ""), starts, widths)),
+    )
+
+
+def _match(
+    sheet: Sheet, labels: Sequence[str], first: int, widths: Sequence[int]
+) -> tuple[tuple[str, ...], list[int], list[str]]:
+    """Match the labels with the columns: each stands above its X, or they are as many as the rows have triples."""
+    labelled = [i for i in range(first, len(labels)) if labels[i]]
+    if not labelled:
+        raise BadRecording(f"{sheet.name}: no marker is labelled. Label the markers and export it again")
+    if all((i - first) % 3 == 0 for i in labelled):
+        starts = list(range(first, labelled[-1] + 1, 3))
+        return tuple(labels[i] for i in starts), starts, []
+    if first + 3 * len(labelled) != max(widths, default=0):
+        raise BadRecording(
+            f"{sheet.name}: the {len(labelled)} labels stand above no columns that would be theirs. Correct the line of"
+            " labels: each above its X"
+        )
+    starts = list(range(first, first + 3 * len(labelled), 3))
+    warning = "The labels do not stand above their columns; they are as many as there are trajectories and go in order."
+    return tuple(labels[i] for i in labelled), starts, [warning]
+
+
+def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int]) -> list[str]:
+    """Say where the number of markers in the header, that of the labels and the width of the rows differ."""
+    warnings = []
+    if count_named(promised) != len(starts):
+        warnings.append(
+            f"The header says {promised[:20] or 'no'} markers and {len(starts)} are labelled: the labels count."
+        )
+    wider = sum(width > starts[-1] + 3 for width in widths)
+    if wider:
+        warnings.append(f"{wider} rows have cells beyond the last labelled marker, which are left alone.")
+    return warnings
+
+
+def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
+    """Write a TRC file that OpenSim opens: tabs, missing samples blank, exact counts, a blank line above the data.
+
+    unit: mm, cm or m, of the file; the recording is in mm. Times start at zero. A recording without frames or markers
+    gives a file without them.
+    """
+    decimals = DECIMALS[unit]
+    count = len(recording.markers)
+    rate = f"{recording.rate:.10g}"
+    fields = (rate, rate, recording.frames, count, unit, rate, recording.first_frame, recording.frames)
+    lines = [
+        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
+        "\t".join(map(str, fields)),
+        "Frame#\tTime" + "".join(f"\t{marker}\t\t" for marker in recording.markers),
+        "\t" + "".join(f"\tX{i}\tY{i}\tZ{i}" for i in range(1, count + 1)),
+        "",
+    ]
+    positions = (recording.positions / MILLIMETRES[unit]).reshape(recording.frames, 3 * count)
+    unseen = np.repeat(recording.missing, 3, axis=1).tolist()
+    for row, (cells, blank) in enumerate(zip(positions.tolist(), unseen, strict=True)):
+        written = ["" if gone else f"{cell:.{decimals}f}" for cell, gone in zip(cells, blank, strict=True)]
+        lines.append("\t".join([str(recording.first_frame + row), f"{row / recording.rate:.6f}", *written]))
+    write_text(path, "\n".join(lines) + "\n")

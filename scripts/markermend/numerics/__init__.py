@@ -1,0 +1,1 @@
+"""Numerical methods over arrays that know nothing of markers or files."""

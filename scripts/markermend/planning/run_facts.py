@@ -1,0 +1,51 @@
+"""What is true of one run and of no result: versions, commit, configuration and times."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from markermend import __version__
+from markermend.planning.code_hashes import code
+
+PACKAGES = ("numpy", "scipy", "pyarrow", "ezc3d", "jinja2", "plotly", "snakemake")
+"""The third-party packages that results may depend on."""
+
+
+def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, started: datetime) -> dict[str, Any]:
+    """What is true of one run and of no result: versions, commit, configuration and times.
+
+    started: an aware time. Kept apart from the results, which hold no clock and no machine, so that they can be
+    compared.
+    """
+    return {
+        "markermend": __version__,
+        "commit": commit(project),
+        "code": {file.stem: code(file) for file in sorted((project / "scripts").glob("*.py"))},
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "packages": {name: metadata.version(name) for name in PACKAGES},
+        "config": dict(config),
+        "recordings": recordings,
+        "started": started.isoformat(timespec="seconds"),
+        "finished": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+def commit(project: Path) -> str | None:
+    """The commit of the project's checkout, with `-modified` where files differ from it; None where it is no checkout."""
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(project), "describe", "--always", "--abbrev=40", "--exclude=*", "--dirty=-modified"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip()

@@ -1,0 +1,1 @@
+"""Predictors by regression on lagged coordinates of the segment mates (skurowski2022 3.3)."""

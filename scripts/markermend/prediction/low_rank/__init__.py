@@ -1,0 +1,1 @@
+"""Predictors by a matrix of coordinates of low rank."""

@@ -1,0 +1,90 @@
+"""Iterated truncated SVD of the matrix of coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.numerics.low_rank import complete
+from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.scene import Prediction, Scene
+
+
+@dataclass(frozen=True)
+class SvdOptions:
+    """Settings of the iterated truncated SVD.
+
+    neighbours: most markers beside the one with the gap. frames: most frames outside the gap. minimum_frames: a marker
+    seen in fewer is left out. share: a neighbour that leaves less than this share of them centres nothing. centred:
+    subtract from each frame the mean of the neighbours that are there throughout.
+    shrinkage: damp the singular values by the noise, or only truncate them. explained: share of the variance that sets
+    the rank. tolerance_mm: iterate until no missing sample moves more.
+    iterations: at most so many.
+    """
+
+    neighbours: int
+    frames: int
+    minimum_frames: int
+    share: float
+    centred: bool
+    shrinkage: bool
+    explained: float
+    tolerance_mm: float
+    iterations: int
+
+
+class IteratedSvd:
+    """Truncated SVD of frames by coordinates, iterated until the missing samples agree with it; states no error."""
+
+    name = "msvd"
+    continuous = False
+
+    def __init__(self, options: SvdOptions) -> None:
+        """Keep the settings."""
+        self.options = options
+
+    def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """See Predictor. Frames that show no other marker are left open."""
+        options = self.options
+        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        positions = np.full((stop - start + 2, 3), np.nan)
+        nothing = Prediction(positions, np.full(len(positions), np.nan))
+        near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
+        near = near[np.count_nonzero(hidden.present[:, near], axis=0) >= options.minimum_frames]
+        asked = np.arange(max(start - 1, 0), min(stop + 1, len(hidden.positions)))
+        asked = asked[hidden.present[np.ix_(asked, near)].any(axis=1)]
+        if len(asked) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.minimum_frames:
+            return nothing
+        centres, training = self._centres(hidden, marker, near, asked)
+        rows = np.union1d(thinned(training, options.frames), asked)
+        values = hidden.positions[np.ix_(rows, np.append(marker, near))]
+        centre = values[:, 1:][:, centres].mean(axis=1) if centres.any() else np.zeros((len(rows), 3))
+        place = np.searchsorted(rows, asked)
+        # The model is asked about the borders too: what it says there tells by how much it is off.
+        values[place, 0] = np.nan
+        filled, _ = complete(
+            (values - centre[:, None]).reshape(len(rows), -1),
+            explained=options.explained,
+            shrinkage=options.shrinkage,
+            tolerance=options.tolerance_mm,
+            iterations=options.iterations,
+        )
+        positions[asked - (start - 1)] = filled[place, :3] + centre[place]
+        return nothing
+
+    def _centres(self, scene: Scene, marker: int, near: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which neighbours (mask) centre a frame, and the frames to learn from: those that show them and the marker."""
+        if self.options.centred:
+            throughout = near[scene.present[np.ix_(asked, near)].all(axis=0)]
+            never_missing = throughout[scene.present[:, throughout].all(axis=0)]
+            chosen, joint = companions(
+                scene,
+                marker,
+                never_missing if len(never_missing) else throughout,
+                share=self.options.share,
+                minimum_frames=self.options.minimum_frames,
+            )
+            if len(chosen):
+                return np.isin(near, chosen), joint
+        return np.zeros(len(near), bool), np.flatnonzero(scene.present[:, marker])

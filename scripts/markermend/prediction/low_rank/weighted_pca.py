@@ -1,0 +1,128 @@
+"""Weighted principal components of the matrix of coordinates (Gloersen & Federolf 2016)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.numerics.low_rank import enough
+from markermend.numerics.patterns import alike
+from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.scene import Prediction, Scene
+
+STRATEGIES = ("together", "single")
+"""Reconstruct all markers that miss the same frames at once (strategy R1 of the paper), or one at a time (R2)."""
+
+
+@dataclass(frozen=True)
+class PcaOptions:
+    """Settings of the weighted principal components.
+
+    strategy: one of STRATEGIES. frames: most training frames. minimum_frames: fewer joint frames than this and nothing
+    is predicted. minimum_inputs: if so many markers are seen throughout the gap, only these are used. share: a marker
+    is left out if with it fewer than this share of the training frames would remain. scale_mm: markers' weights fall
+    with their distance as a Gaussian of this width. missing_weight: weight of markers with the gap. distal: markers
+    with gaps of their own are left out beyond this multiple of the mean distance. explained: share of the sum of
+    singular values that sets the number of components.
+    """
+
+    strategy: str
+    frames: int
+    minimum_frames: int
+    minimum_inputs: int
+    share: float
+    scale_mm: float
+    missing_weight: float
+    distal: float
+    explained: float
+
+
+class WeightedPca:
+    """Weighted principal components (Gloersen & Federolf 2016) as a predictor; states no error."""
+
+    name = "weighted_pca"
+    continuous = False
+
+    def __init__(self, options: PcaOptions) -> None:
+        """Keep the settings."""
+        if options.strategy not in STRATEGIES:
+            raise ValueError(f"unknown strategy {options.strategy!r}: one of {', '.join(STRATEGIES)}")
+        self.options = options
+
+    def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """See Predictor. Frames of the gap that see the same markers share a model."""
+        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
+        positions = np.full((stop - start + 2, 3), np.nan)
+        near = np.asarray(hidden.neighbours[marker], int)
+        for used, places in alike(hidden.present[np.ix_(frames, near)], self.options.minimum_inputs):
+            rows = frames[places]
+            if used.any():
+                positions[rows - (start - 1)] = self._recover(hidden, marker, near[used], near[~used], rows)
+        return Prediction(positions, np.full(len(positions), np.nan))
+
+    def _recover(self, scene: Scene, marker: int, seen: np.ndarray, unseen: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """Position (n, 3) at rows, which show the markers `seen`; NaN where too few frames train."""
+        options = self.options
+        distance = _distances(scene, marker, seen, options.frames)
+        own_gaps = ~scene.present[:, seen].all(axis=0)
+        inputs = seen[~(own_gaps & (distance > options.distal * np.nanmean(distance)))]
+        ranked = inputs[np.argsort(~scene.present[:, inputs].all(axis=0), kind="stable")]
+        # Together: the others that miss these frames have their columns too, where enough training frames remain.
+        others = unseen if options.strategy == "together" else unseen[:0]
+        chosen, joint = companions(
+            scene, marker, np.concatenate([ranked, others]), share=options.share, minimum_frames=options.minimum_frames
+        )
+        inputs, gaps = chosen[np.isin(chosen, ranked)], [marker, *chosen[np.isin(chosen, others)]]
+        if len(inputs) == 0:
+            return np.full((len(rows), 3), np.nan)
+        training = thinned(joint, options.frames)
+        complete_ones = inputs[scene.present[:, inputs].all(axis=0)]
+        centres = complete_ones if len(complete_ones) else inputs
+        nearest = np.min([_distances(scene, gap, inputs, options.frames) for gap in gaps], axis=0)
+        weights = np.exp(-(nearest**2) / (2 * options.scale_mm**2))
+        weights = np.concatenate([np.full(len(gaps), options.missing_weight), weights]).repeat(3)
+        columns = [*gaps, *inputs]
+        centre = scene.positions[np.ix_(rows, centres)].mean(axis=1)
+        known, asked = (
+            (scene.positions[np.ix_(f, columns)] - scene.positions[np.ix_(f, centres)].mean(axis=1)[:, None]).reshape(
+                len(f), -1
+            )
+            for f in (training, rows)
+        )
+        found = reconstruct(known, asked, 3 * len(gaps), weights=weights, explained=options.explained)
+        return found[:, :3] + centre
+
+
+def _distances(scene: Scene, marker: int, others: np.ndarray, frames: int) -> np.ndarray:
+    """Mean distance (k,) of a marker to others, over at most so many frames that show it; NaN if never together."""
+    rows = thinned(np.flatnonzero(scene.present[:, marker]), frames)
+    apart = np.linalg.norm(scene.positions[np.ix_(rows, others)] - scene.positions[rows, marker][:, None], axis=2)
+    count = np.count_nonzero(~np.isnan(apart), axis=0)
+    return np.where(count > 0, np.nansum(apart, axis=0) / np.maximum(count, 1), np.inf)
+
+
+def reconstruct(
+    known: np.ndarray, asked: np.ndarray, gaps: int, *, weights: np.ndarray, explained: float
+) -> np.ndarray:
+    """Reconstruct the first `gaps` columns of `asked` (m, columns) from its others; source: Gloersen & Federolf 2016.
+
+    known: (n, columns), complete. weights: (columns,). The components of the normalised, weighted complete frames are
+    compared with those of the same frames with the gap columns at zero; scores in the second basis are carried into
+    the first. Returns (m, gaps). The values of `asked` in the gap columns are not looked at.
+    """
+    mean, scale = known.mean(axis=0), known.std(axis=0)
+    scale = np.where(scale > 0, scale, 1.0)
+    full = (known - mean) / scale * weights
+    zeroed = full.copy()
+    zeroed[:, :gaps] = 0.0
+    given = np.concatenate([np.zeros((len(asked), gaps)), ((asked - mean) / scale * weights)[:, gaps:]], axis=1)
+    count, bases = 1, []
+    for matrix in (full, zeroed):
+        sizes, vectors = np.linalg.eigh(matrix.T @ matrix)
+        count = max(count, enough(np.sqrt(np.maximum(sizes[::-1], 0.0)), explained))
+        bases.append(vectors[:, ::-1])
+    complete_basis, zeroed_basis = bases[0][:, :count], bases[1][:, :count]
+    scores = given @ zeroed_basis @ (zeroed_basis.T @ complete_basis)
+    return (scores @ complete_basis[:gaps].T) / weights[:gaps] * scale[:gaps] + mean[:gaps]

@@ -1,0 +1,1 @@
+"""Predictors by neural networks (skurowski2021)."""

@@ -1,0 +1,181 @@
+"""Small networks that are trained side by side: one batch holds the weights of all, so that all advance together.
+
+The only module that imports torch, which takes seconds: import it where networks train, and nowhere else. Networks of a
+batch do not know of each other. Where they differ in size, zeros are added that neither change an output nor a
+gradient, so each learns what it would learn alone, but for the last bits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from markermend.prediction.neural_network.options import NetworkOptions
+
+GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
+"""The recurrent kinds and how many weighted sums a recurrent unit has."""
+
+Weights = list[np.ndarray]
+"""Recurrent kinds begin with weights of the inputs (inputs, gates * units), of the former outputs (units, gates *
+units) and constants (1, gates * units), for each direction; all end with two dense layers: weights and constants of
+each."""
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """What one network learns from: inputs (n, inputs) and targets (n, outputs) of one or more stretches of frames."""
+
+    inputs: Sequence[np.ndarray]
+    targets: Sequence[np.ndarray]
+
+
+def train(kind: str, lessons: Sequence[Lesson], options: NetworkOptions) -> list[Weights]:
+    """Train one network per lesson, at most `batch` at once; source: skurowski2021 section 3.1.4.
+
+    Gradient descent with momentum on all frames at once. The loss is half the squared error, summed over the outputs
+    and averaged over the frames. Each network's gradient is shortened to the length `clip` on its own.
+    """
+    learned: list[Weights] = []
+    for first in range(0, len(lessons), options.batch):
+        learned += _train_batch(kind, lessons[first : first + options.batch], options)
+    return learned
+
+
+def evaluate(kind: str, weights: Weights, inputs: np.ndarray) -> np.ndarray:
+    """Outputs (n, outputs) of one network for inputs (n, inputs) at consecutive frames."""
+    x = torch.from_numpy(inputs[None, None])
+    backwards = torch.arange(len(inputs) - 1, -1, -1)[None, None, :, None]
+    with torch.no_grad():
+        return _forward(kind, [torch.from_numpy(part[None]) for part in weights], x, backwards)[0, 0].numpy()
+
+
+def initial(kind: str, inputs: int, outputs: int, options: NetworkOptions) -> Weights:
+    """First weights: Glorot's uniform ones, orthogonal ones of former outputs, constants 0 but 1 at the forget gates."""
+    rng = np.random.default_rng(options.seed)
+    weights: Weights = []
+    size = inputs
+    if kind in GATES:
+        units, width = options.recurrent_units, GATES[kind] * options.recurrent_units
+        for _ in range(_directions(kind)):
+            former = np.linalg.qr(rng.standard_normal((width, units)))[0].T
+            constants = np.zeros((1, width))
+            if GATES[kind] == 4:
+                constants[:, units : 2 * units] = 1
+            weights += [_glorot(rng, inputs, width), former, constants]
+        size = _directions(kind) * units
+    weights += [_glorot(rng, size, options.units), np.zeros((1, options.units))]
+    return [*weights, _glorot(rng, options.units, outputs), np.zeros((1, outputs))]
+
+
+def _directions(kind: str) -> int:
+    """How often a recurrent layer goes through the frames."""
+    return 2 if kind == "bilstm" else 1
+
+
+def _glorot(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
+    """Uniform weights of variance 2 / (rows + columns)."""
+    return rng.uniform(-1, 1, (rows, columns)) * np.sqrt(6 / (rows + columns))
+
+
+def _train_batch(kind: str, lessons: Sequence[Lesson], options: NetworkOptions) -> list[Weights]:
+    """See train."""
+    device = "cuda" if torch.cuda.is_available() else "cpu"
+    begun = [initial(kind, lesson.inputs[0].shape[1], lesson.targets[0].shape[1], options) for lesson in lessons]
+    weights = [torch.from_numpy(_padded(parts)).to(device).requires_grad_() for parts in zip(*begun, strict=True)]
+    lengths = _padded([np.array([len(stretch) for stretch in lesson.inputs]) for lesson in lessons])
+    x = torch.from_numpy(_padded([_padded(lesson.inputs) for lesson in lessons])).to(device)
+    y = torch.from_numpy(_padded([_padded(lesson.targets) for lesson in lessons])).to(device)
+    place = np.arange(x.shape[2])
+    inside = place < lengths[..., None]
+    shares = torch.from_numpy((inside / lengths.sum(axis=1)[:, None, None])[..., None]).to(device)
+    backwards = torch.from_numpy(np.where(inside, lengths[..., None] - 1 - place, place)[..., None]).to(device)
+    velocities = [torch.zeros_like(part) for part in weights]
+    for epoch in range(options.epochs):
+        loss = (shares * (_forward(kind, weights, x, backwards) - y).square()).sum() / 2
+        gradients = torch.autograd.grad(loss, weights)
+        rate = options.learning_rate * options.drop ** (epoch // options.drop_every)
+        _descend(weights, velocities, gradients, rate, options)
+    return [
+        [
+            np.ascontiguousarray(part[n, : old.shape[0], : old.shape[1]].detach().cpu().numpy())
+            for part, old in zip(weights, parts, strict=True)
+        ]
+        for n, parts in enumerate(begun)
+    ]
+
+
+@torch.no_grad()
+def _descend(
+    weights: Sequence[torch.Tensor],
+    velocities: Sequence[torch.Tensor],
+    gradients: Sequence[torch.Tensor],
+    rate: float,
+    options: NetworkOptions,
+) -> None:
+    """One step downhill with momentum, in place."""
+    length = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()
+    scale = options.clip / length.clamp(min=options.clip)
+    for part, velocity, gradient in zip(weights, velocities, gradients, strict=True):
+        velocity.mul_(options.momentum).add_(gradient * scale)
+        part.sub_(rate * velocity)
+
+
+def _forward(kind: str, weights: Sequence[torch.Tensor], x: torch.Tensor, backwards: torch.Tensor) -> torch.Tensor:
+    """Outputs (networks, stretches, frames, outputs) for x (networks, stretches, frames, inputs).
+
+    backwards: (networks, stretches, frames, 1), the frames of each stretch in reverse order.
+    """
+    if kind in GATES:
+        layer = _gru if kind == "gru" else _lstm
+        hidden = [layer(x, *weights[:3])]
+        if _directions(kind) == 2:
+            turned = layer(torch.take_along_dim(x, backwards, 2), *weights[3:6])
+            hidden.append(torch.take_along_dim(turned, backwards, 2))
+        x = torch.cat(hidden, -1)
+    first = _dense(x, *weights[-4:-2])
+    return _dense(first if kind == "linear" else first.tanh(), *weights[-2:])
+
+
+def _dense(x: torch.Tensor, weights: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
+    """A layer of each network: (networks, stretches, frames, inputs) to (networks, stretches, frames, outputs)."""
+    return torch.baddbmm(constants, x.flatten(1, 2), weights).unflatten(1, x.shape[1:3])
+
+
+def _lstm(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
+    """Long short-term memory from rest; source: skurowski2021 eq 2-7. Gates: input, forget, output, candidate."""
+    units = former.shape[1]
+    output = memory = x.new_zeros(*x.shape[:2], units)
+    outputs = []
+    for drive in _dense(x, weights, constants).unbind(2):
+        sums = torch.baddbmm(drive, output, former)
+        entry, keep, leave = sums[..., : 3 * units].sigmoid().chunk(3, -1)
+        memory = keep * memory + entry * sums[..., 3 * units :].tanh()
+        output = leave * memory.tanh()
+        outputs.append(output)
+    return torch.stack(outputs, 2)
+
+
+def _gru(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
+    """Gated recurrent units from rest; source: skurowski2021 eq 8-11. Gates: update, reset, candidate."""
+    units = former.shape[1]
+    output = x.new_zeros(*x.shape[:2], units)
+    outputs = []
+    for drive in _dense(x, weights, constants).unbind(2):
+        gates = torch.baddbmm(drive[..., : 2 * units], output, former[..., : 2 * units]).sigmoid()
+        update, reset = gates.chunk(2, -1)
+        candidate = torch.baddbmm(drive[..., 2 * units :], reset * output, former[..., 2 * units :]).tanh()
+        output = output + update * (candidate - output)
+        outputs.append(output)
+    return torch.stack(outputs, 2)
+
+
+def _padded(arrays: Sequence[np.ndarray]) -> np.ndarray:
+    """Stack arrays of unlike shapes; what they lack is 0."""
+    shape = np.max([array.shape for array in arrays], axis=0)
+    out = np.zeros((len(arrays), *shape), dtype=arrays[0].dtype)
+    for place, array in zip(out, arrays, strict=True):
+        place[tuple(map(slice, array.shape))] = array
+    return out

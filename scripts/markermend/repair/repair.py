@@ -1,0 +1,211 @@
+"""Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
+
+Swapped labels are exchanged first; what else was found was found in trajectories without swaps. All methods of a class
+say what they would write and how surely; the surest is taken, provided that it changes more than it may err by, and that
+what leaves the neighbours aside brings the samples nearer to where these say they should be. Where none can be trusted, the samples become missing and say why; so do samples that nobody
+measured. Samples outside the intervals are returned bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from markermend.core import events as finding
+from markermend.core.decisions import Decision, Ruling, kind_of, names, protecting, rule
+from markermend.core.events import Event
+from markermend.core.recording import Recording, Restored
+from markermend.prediction.scene import Predictor, Scene
+from markermend.repair.apply_decisions import judge
+from markermend.repair.candidates import Offers, RepairOptions, choose
+from markermend.repair.methods import METHODS
+from markermend.repair.result import Restoration
+
+
+def repair(
+    recording: Recording,
+    *,
+    found: Mapping[str, Sequence[Event]],
+    neighbours: Sequence[np.ndarray],
+    predictors: Mapping[str, Predictor],
+    options: RepairOptions,
+    relatives: Sequence[np.ndarray] | None = None,
+    decisions: Sequence[Decision] = (),
+) -> Restored:
+    """Repair the findings of each class (in detector order) and return the recording with the story of every sample.
+
+    neighbours, relatives: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
+    a person says, against which no limit holds. The facts of the result gain `repairs` (marker, start, stop, class,
+    method, score, axes, partner, and the `alternatives`: expected error in mm of each method that could be used), `repairs_left` (the same with a reason and whether the samples were blanked), each
+    with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
+    """
+    work = _Repairer(recording, found, neighbours, relatives, predictors, options, decisions)
+    work.swap_back()
+    for marker, start, stop, members in work.findings():
+        work.treat(marker, start, stop, members)
+    return work.result.finished()
+
+
+UNMEASURED = {
+    "frozen": "not measured: the position repeats while the neighbours move on",
+    "tails": "not measured: the samples beside a gap wander off",
+}
+"""Findings that are missing samples in disguise and never repaired, by detector, and why."""
+
+Member = tuple[str, Event]
+"""A finding with the detector that found it."""
+
+
+class _Repairer:
+    """The state of one repair: what the decisions leave to repair, the scene without any finding, and the result."""
+
+    def __init__(
+        self,
+        recording: Recording,
+        found: Mapping[str, Sequence[Event]],
+        neighbours: Sequence[np.ndarray],
+        relatives: Sequence[np.ndarray] | None,
+        predictors: Mapping[str, Predictor],
+        options: RepairOptions,
+        decisions: Sequence[Decision],
+    ) -> None:
+        self.neighbours, self.relatives = neighbours, relatives
+        self.predictors, self.options = predictors, options
+        static = recording.facts.get("kind") == "static"
+        self.decisions = [] if static else [*protecting(options.protect), *decisions]
+        judged = judge(recording, found, self.decisions)
+        self._look_at(judged.recording, judged.found)
+        self.result = Restoration(judged.recording, judged.left, options.radius)
+        self.refusal = "static recording: never repaired" if static else self._too_much()
+
+    def _look_at(self, recording: Recording, found: Mapping[str, Sequence[Event]]) -> None:
+        """Take the recording to repair and what was found in it; the scene is all that is not found."""
+        self.recording = recording
+        self.found = {stage: list(events) for stage, events in found.items() if events}
+        self.flagged = self._covered([event for events in self.found.values() for event in events])
+        believed = np.where(self.flagged[..., None], np.nan, recording.positions)
+        scene = Scene(believed, recording.rate, self.neighbours, relatives=self.relatives)
+        self.offers = Offers(recording.positions, self.flagged, scene, self.predictors, self.options)
+
+    def _covered(self, events: Sequence[Event]) -> np.ndarray:
+        """Bool (frames, markers): the seen samples that the findings cover."""
+        return finding.mask(events, self.recording.frames, self.recording.markers) & ~self.recording.missing
+
+    def _too_much(self) -> str | None:
+        """Why nothing may be repaired that no person confirmed, or None."""
+        members = [(stage, event) for stage, events in self.found.items() for event in events]
+        covered = self._covered([event for stage, event in members if not self._ruling([(stage, event)]).confirmed])
+        share = covered.sum() / max(1, int((~self.recording.missing).sum()))
+        if share > self.options.max_altered_share:
+            return f"findings cover {share:.1%} of the recording, more than {self.options.max_altered_share:.0%}"
+        return None
+
+    def _ruling(self, members: Sequence[Member]) -> Ruling:
+        """What the decisions come to for findings that overlap."""
+        kinds = {kind_of(stage, event) for stage, event in members}
+        markers = dict.fromkeys(name for _, event in members for name in names(event))
+        start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
+        return rule(self.decisions, kinds, markers, start, stop)
+
+    def swap_back(self) -> None:
+        """Give swapped markers that may be touched their own samples; all else is judged and repaired after that."""
+        done: set[tuple[str, int, int]] = set()
+        rest = []
+        usual = self.refusal is None and "swap" in self.options.methods.get("steps", ())
+        for event in self.found.get("steps", []):
+            ruling = self._ruling([("steps", event)])
+            wanted = ruling.method == "swap" if ruling.method else usual or ruling.confirmed
+            if event.partner not in self.recording.markers or not wanted:
+                rest.append(event)
+            elif (event.marker, event.start, event.stop) not in done:
+                ring = self._ring(event)
+                done |= {(one.marker, one.start, one.stop) for one in ring}
+                self._exchange(ring, ruling)
+        swapped = replace(self.recording, positions=self.result.positions.copy())
+        self._look_at(swapped, {**self.found, "steps": rest})
+
+    def _ring(self, event: Event) -> list[Event]:
+        """The swaps that belong together: from partner to partner and back to the first; at least a marker and its partner."""
+        along = {
+            e.marker: e for e in self.found["steps"] if e.partner and (e.start, e.stop) == (event.start, event.stop)
+        }
+        ring = [event]
+        while len(ring) <= len(along) and (onward := along.get(str(ring[-1].partner))) and onward is not event:
+            ring.append(onward)
+        closed = ring[-1].partner == event.marker
+        return ring if closed else [event, replace(event, marker=str(event.partner), partner=event.marker)]
+
+    def _exchange(self, ring: list[Event], ruling: Ruling) -> None:
+        """Give each marker of a ring the samples of its partner, unless that would leave them worse."""
+        index = self.recording.markers.index
+        members, partners = [index(one.marker) for one in ring], [index(str(one.partner)) for one in ring]
+        start, stop = ring[0].start, ring[0].stop
+        worse = None if ruling.confirmed else self.offers.worse_swapped(members, partners, start, stop)
+        if worse is None:
+            self.result.exchange(ring, ruling)
+            return
+        for one in ring:
+            self.result.leave(one, ["steps"], f"no better with labels swapped: {worse}", ruling, blank=False)
+
+    def findings(self) -> list[tuple[str, int, int, list[Member]]]:
+        """The intervals to work on, by marker and time, each with the findings that overlap in it."""
+        together: list[tuple[str, int, int, list[Member]]] = []
+        everything = [(event, stage) for stage, events in self.found.items() for event in events]
+        for event, stage in sorted(everything, key=lambda pair: pair[0].order):
+            last = together[-1] if together else None
+            if last and last[0] == event.marker and event.start < last[2]:
+                together[-1] = (event.marker, last[1], max(last[2], event.stop), [*last[3], (stage, event)])
+            else:
+                together.append((event.marker, event.start, event.stop, [(stage, event)]))
+        return together
+
+    def treat(self, marker: str, start: int, stop: int, members: list[Member]) -> None:
+        """Repair the findings that overlap in an interval, or say why not."""
+        ruling = self._ruling(members)
+        # The strongest finding stands for all where a person says how to repair them together.
+        stage, event = max(members, key=lambda member: member[1].score)
+        event = replace(event, start=start, stop=stop)
+        stages = [stage for stage, _ in members]
+        if self.refusal and not ruling.confirmed:
+            self.result.leave(event, stages, self.refusal, ruling, blank=False)
+        elif why := [UNMEASURED[name] for name in UNMEASURED if name in stages]:
+            self.result.leave(event, stages, "; ".join(why), ruling, blank=True)
+        elif ruling.method and ruling.method not in METHODS:
+            self.result.leave(event, stages, f"to be filled by {ruling.method}", ruling, blank=True)
+        elif len(members) > 1 and not ruling.method:
+            reason = "several kinds of artifact at once: treated as a gap"
+            self.result.leave(event, stages, reason, ruling, blank=True)
+        else:
+            self._mend(stage, stages, event, ruling)
+
+    def _mend(self, stage: str, stages: Sequence[str], event: Event, ruling: Ruling) -> None:
+        """Repair one finding by the method that is expected to err least; blank it if none can be trusted.
+
+        A repair that would leave the recording no better is none: then the samples stay as measured. Where a person
+        confirmed the finding, the best repair is trusted.
+        """
+        options = self.options
+        if event.stop - event.start > options.max_repair_s * self.recording.rate and not ruling.confirmed:
+            self.result.leave(event, stages, f"longer than {options.max_repair_s:g} s", ruling, blank=True)
+            return
+        methods = [ruling.method] if ruling.method else options.methods[stage]
+        m = self.recording.markers.index(event.marker)
+        offers = self.offers.of(methods, m, event.start, event.stop)
+        best = min(offers, key=lambda offer: offer.expected, default=None)
+        taken = choose(offers, limit_mm=options.max_error_mm, prefer=options.prefer)
+        if taken is None and ruling.confirmed:
+            taken = best
+        if taken:
+            self.result.write(stage, event, taken, offers, ruling)
+            return
+        able = {offer.proposal.method: offer.against(options.max_error_mm) for offer in offers}
+        told = [
+            f"{method}: {able[method] or 'less sure than another'}" if method in able else f"{method}: not applicable"
+            for method in methods
+            if method != "swap"
+        ]
+        reason = f"no repair can be trusted ({'; '.join(told)})" if told else f"no method for {stage}: treated as a gap"
+        harmless = best is not None and best.doubt is not None
+        self.result.leave(event, stages, reason, ruling, blank=not harmless, offers=offers)

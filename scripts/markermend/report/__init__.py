@@ -1,0 +1,1 @@
+"""The report on a data set and the page of each recording."""

@@ -1,0 +1,55 @@
+"""A map of a recording, one line per marker: where samples were missing and still are, were filled, or were repaired."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from markermend.core.recording import FILLED, MEASURED, MISSING, Recording, Restored
+from markermend.numerics.intervals import runs
+
+WIDTH = 1000
+"""Columns of a map; a stretch that is shorter than one column still fills it."""
+
+VISIBLE = 3
+"""Least width of a mark, in columns, so that one frame out of thousands can be seen."""
+
+
+def lines(before: Recording, after: Restored) -> list[dict[str, str]]:
+    """Draw each marker's line as SVG path data, in units of WIDTH columns: keys `open`, `filled`, `repaired`."""
+    states = {
+        "open": after.missing,
+        "filled": (after.origin == FILLED) & before.missing,
+        "repaired": (after.origin != MEASURED) & (after.origin != MISSING) & ~before.missing,
+    }
+    return [{name: path(where[:, m]) for name, where in states.items()} for m in range(len(before.markers))]
+
+
+def path(where: np.ndarray) -> str:
+    """Draw the stretches at which a bool vector (frames) holds as horizontal strokes at height 0."""
+    columns = np.zeros(WIDTH, bool)
+    for start, stop in runs(where):
+        left, right = start * WIDTH // len(where), -(-stop * WIDTH // len(where))
+        columns[min(left, WIDTH - VISIBLE) : max(right, left + VISIBLE)] = True
+    return "".join(f"M{start} 0h{stop - start}" for start, stop in runs(columns))
+
+
+def ticks(recording: Recording, wanted: int) -> list[dict[str, Any]]:
+    """Places for about `wanted` round times along a map: `percent` of its width, `second`, and the frame's number."""
+    duration = recording.frames / recording.rate
+    step = round_step(duration / max(wanted, 1))
+    return [
+        {
+            "percent": round(100 * second / duration, 3),
+            "second": round(second, 6),
+            "frame": recording.first_frame + round(second * recording.rate),
+        }
+        for second in (step * np.arange(int(duration * 0.97 / step) + 1)).tolist()
+    ]
+
+
+def round_step(length: float) -> float:
+    """The smallest of 1, 2, 5 times a power of ten that is not below a length."""
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(next(factor * power for factor in (1, 2, 5, 10) if factor * power >= length * (1 - 1e-9)))

@@ -1,0 +1,128 @@
+"""A synthetic person with markers on: walks, turns, reaches, sits down, stands up, as a motion capture system sees it.
+
+Truth for tests, demonstrations and evaluation: every trajectory is complete and free of artifacts, and it is known
+which segment each marker sits on. What a real recording has is there: joints, soft tissue that moves over the bone, and
+noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.spatial.transform import Rotation
+
+from markermend.core.recording import Recording
+from markermend.simulation.walker_body import Body, kind, make_body
+from markermend.simulation.walker_motion import move
+
+__all__ = ["Walker", "make_body", "walk"]
+
+BACKWARD = ("pelvis", "thorax", "head", "shank")
+"""Segments whose flexion is a positive rotation about y; that of the others is negative."""
+
+YIELD = 6.0
+"""How far in mm a foot gives way when it takes over the weight."""
+
+SMOOTHING, RESPONSE = 0.045, 0.02
+"""Standard deviations in s of the smoothing of the path of the pelvis, and of the response of soft tissue."""
+
+
+@dataclass(frozen=True)
+class Walker:
+    """A synthetic recording and what is true of it.
+
+    recording: what the cameras saw. rigid: (frames, markers, 3), mm, the markers fixed to the bones, without soft
+    tissue or noise. segments: the name of each marker's segment. tree: the parent of each segment, None for the root.
+    bouts: the activities as (name, start, stop) in seconds.
+    """
+
+    recording: Recording
+    rigid: np.ndarray
+    segments: tuple[str, ...]
+    tree: dict[str, str | None]
+    bouts: tuple[tuple[str, float, float], ...]
+
+
+def walk(
+    *,
+    body: Body,
+    duration: float,
+    rate: float,
+    activities: Sequence[str],
+    noise: float,
+    soft_tissue: float,
+    rng: np.random.Generator,
+) -> Walker:
+    """Record a body doing the activities one after the other, over again until the duration (s) is filled.
+
+    activities: names from walker_motion.ACTIVITIES. noise: standard deviation of each coordinate, mm. soft_tissue:
+    factor on the motion of soft tissue, 1 = a few mm. The motion depends on rng alone, not on the rate (Hz).
+    """
+    time = np.arange(round(duration * rate)) / rate
+    motion = move(body, time=time, activities=activities, rng=rng)
+    turned, origins = _pose(body, motion.angles, motion.heading)
+    origins = origins + _path(body, turned, origins, rate)[:, None]
+    rigid = _attach(turned, origins, body.on, body.places)
+    moved = soft_tissue * _soft_tissue(body, np.radians(motion.angles), turned, rigid, rate)
+    positions = _attach(turned, origins, body.on, body.places + moved) + rng.normal(0.0, noise, rigid.shape)
+    segments = tuple(body.segments[index] for index in body.on)
+    tree = {name: body.segments[up] if up >= 0 else None for name, up in zip(body.segments, body.parents, strict=True)}
+    facts = {"synthetic": {"height": round(body.height, 1), "activities": list(activities)}}
+    return Walker(Recording(body.markers, positions, float(rate), 1, facts), rigid, segments, tree, motion.bouts)
+
+
+def _pose(body: Body, angles: np.ndarray, heading: np.ndarray) -> tuple[list[Rotation], np.ndarray]:
+    """Orientation of every segment and place of its joint (frames, segments, 3) with the pelvis at the origin."""
+    turned: list[Rotation] = []
+    origins = np.zeros(angles.shape)
+    for s, (name, parent) in enumerate(zip(body.segments, body.parents, strict=True)):
+        side = -1 if name.startswith("right_") else 1
+        signs = np.array([1 if kind(name) in BACKWARD else -1, side, side])
+        local = Rotation.from_euler("YXZ", angles[:, s] * signs, degrees=True)
+        if parent < 0:
+            turned.append(Rotation.from_euler("z", heading[:, None], degrees=True) * local)
+        else:
+            turned.append(turned[parent] * local)
+            origins[:, s] = origins[:, parent] + turned[parent].apply(body.joints[s])
+    return turned, origins
+
+
+def _attach(turned: list[Rotation], origins: np.ndarray, on: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """World positions of points that sit on segments; places: (points, 3) or (frames, points, 3)."""
+    placed = np.empty((len(origins), len(on), 3))
+    for point, segment in enumerate(on):
+        placed[:, point] = origins[:, segment] + turned[segment].apply(places[..., point, :])
+    return placed
+
+
+def _path(body: Body, turned: list[Rotation], origins: np.ndarray, rate: float) -> np.ndarray:
+    """Path of the pelvis (frames, 3) on which the sole that carries the weight stands still on the ground.
+
+    The weight on each point of the soles is its share in a soft minimum of their heights.
+    """
+    soles = _attach(turned, origins, body.soles_on, body.soles)
+    height = soles[:, :, 2] - soles[:, :, 2].min(axis=1, keepdims=True)
+    share = np.exp(-height / YIELD)
+    weight = share / share.sum(axis=1, keepdims=True)
+    velocity = -(weight[:, :, None] * np.gradient(soles, 1 / rate, axis=0)).sum(axis=1)
+    path = np.concatenate((np.zeros((1, 3)), np.cumsum((velocity[1:] + velocity[:-1]) / 2 / rate, axis=0)))
+    path[:, 2] = YIELD * np.log(share.mean(axis=1)) - soles[:, :, 2].min(axis=1)
+    path[:, :2] -= path[:, :2].mean(axis=0)
+    return gaussian_filter1d(path, SMOOTHING * rate, axis=0, mode="nearest")
+
+
+def _soft_tissue(body: Body, angles: np.ndarray, turned: list[Rotation], rigid: np.ndarray, rate: float) -> np.ndarray:
+    """Displacement (frames, markers, 3), mm, in the segment's axes: skin slides with the joints and lags in acceleration."""
+    own = np.linalg.norm(angles[:, body.on], axis=2)
+    following = np.linalg.norm(angles[:, np.array(body.children)[body.on]], axis=2)
+    drive = np.stack((own, following, own**2, following**2), axis=2)
+    sliding = np.einsum("fmd,mdk->fmk", drive - drive.mean(axis=0), body.tissue)
+    acceleration = np.gradient(np.gradient(rigid, 1 / rate, axis=0), 1 / rate, axis=0) / 1000
+    local = np.empty_like(rigid)
+    for marker, segment in enumerate(body.on):
+        local[:, marker] = turned[segment].inv().apply(acceleration[:, marker])
+    lagging = gaussian_filter1d(local, RESPONSE * rate, axis=0, mode="nearest")
+    return sliding - body.compliance[:, None] * lagging

@@ -1,0 +1,286 @@
+"""Hard gaps with the default ensemble: filled well, or left open with the true reason; what was measured never changes."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from markermend.core.recording import FILLED, MISSING, Recording, Restored
+from markermend.filling.fill import fill_gaps
+from markermend.formats import files
+from markermend.formats.ingest import ingest
+from markermend.mesh.inference import infer_mesh
+from markermend.mesh.pair_statistics import thin
+from markermend.simulation.walker import walk
+from markermend.simulation.walker_body import make_body
+from support import bodies
+from support.c3d_files import write
+from support.fillings import CONFIG, ensemble, fill_options, restored, rigid_body
+from support.paths import PROJECT
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+class Outcome(NamedTuple):
+    """A recording after filling: error of each filled sample, mm, shares inside error and error95, reasons by marker."""
+
+    result: Restored
+    distance: np.ndarray
+    inside: float
+    inside95: float
+    left: dict[str, str]
+
+
+def fill(whole, gaps, *, members=None, averaging=None, **options):
+    """Make gaps (marker, start, stop), infer the mesh, fill, and check what must hold whatever happens."""
+    positions = whole.positions.copy()
+    for marker, start, stop in gaps:
+        positions[start:stop, marker] = np.nan
+    gapped = restored(positions, markers=whole.markers, rate=whole.rate)
+    mesh = mesh_of(gapped)
+    result = fill_gaps(
+        gapped,
+        mesh.neighbour_indices(whole.markers),
+        ensemble=ensemble(members, **(averaging or {})),
+        options=fill_options(**options),
+    )
+    missing = gapped.missing
+    assert np.array_equal(result.positions[~missing], positions[~missing])
+    open_ = result.missing
+    assert not (open_ & ~missing).any()
+    assert (result.origin[missing & ~open_] == FILLED).all() and (result.origin[open_] == MISSING).all()
+    for radius in (result.error, result.error95):
+        assert (radius[missing & ~open_] > 0).all() and (radius[~missing] == 0).all() and np.isnan(radius[open_]).all()
+    told = result.facts["fills"] + result.facts["gaps_left"]
+    assert sum(entry["stop"] - entry["start"] for entry in told) == missing.sum()
+    filled = missing & ~open_
+    distance = np.linalg.norm((result.positions - whole.positions)[filled], axis=1)
+    shares = [
+        float(np.mean(distance <= radius[filled])) if filled.any() else 1.0 for radius in (result.error, result.error95)
+    ]
+    reasons = {entry["marker"]: entry["reason"] for entry in result.facts["gaps_left"]}
+    return Outcome(result, distance, *shares, reasons)
+
+
+def mesh_of(recording):
+    """The mesh of a recording alone."""
+    own = bodies.options(PROJECT)
+    named = replace(recording, facts={"recording": "walk", "kind": "dynamic"})
+    return infer_mesh([thin(named, frames=own["frames"])], **own)
+
+
+def joined(*recordings):
+    """Recordings of equal length in one, their markers prefixed by number."""
+    return Recording(
+        tuple(f"{k}:{name}" for k, part in enumerate(recordings) for name in part.markers),
+        np.concatenate([part.positions for part in recordings], axis=1),
+        recordings[0].rate,
+    )
+
+
+def still(frames, markers):
+    """Markers that never move by a bit."""
+    places = np.random.default_rng(3).uniform(0, 400, (markers, 3))
+    return bodies.recording([f"still{k}" for k in range(markers)], np.broadcast_to(places, (frames, markers, 3)))
+
+
+@pytest.fixture(scope="module")
+def person(walker):
+    """The walker's recording: 12 s, 51 markers."""
+    return walker.recording
+
+
+@pytest.fixture(scope="module")
+def chain():
+    """A body of five segments of four markers, 15 s."""
+    names, positions, _ = bodies.subject(4)
+    noise = np.random.default_rng(1).normal(0, 0.2, positions.shape)
+    return bodies.recording(names, positions + noise)
+
+
+def first(recording, *, frames=None, markers=None):
+    """The first frames and markers of a recording."""
+    positions = recording.positions[:frames, :markers].copy()
+    return replace(recording, positions=positions, markers=recording.markers[:markers])
+
+
+def filled_well(done, *, gaps, error, inside95=0.8):
+    """All gaps are filled, with a mean error below so many mm, and error95 holds the truth for such a share at least."""
+    assert done.left == {} and len(done.result.facts["fills"]) == gaps
+    assert done.distance.mean() < error
+    assert done.inside95 >= inside95
+
+
+def left_open(done, reason):
+    """Nothing is filled, for one reason."""
+    assert done.result.facts["fills"] == []
+    assert set(done.left.values()) == {reason}
+
+
+def test_twenty_gaps_at_once(person):
+    markers = np.random.default_rng(3).permutation(51)[:20]
+    filled_well(fill(first(person, frames=800), [(m, 500, 550) for m in markers]), gaps=20, error=3)
+
+
+@pytest.mark.parametrize(("segment", "error"), [("head", 12), ("left_forearm", 6), ("right_thigh", 2)])
+def test_a_whole_segment(walker, segment, error):
+    lost = [m for m, own in enumerate(walker.segments) if own == segment]
+    places = 150, 350, 500, 750, 950
+    done = fill(walker.recording, [(m, start, start + 50) for m in lost for start in places])
+    assert all(reason.startswith("expected error") for reason in done.left.values())
+    filled_well(done._replace(left={}), gaps=len(lost) * len(places) - len(done.left), error=error)
+    assert len(done.left) <= len(places)
+
+
+def test_a_limb_with_nothing_beyond_it(walker):
+    lost = [m for m, own in enumerate(walker.segments) if own in ("right_shank", "right_foot")]
+    done = fill(walker.recording, [(m, 500, 550) for m in lost])
+    assert all(reason.startswith("expected error") for reason in done.left.values())
+    filled = done.result.origin == FILLED
+    assert (done.result.error95[filled] > 2).all()
+
+
+def test_a_marker_and_its_ten_nearest(person):
+    near = mesh_of(person).neighbour_indices(person.markers)[10][:10]
+    done = fill(first(person, frames=800), [(m, 500, 530) for m in (10, *near)])
+    filled_well(done, gaps=11, error=8, inside95=0.6)
+
+
+def test_all_markers_lost(chain):
+    few = first(chain, markers=8)
+    filled_well(fill(few, [(m, 700, 706) for m in range(8)]), gaps=8, error=2)
+    left_open(fill(few, [(m, 700, 790) for m in range(8)]), "no method could fill it; fewest neighbours seen: 0")
+    done = fill(few, [(m, 700, 720) for m in range(8)], members=["spline", "kalman"])
+    assert len(done.result.facts["fills"]) >= 6 and done.distance.mean() < 30 and done.inside95 >= 0.5
+    assert all(reason.startswith("expected error") for reason in done.left.values())
+
+
+def test_a_marker_seen_rarely(chain):
+    gaps = [(5, start, start + 75) for start in range(10, 1460, 100)]
+    left_open(fill(chain, gaps), "marker seen in 25% of the frames, 30% needed")
+    filled_well(fill(chain, gaps, seen_share=0.2), gaps=15, error=2)
+
+
+def test_no_marker_complete(chain):
+    done = fill(first(chain, markers=12, frames=1000), [(m, 100 + 60 * m, 180 + 60 * m) for m in range(12)])
+    assert len(done.result.facts["fills"]) >= 10
+    assert all(reason.startswith("expected error") for reason in done.left.values())
+    assert done.distance.mean() < 5 and done.inside95 > 0.9
+
+
+def test_ends_only_on_request(chain):
+    gaps = [(2, 0, 40), (9, 1460, 1500)]
+    done = fill(chain, gaps)
+    assert done.left == {"0c": "at the recording's start", "2b": "at the recording's end"}
+    filled_well(fill(chain, gaps, ends=True), gaps=2, error=2)
+
+
+def test_all_markers_enter_and_leave(chain):
+    ends = [(m, 0, 100 + m) for m in range(20)] + [(m, 1400 - m, 1500) for m in range(20)]
+    done = fill(chain, [*ends, (4, 600, 650), (11, 800, 900)])
+    assert len(done.result.facts["fills"]) == 2 and len(done.result.facts["gaps_left"]) == 40
+    assert {entry["reason"] for entry in done.result.facts["gaps_left"]} == {
+        "at the recording's start",
+        "at the recording's end",
+    }
+    assert done.distance.mean() < 1 and done.inside95 > 0.8
+
+
+def test_nobody_else_is_used(chain):
+    names, other, _ = bodies.subject(9, away=(2500.0, 0, 0))
+    prop = Recording(tuple("abcde"), rigid_body(1500, 5), 100.0)
+    both = joined(chain, bodies.recording(names, other), prop)
+    own = [(3, 500, 560), (12, 900, 1000)]
+    alone, together = fill(chain, own), fill(both, own)
+    deserted = fill(both, own + [(m, 450, 1100) for m in range(20, 40)])
+    assert set(deserted.left.values()) == {"gap of 6.50 s, longest to fill 2 s"}
+    filled_well(alone, gaps=2, error=1)
+    for done in (together, deserted):
+        assert np.array_equal(done.result.positions[:, :20], alone.result.positions)
+    filled_well(fill(both, [(41, 500, 560), (43, 520, 640)]), gaps=2, error=0.1)
+
+
+def test_eight_markers(chain):
+    filled_well(fill(first(chain, markers=8), [(2, 500, 560), (6, 530, 600)]), gaps=2, error=1)
+
+
+def test_errors_do_not_depend_on_the_rate():
+    errors = []
+    for rate in (50.0, 250.0):
+        rng = np.random.default_rng(8)
+        body = make_body(rng=rng)
+        bouts = ["reach", "walk"]
+        whole = walk(
+            body=body, duration=8.0, rate=rate, activities=bouts, noise=0.0, soft_tissue=1.0, rng=rng
+        ).recording
+        gaps = [(m, int(begin * rate), int((begin + 0.5) * rate)) for m, begin in ((3, 2), (12, 2.2), (17, 5))]
+        done = fill(first(whole, markers=20), gaps)
+        filled_well(done, gaps=3, error=0.5)
+        errors.append(done.distance.mean())
+    assert errors[0] == pytest.approx(errors[1], rel=0.25)
+
+
+def test_metres_are_filled_alike(chain, tmp_path):
+    positions = chain.positions.copy()
+    positions[500:560, 3] = np.nan
+    results = []
+    for unit, size in (("mm", 1.0), ("m", 0.001)):
+        path = write(tmp_path / f"{unit}.c3d", positions * size, labels=list(chain.markers), unit=unit)
+        own = dict(CONFIG["ingest"])
+        reading = files.read(path, unlabelled=own.pop("unlabelled"), rate=None)
+        whole = ingest(reading, source=path.name, recording="walk", subject="S1", kind="dynamic", **own)
+        results.append(fill(whole, []).result)
+    assert not any(result.missing.any() for result in results)
+    # Reals of 32 bits round differently in the two units.
+    assert np.abs(results[0].positions - results[1].positions).max() < 0.002
+    assert np.allclose(results[0].error95, results[1].error95, atol=0.01)
+
+
+@pytest.mark.parametrize(("frames", "gap"), [(3, (3, 1, 2)), (12, (3, 1, 2)), (50, (3, 20, 24))])
+def test_few_frames(chain, frames, gap):
+    done = fill(first(chain, frames=frames), [gap])
+    if frames < 50:
+        left_open(done, "not seen for 0.02 s on both sides")
+    else:
+        filled_well(done, gaps=1, error=3)
+
+
+def test_what_never_moves(chain):
+    done = fill(joined(chain, still(1500, 1)), [(20, 500, 560)])
+    left_open(done, "no method could fill it; fewest neighbours seen: 0")
+    together = joined(chain, still(1500, 4))
+    filled_well(fill(together, [(20, 500, 560), (21, 620, 700), (3, 510, 580)]), gaps=3, error=0.5)
+    assert np.abs(fill(still(1500, 5), [(2, 500, 560)]).distance).max() < 1e-6
+
+
+@pytest.mark.parametrize("between", [1, 2])
+def test_islands_of_a_sample_or_two(chain, between):
+    gaps = [(9, start, start + 24) for start in range(600, 600 + 5 * (24 + between), 24 + between)]
+    done = fill(chain, gaps)
+    if between == 1:
+        left_open(done, "not seen for 0.02 s on both sides")
+        done = fill(chain, gaps, border_s=0.0)
+    filled_well(done, gaps=5, error=2)
+
+
+def test_a_marker_that_is_hardly_there(chain):
+    left_open(fill(chain, [(9, 100, 1430)]), "marker seen in 11% of the frames, 30% needed")
+    filled_well(fill(chain, [(9, 100, 1430)], seen_share=0.0, max_gap_s=None), gaps=1, error=3)
+    done = fill(chain, [(9, 20, 1480)], seen_share=0.0, max_gap_s=None)
+    left_open(done, "no method could fill it; fewest neighbours seen: 0")
+
+
+def test_many_markers():
+    wide = bodies.recording(*bodies.subject(4, tree=(None, *range(24)), frames=400)[:2])
+    filled_well(fill(wide, [(3, 100, 150), (50, 120, 160), (99, 300, 350)]), gaps=3, error=0.1)
+
+
+def test_many_frames():
+    """Skin that moves by itself, smoothly: what is learned from frames far apart must tell how it goes on from one to the next."""
+    names, positions, _ = bodies.subject(4, frames=40_000)
+    noise = np.random.default_rng(2).normal(0, 1, positions.shape).reshape(len(positions), -1)
+    skin = np.stack([np.convolve(course, np.hanning(41), mode="same") for course in noise.T], axis=1)
+    whole = bodies.recording(names, positions + skin.reshape(positions.shape))
+    done = fill(whole, [(3, 10_000, 10_010), (15, 30_000, 30_010)], members=["local_ridge"])
+    filled_well(done, gaps=2, error=0.25 * np.linalg.norm(skin.reshape(positions.shape), axis=2).mean())

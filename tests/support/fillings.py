@@ -1,0 +1,77 @@
+"""What the tests of predictors and filling share: the default settings, scenes, and neighbours by steadiness."""
+
+import numpy as np
+import yaml
+
+from markermend.core.recording import MEASURED, MISSING, Restored
+from markermend.filling.eligibility import FillOptions
+from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.prediction.registry import FAMILIES, members
+from markermend.prediction.scene import Scene
+from support.paths import PROJECT
+
+CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
+OWN = ("max_gap_s", "max_gap_s_of", "ends", "seen_share", "border_s", "max_error_mm", "max_altered_share")
+
+
+def settings():
+    """The default settings of all families of predictors, but for small networks that are briefly trained."""
+    default = {name: CONFIG["fill"].get(name, CONFIG.get(name)) for name in FAMILIES}
+    small = {"epochs": 30, "trial_epochs": 10, "recurrent_units": 4, "frames": 150, "stretch_s": 0.1, "context_s": 0.2}
+    return {**default, "networks": {**default["networks"], **small}}
+
+
+def predictor(name):
+    """One predictor with default settings."""
+    return members([name], settings())[0]
+
+
+def ensemble(names=None, **changed):
+    """The default ensemble, with other members or some settings changed."""
+    names = names or CONFIG["fill"]["members"]
+    brief = members(names, settings(), most_frames=CONFIG["fill"]["trial_frames"])
+    return Ensemble(members(names, settings()), brief, EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed}))
+
+
+def fill_options(**changed):
+    """The default rules of what may be filled, with some changed."""
+    own = {name: CONFIG["fill"][name] for name in (*OWN, "reuse")}
+    return FillOptions(**{"protect": [], **own, **changed})
+
+
+def neighbours(positions):
+    """For each marker the others, those whose distance varies least first."""
+    sample = positions[:: max(1, len(positions) // 500)]
+    distance = np.linalg.norm(sample[:, :, None] - sample[:, None], axis=3)
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(distance).sum(axis=0) > 1
+        spread = np.where(known, np.nanstd(np.where(known, distance, 0), axis=0), np.inf)
+        spread = spread * np.where(known, np.nanmean(np.where(known, distance, 0), axis=0), 1)
+    np.fill_diagonal(spread, np.inf)
+    return [np.argsort(row, kind="stable")[: int(np.isfinite(row).sum())] for row in spread]
+
+
+def scene(positions, rate=100.0):
+    """A scene in which every marker knows every other."""
+    return Scene(positions, rate, neighbours(positions))
+
+
+def restored(positions, *, markers=None, rate=100.0, **facts):
+    """A recording as repair hands it on: nothing repaired."""
+    missing = np.isnan(positions).any(axis=2)
+    none = np.where(missing, np.nan, 0.0)
+    origin = np.where(missing, MISSING, MEASURED).astype(np.uint8)
+    names = markers or tuple(f"M{m}" for m in range(positions.shape[1]))
+    return Restored(tuple(names), positions, rate, facts=facts, origin=origin, error=none, error95=none.copy())
+
+
+def rigid_body(frames=300, markers=6, seed=1):
+    """Markers of one tumbling rigid body: (frames, markers, 3), mm."""
+    from scipy.spatial.transform import Rotation
+
+    rng = np.random.default_rng(seed)
+    seconds = np.arange(frames) / 100.0
+    local = rng.uniform(-100, 100, (markers, 3))
+    turns = Rotation.from_euler("xyz", np.stack([np.sin(seconds), 0.7 * seconds, np.cos(1.3 * seconds)], axis=1))
+    path = np.stack([300 * np.sin(seconds), 500 * seconds, 900 + 0 * seconds], axis=1)
+    return np.stack([turns.apply(point) for point in local], axis=1) + path[:, None]

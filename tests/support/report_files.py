@@ -1,0 +1,140 @@
+"""Recordings that went through every stage, made by hand: the truth stands in for what repair and filling predict."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from markermend.core.events import Event
+from markermend.core.mesh import Mesh, Segment
+from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
+from markermend.export import change_table
+from markermend.planning.config import flags
+from markermend.storage import atomic, mesh_file, stage_files
+from markermend.storage.folder_names import encode
+
+ORIGIN = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
+OPTIONS = {
+    "plots": 100,
+    "context_s": 0.5,
+    "plot_frames": 800,
+    "attention": {"changed_percent": 1, "missing_percent": 1, "error_mm": 0.1, "open": 1, "warning": 1},
+}
+
+
+@dataclass(frozen=True)
+class Results:
+    """The folder of one recording with everything that qc reads."""
+
+    folder: Path
+
+    def qc(self, **options: Any) -> list[str]:
+        """The flags of qc."""
+        events = [str(path) for path in sorted(self.folder.glob("0[2-5]_*.parquet"))]
+        named = {
+            "markers": "01_markers.parquet", "mesh": "../mesh.json", "repaired": "06_repaired.parquet",
+            "filled": "07_filled.parquet", "changes": "changes.tsv", "certificate": "certificate.json",
+            "qc": "08_qc.json", "page": "page.html",
+        }  # fmt: skip
+        words = [word for flag, name in named.items() for word in (f"--{flag}", str(self.folder / name))]
+        return [*words, "--events", *events, *shlex.split(flags({**OPTIONS, **options}))]
+
+    @property
+    def page(self) -> str:
+        return (self.folder / "page.html").read_text(encoding="utf-8")
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        return stage_files.read_json(self.folder / "08_qc.json")
+
+
+def restore(
+    before: Recording,
+    truth: np.ndarray,
+    found: Mapping[str, Sequence[Event]],
+    *,
+    error: float,
+    keep: Sequence[str] = (),
+) -> Restored:
+    """Repair and fill by the truth less half the error on every axis; gaps and findings of the markers `keep` stay."""
+    positions, origin = before.positions.copy(), np.where(before.missing, MISSING, MEASURED).astype(np.uint8)
+    repairs, fills = [], []
+    left: list[dict[str, Any]] = []
+    gaps_left: list[dict[str, Any]] = []
+    for stage, events in found.items():
+        for event in events:
+            note = {**vars(event), "class": ORIGIN[stage]}
+            if event.marker in keep:
+                left.append({**note, "reason": "expected error 31.0 mm", "blanked": False})
+                continue
+            m, span = before.markers.index(event.marker), slice(event.start, event.stop)
+            seen = ~before.missing[span, m]
+            positions[span, m] = np.where(seen[:, None], truth[span, m] + error / 2, np.nan)
+            origin[span, m] = np.where(seen, ORIGINS.index(ORIGIN[stage]), MISSING)
+            repairs.append({**note, "method": "local_ridge"})
+    for m, start, stop in gaps(before):
+        note = {"marker": before.markers[m], "start": start, "stop": stop}
+        if before.markers[m] in keep or start == 0 or stop == before.frames:
+            gaps_left.append({**note, "reason": "at an end of the recording"})
+            continue
+        positions[start:stop, m] = truth[start:stop, m] + error / 2
+        origin[start:stop, m] = FILLED
+        fills.append({**note, "method": "ensemble"})
+    errors = np.where(origin == MEASURED, 0.0, np.where(origin == MISSING, np.nan, error))
+    facts = {**before.facts, "repairs": repairs, "repairs_left": left, "fills": fills, "gaps_left": gaps_left}
+    common = (before.markers, positions, before.rate, before.first_frame, facts)
+    return Restored(*common, origin, errors, 1.6 * errors)
+
+
+def named(recording: Recording, name: str, subject: str, **facts: Any) -> Recording:
+    """The recording with the facts of ingest."""
+    own = {
+        "recording": name, "subject": subject, "kind": "dynamic", "kind_reason": "Markers move 900 mm.",
+        "source": {"name": f"{name}.c3d", "format": "c3d", "unit": "mm", "sha256": "ab" * 32, "columns": []},
+        "missing": {"word 4 negative": 12, "at 0,0,0": 0}, "warnings": [], "unlabelled": [], "model_outputs": [],
+    }  # fmt: skip
+    return replace(recording, facts={**own, **facts})
+
+
+def write(
+    results: Path,
+    before: Recording,
+    after: Restored,
+    found: Mapping[str, Sequence[Event]],
+    *,
+    decisions: Sequence[Mapping[str, Any]] = (),
+    **mesh_parts: Any,
+) -> Results:
+    """Write everything that qc reads of a recording, with the change log as export writes it."""
+    name, subject = before.facts["recording"], before.facts["subject"]
+    folder = results / encode(subject) / encode(name)
+    stage_files.write_recording(folder / "01_markers.parquet", before, {"stage": "ingest", "options": {}})
+    for number, (stage, events) in enumerate(found.items(), 2):
+        facts = {"stage": stage, "options": {"threshold": 5.0}}
+        stage_files.write_events(folder / f"{number:02d}_{stage}.parquet", events, facts)
+    for file, stage, options in (
+        ("06_repaired", "repair", {"max_error_mm": 20.0}),
+        ("07_filled", "fill", {"max_gap_s": 2.0, "decisions": list(decisions)}),
+    ):
+        stage_files.write_recording(folder / f"{file}.parquet", after, {"stage": stage, "options": options})
+    order = tuple(sorted(before.markers))
+    segments = (
+        Segment("pelvis", order[:2], 0.8, None, None, None, 0, 0.93),
+        Segment(order[2], order[2:], 4.2, 0, order[0], 12.5, 0, 0.61),
+    )
+    nobody: dict[str, tuple[str, ...]] = dict.fromkeys(order, ())
+    body = Mesh((name,), order, segments, nobody, nobody, **mesh_parts)
+    mesh_file.write(folder.parent / "mesh.json", [body], {"stage": "mesh", "options": {"cut_mm": 12.0}})
+    atomic.write_text(folder / "changes.tsv", change_table.changes_table(change_table.list_changes(before, after)))
+    count = int(changed(before, after).sum())
+    certificate = {
+        "original_sha256": "ab" * 32, "cleaned_sha256": "cd" * 32, "changed_samples": count,
+        "changed_bytes": 12 * count, "other_bytes_equal": True, "refused": [],
+    }  # fmt: skip
+    atomic.write_json(folder / "certificate.json", certificate)
+    return Results(folder)

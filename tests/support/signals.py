@@ -1,0 +1,86 @@
+"""Test signals of the detectors: a motion of one coordinate, the config's presets, and the detectors in their order."""
+
+from dataclasses import replace
+
+import numpy as np
+import yaml
+
+from markermend.core import events
+from markermend.detection import noise as detection_noise
+from markermend.detection import peaks as detection_peaks
+from markermend.detection import slow
+from markermend.detection import steps as detection_steps
+from markermend.detection.published import noise, peaks, steps
+from markermend.numerics import interpolation, intervals
+from markermend.numerics.intervals import runs
+from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.prediction.local_ridge.predictor import LocalRidge
+from markermend.prediction.scene import Scene
+from support.paths import PROJECT
+
+CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text())
+RATES = (50.0, 100.0, 200.0)
+RIDGE = LocalRidge(RidgeOptions(**CONFIG["local_ridge"]))
+DETECTORS = {"peaks": detection_peaks, "noise": detection_noise, "steps": detection_steps, "slow": slow}
+NOTHING = {"peaks": [], "noise": [], "steps": []}
+
+
+def settings(stage, preset):
+    return DETECTORS[stage].settings({**CONFIG[stage], "preset": preset})
+
+
+def frames(hundredths, rate):
+    """Frames in so many hundredths of a second."""
+    return intervals.samples(hundredths / 100, rate)
+
+
+def motion(rate, *, seconds=20.0, seed=0):
+    """A coordinate of a moving marker with 0.2 mm of noise, mm."""
+    t = np.arange(round(seconds * rate)) / rate
+    course = 300 * np.sin(0.4 * t) + 60 * np.sin(1.7 * t + 1) + 10 * np.sin(6 * t)
+    return course + np.random.default_rng(seed).normal(0, 0.2, len(t))
+
+
+def detect_signal(signal, rate, preset="coordinates"):
+    """Intervals per class of one coordinate, each detector after the ones before; and the open steps."""
+    found, claimed = {}, np.zeros(len(signal), bool)
+    reach = frames(5, rate)
+    for stage, find in (("peaks", peaks.find_peaks), ("noise", noise.find_noise), ("steps", steps.find_steps)):
+        bridged = interpolation.bridge(signal, claimed, reach)
+        mask, score, *rest = find(bridged, rate=rate, settings=settings(stage, preset))
+        assert (score[mask] >= 1).all()
+        found[stage] = list(runs(mask & ~claimed))
+        claimed |= mask
+    return found, rest[0].tolist()
+
+
+def detect(recording, preset="default", only=tuple(DETECTORS)):
+    """Events per class of a recording, each detector after the ones before; and the open steps."""
+    found, left = {}, []
+    claimed = np.zeros(recording.positions.shape, bool)
+    scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
+    for stage in only:
+        call = getattr(DETECTORS[stage], f"detect_{stage}")
+        result = call(
+            scene, markers=recording.markers, earlier=claimed, settings=settings(stage, preset), predictor=RIDGE
+        )
+        found[stage], left = result if stage == "steps" else (result, left)
+        claimed = claimed | events.coordinates(found[stage], recording.frames, recording.markers)
+    return found, left
+
+
+def put(recording, places, shape):
+    """The recording with `shape(length)`, (length, 3), mm, added at each place (marker, start, stop)."""
+    positions = recording.positions.copy()
+    for marker, start, stop in places:
+        positions[start:stop, recording.markers.index(marker)] += shape(stop - start)
+    return replace(recording, positions=positions)
+
+
+def neighbours(positions):
+    """The other markers, those of steady and short distance first (as the mesh ranks them)."""
+    some = positions[:: max(1, len(positions) // 300)]
+    distance = np.linalg.norm(some[:, :, None] - some[:, None], axis=3)
+    low, middle, high = np.nanpercentile(distance, [5, 50, 95], axis=0)
+    order = np.argsort(np.nan_to_num((high - low) * middle, nan=np.inf), axis=1, kind="stable")
+    return [row[row != m][:30] for m, row in enumerate(order)]

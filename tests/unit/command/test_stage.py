@@ -1,0 +1,126 @@
+"""What every stage's command shares: required flags, facts, the log, and recordings that are set aside."""
+
+import json
+import logging
+import shlex
+import sys
+
+import pytest
+
+from markermend.command.stage import Stage, boolean, mapping, optional
+from markermend.core.recording import BadRecording, SetAside
+from markermend.storage import atomic, stage_files
+
+
+@pytest.fixture
+def stage():
+    made = Stage("blur", "Blur.")
+    made.reads("markers", "in")
+    made.reads("earlier", "more", many=True, optional=True)
+    made.writes("blurred", "out")
+    made.option("window_s", float, "window, s; 100 % of it")
+    made.option("limit", optional(float), "limit")
+    made.option("deep", boolean, "deep")
+    made.option("names", str, "names", many=True)
+    made.option("table", mapping, "table")
+    return made
+
+
+@pytest.fixture
+def argv(tmp_path):
+    (tmp_path / "in.json").write_text("{}\n")
+    return [
+        *("--markers", str(tmp_path / "in.json"), "--earlier", "--blurred", str(tmp_path / "out.json")),
+        *("--window-s=0.5", "--limit=none", "--deep=true", '--names=["a b", "@c", "-d"]', '--table={"x": [1]}'),
+    ]
+
+
+def test_work_gets_paths_options_and_facts(stage, argv, tmp_path):
+    calls = []
+    stage.run(lambda call: calls.append(call), argv)
+    (call,) = calls
+    options = {"window_s": 0.5, "limit": None, "deep": True, "names": ["a b", "@c", "-d"], "table": {"x": [1]}}
+    assert call.options == options
+    assert call.markers == tmp_path / "in.json" and call.earlier == []
+    digest = atomic.sha256(tmp_path / "in.json")
+    assert call.facts == {"stage": "blur", "options": options, "inputs": {"markers": digest, "earlier": []}}
+    assert str(tmp_path) not in json.dumps(call.facts)
+
+
+@pytest.mark.parametrize("missing", range(8))
+def test_every_flag_is_required(stage, argv, missing, capsys):
+    flags = [i for i, argument in enumerate(argv) if argument.startswith("--")]
+    start = flags[missing]
+    stop = flags[missing + 1] if missing + 1 < len(flags) else len(argv)
+    with pytest.raises(SystemExit) as failure:
+        stage.run(lambda call: None, argv[:start] + argv[stop:])
+    assert failure.value.code == 2
+    assert argv[start].split("=")[0] in capsys.readouterr().err
+
+
+def test_no_flag_may_be_abbreviated(stage, argv):
+    with pytest.raises(SystemExit):
+        stage.run(lambda call: None, [a.replace("--window-s", "--window") for a in argv])
+
+
+def test_arguments_may_come_from_a_file(stage, argv, tmp_path):
+    paths = [str(tmp_path / f"{i} x.json") for i in range(3000)]
+    for path in paths:
+        atomic.write_json(tmp_path / path, {})
+    (tmp_path / "list").write_text("\n".join(paths) + "\n")
+    seen = []
+    stage.run(lambda call: seen.extend(call.earlier), ["--earlier", f"@{tmp_path / 'list'}", *argv[:2], *argv[3:]])
+    assert [str(path) for path in seen] == paths
+
+
+def test_the_log_has_the_command_and_one_line_of_result(stage, argv, caplog):
+    with caplog.at_level(logging.INFO):
+        stage.run(lambda call: "3 blurred", argv)
+    command, result = (record.getMessage() for record in caplog.records)
+    assert shlex.split(command) == [sys.executable, sys.argv[0], *argv]
+    assert result.startswith("blur: 3 blurred (")
+
+
+def fails_with(error):
+    def work(call):
+        raise error
+
+    return work
+
+
+def test_a_bad_recording_is_set_aside_and_not_tried_again(stage, argv, tmp_path):
+    stage.run(fails_with(BadRecording("no frames")), argv)
+    with pytest.raises(SetAside, match="no frames") as note:
+        stage_files.read_json(tmp_path / "out.json")
+    assert note.value.stage == "blur"
+    assert not (tmp_path / "failures.tsv").exists()
+
+
+def test_an_earlier_note_is_passed_on(stage, argv, tmp_path):
+    stage.run(fails_with(SetAside("ingest", "empty")), argv)
+    with pytest.raises(SetAside, match="empty") as note:
+        stage_files.read_json(tmp_path / "out.json")
+    assert note.value.stage == "ingest"
+
+
+def test_an_unexpected_failure_is_counted_and_tells_no_folder(stage, argv, tmp_path, caplog):
+    for _ in range(2):
+        stage.run(fails_with(OSError(5, "disk gone", str(tmp_path / "in.json"))), argv)
+    with pytest.raises(SetAside) as note:
+        stage_files.read_json(tmp_path / "out.json")
+    assert note.value.reason == "blur failed: OSError: [Errno 5] disk gone: 'in.json'"
+    assert (tmp_path / "failures.tsv").read_text().count("blur\t") == 2
+    assert "Traceback" in caplog.text
+
+
+def test_a_stop_is_no_failure(stage, argv, tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        stage.run(fails_with(KeyboardInterrupt()), argv)
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_help_reads(stage, capsys):
+    with pytest.raises(SystemExit):
+        stage.parser.parse_args(["--help"])
+    text = capsys.readouterr().out
+    assert "100 % of it" in text and "--limit FLOAT|none" in text

@@ -1,0 +1,40 @@
+"""Findings: intervals from masks and back, sorted and disjoint per marker."""
+
+import numpy as np
+import pytest
+
+from markermend.core.events import Event, from_mask, mask, tidy
+
+MARKERS = ("A", "B")
+
+
+def test_from_mask_and_back():
+    covered = np.zeros((10, 2), bool)
+    covered[2:5, 0] = covered[8:, 0] = covered[0, 1] = True
+    score = np.where(covered, 2.0, 0.0)
+    score[3, 0], score[0, 1] = 7.0, 0.5
+    fired = np.zeros((10, 2, 3), bool)
+    fired[3, 0, [0, 2]] = True
+    events = from_mask(covered, score, fired, MARKERS)
+    assert events == [Event("A", 2, 5, 7.0, "xz"), Event("A", 8, 10, 2.0, "xyz"), Event("B", 0, 1, 1.0, "xyz")]
+    assert np.array_equal(mask(events, 10, MARKERS), covered)
+
+
+def test_tidy_merges_what_touches_and_keeps_partners_apart():
+    events = [
+        Event("A", 5, 8, 1.0, "y"),
+        Event("A", 1, 3, 2.0, "x"),
+        Event("A", 3, 6, 4.0, "x"),
+        Event("A", 7, 12, 3.0, "z", "B"),
+        Event("B", 1, 3, 1.0, "z"),
+    ]
+    assert tidy(events) == [
+        Event("A", 1, 8, 4.0, "xy"),
+        Event("A", 8, 12, 3.0, "z", "B"),
+        Event("B", 1, 3, 1.0, "z"),
+    ]
+
+
+def test_an_event_on_an_unknown_marker_is_an_error():
+    with pytest.raises(KeyError):
+        mask([Event("Z", 0, 1, 1.0)], 5, MARKERS)

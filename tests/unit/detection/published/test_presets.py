@@ -1,0 +1,119 @@
+"""The published detectors of sudden changes, one after the other: what they get right on the test signals, and what wrong."""
+
+import numpy as np
+import pytest
+
+from markermend.core import events
+from markermend.detection.published import coordinatewise
+from support.signals import detect_signal, frames, motion
+
+RATES = (50.0, 100.0)
+
+
+def around(found, rate):
+    """What was found from 7.5 to 10.5 s, by class; elsewhere the published thresholds find things in clean motion."""
+    low, high = frames(750, rate), frames(1050, rate)
+    return {kind: [(start, stop) for start, stop in own if low < start and stop < high] for kind, own in found.items()}
+
+
+def with_added(rate, shape, hundredths):
+    """Motion with something added from 8 s on, and the interval."""
+    signal, start = motion(rate), frames(800, rate)
+    stop = start + frames(hundredths, rate)
+    signal[start:stop] += shape(stop - start)
+    return signal, start, stop
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("width", [50, 150, 199])
+def test_right_long_rectangles_are_steps(rate, width):
+    signal, start, stop = with_added(rate, lambda length: 10.0, width)
+    found, left = detect_signal(signal, rate, "paper")
+    assert around(found, rate) == {"peaks": [], "noise": [], "steps": [(start, stop)]}
+    assert left == []
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_right_too_long_a_rectangle_is_two_open_steps(rate):
+    signal, start, stop = with_added(rate, lambda length: 10.0, 201)
+    found, left = detect_signal(signal, rate, "paper")
+    assert around(found, rate) == {"peaks": [], "noise": [], "steps": []}
+    assert left == [start, stop]
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("sd", [3, 5, 10])
+def test_right_noise_of_half_a_second_is_one_stretch_and_shorter_is_none(rate, sd):
+    rng = np.random.default_rng(1)
+    signal, start, stop = with_added(rate, lambda length: rng.normal(0, sd, length), 50)
+    [(first, last)] = around(detect_signal(signal, rate, "paper")[0], rate)["noise"]
+    assert start <= first <= start + 2 and stop - 2 <= last <= stop
+    signal, _, _ = with_added(rate, lambda length: rng.normal(0, sd, length), 15)
+    assert around(detect_signal(signal, rate, "paper")[0], rate)["noise"] == []
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_right_near_opposite_peaks_and_long_excursions_are_no_isolated_peaks(rate):
+    signal, start, _ = with_added(rate, lambda length: 10.0, 1)
+    signal[start + frames(8, rate)] -= 10
+    assert around(detect_signal(signal, rate, "paper")[0], rate)["peaks"] == []
+    signal, _, _ = with_added(rate, lambda length: 10.0, 7)
+    assert around(detect_signal(signal, rate, "paper")[0], rate)["peaks"] == []
+
+
+def test_wrong_short_rectangles_are_taken_for_noise():
+    for width in (25, 35):
+        signal, start, stop = with_added(100.0, lambda length: 10.0, width)
+        assert around(detect_signal(signal, 100.0, "paper")[0], 100.0) == {
+            "peaks": [],
+            "noise": [(start, stop)],
+            "steps": [],
+        }
+
+
+def test_wrong_clean_motion_is_full_of_findings():
+    """A threshold of so many standard deviations is exceeded somewhere in any signal."""
+    found, _ = detect_signal(motion(100.0), 100.0, "paper")
+    flagged = sum(stop - start for own in found.values() for start, stop in own)
+    assert len(found["peaks"]) >= 3
+    assert flagged > 0.3 * 2000
+
+
+def test_wrong_peaks_are_missed_the_more_the_longer_they_are():
+    """Differences after the median keep some of the trend, so a peak's two changes do not balance."""
+    share = {}
+    for width in (1, 5):
+        right = 0
+        for start in range(300, 1700, 50):
+            signal = motion(100.0)
+            signal[start : start + width] += 10
+            right += (start, start + width) in detect_signal(signal, 100.0, "paper")[0]["peaks"]
+        share[width] = right / 28
+    assert 0.4 < share[1] < 0.9
+    assert share[5] < 0.7 * share[1]
+
+
+def test_each_coordinate_is_bridged_by_itself_for_the_next_detector():
+    rng = np.random.default_rng(0)
+    positions = rng.normal(0, 0.2, (300, 2, 3)).cumsum(axis=0)
+    found = [events.Event("B", 100, 120, 2.0, "xz"), events.Event("A", 200, 203, 2.0, "y")]
+    claimed = events.coordinates(found, 300, ["A", "B"])
+    assert claimed[100:120, 1].all(axis=0).tolist() == [True, False, True]
+    assert claimed.sum() == 43
+    before = positions.copy()
+    bridged = coordinatewise.bridged(positions, claimed, 5)
+    assert np.array_equal(positions, before)
+    assert np.array_equal(bridged[~claimed], positions[~claimed])
+    assert np.isfinite(bridged).all()
+    # A bridge is a cubic: its third differences do not vary.
+    assert np.ptp(np.diff(bridged[100:120, 1, 0], 3)) < 1e-12
+
+
+def test_what_any_coordinate_claimed_is_not_found_again_in_another():
+    claimed = events.coordinates([events.Event("A", 100, 120, 2.0, "x")], 300, ["A"])
+
+    def everything(signal, marker):
+        return np.ones(300, bool), np.full(300, 2.0)
+
+    found = coordinatewise.find_in_each(np.zeros((300, 1, 3)), everything, markers=["A"], earlier=claimed)
+    assert [(event.start, event.stop, event.axes) for event in found] == [(0, 100, "xyz"), (120, 300, "xyz")]

@@ -1,0 +1,160 @@
+"""Swapped labels: these intervals and partners, nothing on clean motion, and undone bit for bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.core.events import Event
+from markermend.detection import labels
+from markermend.detection.labels import SwapSettings
+from markermend.formats import files
+from markermend.prediction.scene import Scene
+from markermend.repair.candidates import RepairOptions
+from markermend.repair.repair import repair
+from markermend.simulation.artifact_models import integers
+from markermend.simulation.contamination import Contamination
+from support.signals import CONFIG, neighbours
+
+SETTINGS = SwapSettings(**CONFIG["swaps"])
+
+
+def find(recording):
+    scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
+    return labels.detect_swaps(scene, markers=recording.markers, settings=SETTINGS)
+
+
+def intervals(found):
+    return [(event.marker, event.start, event.stop, event.partner) for event in found]
+
+
+def exchange(recording, a, b, *spans):
+    """The recording with the samples of two markers exchanged over some intervals."""
+    pair = [recording.markers.index(a), recording.markers.index(b)]
+    positions = recording.positions.copy()
+    for start, stop in spans:
+        positions[start:stop, pair] = positions[start:stop, pair[::-1]]
+    return replace(recording, positions=positions)
+
+
+def both(a, b, *spans):
+    return sorted((one, start, stop, other) for start, stop in spans for one, other in ((a, b), (b, a)))
+
+
+def test_nothing_on_the_clean_walker(walker):
+    for pace in (1, 2):
+        assert find(replace(walker.recording, positions=walker.recording.positions[::pace], rate=100.0 / pace)) == []
+
+
+@pytest.mark.parametrize("within", [90.0, 250.0, 5000.0])
+@pytest.mark.parametrize("length", [1, 2, 10, 50, 200])
+def test_found_with_partner_and_exact_bounds(walker, length, within):
+    clean = walker.recording
+    for seed in range(2):
+        rng = np.random.default_rng([length, int(within), seed])
+        harm = Contamination(clean.positions, clean.markers, margin=20, alone=True, rng=rng)
+        harm.swap(length=integers(length, length), within=within, count=2)
+        found = find(replace(clean, positions=harm.positions))
+        assert intervals(found) == intervals(harm.events["steps"])
+        assert all(event.score > 1 and event.axes == "xyz" for event in found)
+
+
+def test_a_swap_that_comes_and_goes(walker):
+    spans = [(100, 430), (500, 532), (700, 701)]
+    assert intervals(find(exchange(walker.recording, "LTHI", "LKNE", *spans))) == both("LTHI", "LKNE", *spans)
+
+
+@pytest.mark.parametrize("span", [(900, 1200), (0, 300)])
+def test_a_swap_that_lasts_from_the_start_or_to_the_end(walker, span):
+    assert intervals(find(exchange(walker.recording, "LTHI", "LKNE", span))) == both("LTHI", "LKNE", span)
+
+
+@pytest.mark.parametrize("length", [10, 150])
+def test_a_swap_with_a_missing_partner(walker, length):
+    clean = walker.recording
+    span = (600, 600 + length)
+    recording = exchange(clean, "LTHI", "LKNE", span)
+    recording.positions[slice(*span), clean.markers.index("LKNE")] = np.nan
+    assert intervals(find(recording)) == both("LTHI", "LKNE", span)
+
+
+def test_other_artifacts_are_no_swaps(contaminated):
+    truth = [event for event in contaminated.events["steps"] if event.partner]
+    assert intervals(find(contaminated.recording)) == intervals(truth)
+
+
+def test_a_step_to_where_another_marker_is_is_no_swap(walker):
+    positions = walker.recording.positions.copy()
+    a, b = walker.recording.markers.index("LTHI"), walker.recording.markers.index("LKNE")
+    positions[600:650, a] = positions[600:650, b] + 5.0
+    assert find(replace(walker.recording, positions=positions)) == []
+
+
+def turned(recording, ring, start, stop):
+    """The recording with what belongs to each marker of the ring under the label of the next; and the events."""
+    positions = recording.positions.copy()
+    own = [recording.markers.index(name) for name in ring]
+    positions[start:stop, np.roll(own, -1)] = recording.positions[start:stop, own]
+    told = sorted((ring[k], start, stop, ring[(k + 1) % len(ring)]) for k in range(len(ring)))
+    return replace(recording, positions=positions), told
+
+
+@pytest.mark.parametrize("ring", [("LTHI", "LKNE", "LTIB"), ("LTIB", "LKNE", "LTHI"), ("LASI", "RASI", "LPSI", "RPSI")])
+@pytest.mark.parametrize("span", [(600, 601), (600, 650), (900, 1200), (0, 300)])
+def test_markers_that_change_places_in_a_ring(walker, ring, span):
+    recording, told = turned(walker.recording, ring, *span)
+    found = find(recording)
+    assert intervals(found) == told
+    assert np.array_equal(labels.undone(recording.positions, found, recording.markers), walker.recording.positions)
+
+
+def test_a_ring_that_turns_on_and_on(walker):
+    once, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 400, 450)
+    twice, more = turned(once, ("LTIB", "LKNE", "LTHI"), 450, 480)
+    found = find(twice)
+    assert intervals(found) == sorted(told + more)
+    assert np.array_equal(labels.undone(twice.positions, found, twice.markers), walker.recording.positions)
+
+
+def test_a_ring_is_undone_by_the_repair(walker):
+    recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
+    options = RepairOptions(**CONFIG["repair"], protect=[])
+    around = neighbours(recording.positions)
+    mended = repair(recording, found={"steps": find(recording)}, neighbours=around, predictors={}, options=options)
+    assert np.array_equal(mended.positions, walker.recording.positions)
+    assert sorted((e["marker"], e["start"], e["stop"], e["partner"]) for e in mended.facts["repairs"]) == told
+
+
+def test_of_a_step_and_a_swap_at_once_the_swap_is_told():
+    swap = [Event("A", 5, 9, 2.0, "xyz", "B"), Event("B", 5, 9, 2.0, "xyz", "A")]
+    steps = [Event("A", 8, 12, 3.0), Event("A", 9, 12, 3.0), Event("C", 5, 9, 3.0)]
+    assert labels.among(steps, swap) == [swap[0], steps[1], swap[1], steps[2]]
+
+
+def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
+    clean = walker.recording
+    spans = [(100, 430), (500, 502)]
+    recording = exchange(clean, "LTHI", "LKNE", *spans)
+    found = find(recording)
+    before = recording.positions.copy()
+    assert np.array_equal(labels.undone(recording.positions, found, recording.markers), clean.positions)
+    assert np.array_equal(recording.positions, before)
+    options = RepairOptions(**CONFIG["repair"], protect=[])
+    around = neighbours(recording.positions)
+    mended = repair(recording, found={"steps": found}, neighbours=around, predictors={}, options=options)
+    assert np.array_equal(mended.positions, clean.positions)
+
+
+@pytest.mark.data
+@pytest.mark.parametrize(
+    ("name", "pair", "spans"),
+    [
+        ("raw/2022_01_0403.c3d", ("LTH1", "LTH2"), [(194, 801), (904, 936)]),
+        ("clean/85_02.c3d", ("", ""), []),
+        ("clean/STS1.trc", ("", ""), []),
+        ("clean/Qualisys.c3d", ("", ""), []),
+    ],
+)
+def test_real_recordings(data, name, pair, spans):
+    recording = files.read(data / name, unlabelled=CONFIG["ingest"]["unlabelled"], rate=None).recording
+    assert intervals(find(recording)) == both(*pair, *spans)

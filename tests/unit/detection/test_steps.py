@@ -1,0 +1,143 @@
+"""Steps: exactly these intervals on a known signal, open steps, and the synthetic walker."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.detection.published import steps
+from support.signals import CONFIG, NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
+
+PLACES = [("LWRA", 100, 150), ("C7", 400, 425), ("RKNE", 700, 860), ("RASI", 900, 908)]
+
+
+@pytest.mark.parametrize("rate", RATES)
+@pytest.mark.parametrize("width", [15, 25, 35, 50, 150, 199])
+def test_rectangles_are_steps_and_nothing_else(rate, width):
+    signal, start = motion(rate), frames(700, rate)
+    stop = start + frames(width, rate)
+    signal[start:stop] -= 10
+    assert detect_signal(signal, rate) == ({**NOTHING, "steps": [(start, stop)]}, [])
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_too_long_a_rectangle_is_two_open_steps(rate):
+    signal, start = motion(rate), frames(700, rate)
+    stop = start + frames(201, rate)
+    signal[start:stop] += 10
+    assert detect_signal(signal, rate) == (NOTHING, [start, stop])
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_one_edge_alone_is_an_open_step(rate):
+    signal, start = motion(rate), frames(700, rate)
+    signal[start:] += 10
+    assert detect_signal(signal, rate) == (NOTHING, [start])
+
+
+def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
+    unequal, gap = motion(100.0), motion(100.0)
+    unequal[700:730] += 30
+    unequal[730:] += 20
+    gap[700:730] += 30
+    gap[715:717] = np.nan
+    for signal in (unequal, gap):
+        mask, _, alone = steps.find_steps(signal, rate=100.0, settings=settings("steps", "coordinates"))
+        assert not mask.any()
+        assert alone.tolist() == [700, 730]
+
+
+def test_the_published_shortest_step_is_longer():
+    signal = motion(100.0)
+    signal[700:715] += 10
+    assert not steps.find_steps(signal, rate=100.0, settings=settings("steps", "paper"))[0][700:715].any()
+
+
+def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
+    recording = put(walker.recording, PLACES, lambda length: np.ones((length, 1)) * [8, 3, -6])
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(PLACES)
+    assert left == []
+
+
+@pytest.mark.parametrize("siblings", [("C7", "T10", "CLAV"), ("LSHO", "RBAK", "STRN")])
+def test_three_siblings_that_step_at_once(walker, siblings):
+    recording, places = walker.recording, []
+    for marker, jump in zip(siblings, ([8, 3, -6], [-4, 9, 3], [5, -7, 6]), strict=True):
+        own = [(marker, start, start + 70) for start in (300, 700)]
+        recording = put(recording, own, lambda length, jump=jump: np.ones((length, 1)) * jump)
+        places += own
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(places)
+    assert left == []
+
+
+def test_an_open_step_of_the_walker_is_told_with_its_size(walker):
+    recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
+    found, left = detect(recording, only=("steps",))
+    assert found["steps"] == []
+    [step] = left
+    assert (step.marker, step.frame) == ("C7", 700)
+    assert step.size_mm == pytest.approx(15, rel=0.2)
+
+
+def test_coordinates_tell_open_steps_of_markers(walker):
+    recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [30, 0, 40])
+    _, left = detect(recording, preset="coordinates", only=("steps",))
+    [step] = [step for step in left if (step.marker, step.frame) == ("C7", 700)]
+    assert step.size_mm == pytest.approx(50, rel=0.1)
+
+
+def test_a_step_that_motion_hides_is_told_by_jumps_that_cancel(walker):
+    t = np.arange(60) / 60
+    drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the course beside it, smoothly
+    found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
+
+
+def test_two_jumps_tell_a_step_that_neither_tells_alone(walker):
+    places = [("LELB", 560, 600), ("RKNE", 700, 760)]
+    recording = put(walker.recording, places, lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == places
+    assert all(1 <= e.score < 1.3 for e in found["steps"])
+    assert left == []
+    unpaired = put(walker.recording, [("RKNE", 700, 1200)], lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
+    assert detect(unpaired, only=("steps",)) == ({"steps": []}, [])
+
+
+@pytest.mark.parametrize("key", ["ratio", "weak", "whole", "held", "alike", "floor_mm", "rounds", "rivals"])
+def test_least_settings_still_find_a_clear_step(walker, monkeypatch, key):
+    monkeypatch.setitem(CONFIG["steps"]["default"], key, 0)
+    positions = walker.recording.positions[:500, :12]
+    few = replace(walker.recording, markers=walker.recording.markers[:12], positions=positions)
+    place = (few.markers[4], 200, 260)
+    found, _ = detect(put(few, [place], lambda length: np.ones((length, 1)) * [30, 10, -20]), only=("steps",))
+    assert place in [(e.marker, e.start, e.stop) for e in found["steps"]]
+
+
+def test_steps_that_gaps_and_the_end_cut_short(walker):
+    cut = [("LELB", 560, 600), ("RKNE", 1150, 1200), ("RASI", 820, 870)]
+    recording = put(walker.recording, cut, lambda length: np.ones((length, 1)) * [8, 3, -6])
+    for marker, start, stop in (("LELB", 600, 620), ("RASI", 800, 820)):
+        recording.positions[start:stop, recording.markers.index(marker)] = np.nan
+    found, left = detect(recording, only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(cut)
+    assert left == []
+
+
+def test_a_step_that_noise_covers_to_its_end(walker):
+    flicker = np.random.default_rng(4).normal(0, 8, (60, 3))
+    recording = put(walker.recording, [("C7", 400, 500)], lambda length: np.ones((length, 1)) * [8, 3, -6])
+    found, _ = detect(put(recording, [("C7", 440, 500)], lambda _: flicker), only=("noise", "steps"))
+    [noise], [step] = found["noise"], found["steps"]
+    assert (step.marker, step.start, step.stop) == ("C7", 400, noise.start)
+    assert abs(noise.start - 440) <= 1
+
+
+def test_no_step_is_cut_short_where_the_marker_is_not_back_beyond_the_gap(walker):
+    recording = put(walker.recording, [("LELB", 560, 1200)], lambda length: np.ones((length, 1)) * [8, 3, -6])
+    recording.positions[600:620, recording.markers.index("LELB")] = np.nan
+    found, left = detect(recording, only=("steps",))
+    assert found["steps"] == []
+    assert ("LELB", 560) in [(step.marker, step.frame) for step in left]

@@ -1,0 +1,65 @@
+"""Radii of balls: against drawn distances, and what is believed where nothing was tried."""
+
+import numpy as np
+import pytest
+
+from markermend.filling.coverage_radii import RadiusOptions, radii
+from markermend.filling.fill import fill_gaps
+from support.fillings import ensemble, fill_options, neighbours, restored
+
+BELIEVED = RadiusOptions(inner=1.4, outer=3.0, trials=10)
+
+
+def test_without_pseudo_gaps_the_belief_stands():
+    assert radii([], BELIEVED) == pytest.approx((1.4, 3.0), rel=1e-4)
+    assert radii([np.full(5, np.nan)], BELIEVED) == pytest.approx((1.4, 3.0), rel=1e-4)
+
+
+def test_many_pseudo_gaps_tell_the_quantiles():
+    rng = np.random.default_rng(2)
+    missed = [np.linalg.norm(rng.normal(0, 2, (50, 3)), axis=1) for _ in range(2000)]
+    inner, outer = radii(missed, BELIEVED)
+    assert inner == pytest.approx(2 * 1.872, rel=0.02)
+    assert outer == pytest.approx(2 * 2.795, rel=0.02)
+
+
+def test_each_pseudo_gap_is_one_part_however_long():
+    short, long = [np.full(1, 5.0)] * 60, [np.full(1000, 0.1)] * 40
+    inner, _ = radii([*short, *long], RadiusOptions(inner=1.4, outer=3.0, trials=1e-6))
+    assert inner == pytest.approx(5.0, rel=1e-3)
+
+
+def test_few_pseudo_gaps_move_the_belief_a_little():
+    few, many = ([np.full(10, 6.0)] * count for count in (2, 40))
+    believed, after_few, after_many = (radii(parts, BELIEVED)[0] for parts in ([], few, many))
+    assert believed < after_few < 1.5 * believed < after_many
+
+
+def test_units_do_not_matter():
+    rng = np.random.default_rng(3)
+    missed = [rng.lognormal(0, 0.7, 20) for _ in range(30)]
+    scaled = radii([1000 * part for part in missed], RadiusOptions(inner=1400, outer=3000, trials=10))
+    assert np.array(scaled) / 1000 == pytest.approx(radii(missed, BELIEVED), rel=1e-4)
+
+
+@pytest.mark.parametrize("wrong", [{"inner": 0}, {"outer": 1}, {"trials": 0}])
+def test_wrong_beliefs_are_refused(wrong):
+    with pytest.raises(ValueError, match="radii"):
+        RadiusOptions(**{"inner": 1.4, "outer": 3.0, "trials": 10, **wrong})
+
+
+def test_stated_balls_hold_about_what_they_say(walker):
+    truth = walker.recording.positions[:1200]
+    inside = []
+    for seed in (4, 5, 6):
+        positions, rng = truth.copy(), np.random.default_rng(seed)
+        for marker in range(0, positions.shape[1], 3):
+            start = int(rng.integers(50, 1100))
+            positions[start : start + 50, marker] = np.nan
+        gapped = np.isnan(positions[..., 0])
+        found = fill_gaps(restored(positions), neighbours(positions), ensemble=ensemble(), options=fill_options())
+        distance = np.linalg.norm(found.positions - truth, axis=2)[gapped]
+        inside.append([(distance <= radius[gapped]).mean() for radius in (found.error, found.error95)])
+    inner, outer = np.mean(inside, axis=0)
+    assert 0.55 < inner < 0.85
+    assert outer > 0.88

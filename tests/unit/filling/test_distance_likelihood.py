@@ -1,0 +1,53 @@
+"""Distances to references: what is learned of them, and what follows for positions."""
+
+import numpy as np
+import pytest
+
+from markermend.filling.distance_likelihood import DistanceOptions, Distances
+from markermend.prediction.marker_selection import references
+from support.fillings import CONFIG, scene
+
+DEFAULT = CONFIG["fill"]["ensemble"]["distances"]
+
+
+def options(**changed):
+    return DistanceOptions(**{**DEFAULT, **changed})
+
+
+@pytest.fixture
+def body(walker):
+    return walker.recording.positions[:300]
+
+
+def test_the_steadiest_markers_are_the_references(body):
+    own = options(references=2, spacing_references=4)
+    ranked, _ = references(scene(body), 9, frames=own.frames, minimum_frames=own.minimum_frames)
+    learned = Distances.learn(scene(body), 9, own)
+    assert learned.references.tolist() == ranked[:4].tolist()
+    for reference, density in zip(learned.references, learned.densities, strict=True):
+        usual = np.median(np.linalg.norm(body[:, 9] - body[:, reference], axis=1))
+        assert density.quantiles((0.5,))[0] == pytest.approx(usual, rel=0.01)
+
+
+def test_the_truth_is_likelier_than_what_lies_beside_it(body):
+    learned = Distances.learn(scene(body), 9, options())
+    likelihood = learned.likelihood(np.stack([body[:, 9], body[:, 9] + 60]), body)
+    assert (likelihood[0] > 1e3 * likelihood[1]).all()
+
+
+def test_what_lies_far_off_is_brought_near_and_the_truth_hardly_moves(body):
+    learned = Distances.learn(scene(body), 9, options(spacing_rounds=5))
+    off = [np.linalg.norm(learned.constrained(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
+    assert off[0].mean() < 1
+    assert off[1].mean() < 0.9 * np.sqrt(3) * 60
+    unbound = Distances.learn(scene(body), 9, options())
+    assert np.array_equal(unbound.constrained(body[:, 9] + 60, body), body[:, 9] + 60)
+
+
+def test_without_references_nothing_is_judged(body):
+    alone = body.copy()
+    alone[40:, 9] = np.nan
+    learned = Distances.learn(scene(alone), 9, options(spacing_rounds=5))
+    assert len(learned.references) == 0
+    assert (learned.likelihood(body[None, :, 9] + 60, body) == 1).all()
+    assert np.array_equal(learned.constrained(body[:, 9] + 60, body), body[:, 9] + 60)

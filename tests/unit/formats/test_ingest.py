@@ -1,0 +1,204 @@
+"""Ingesting keeps every marker, decides what is static, and says why a recording cannot be used."""
+
+import importlib.util
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.core.recording import BadRecording, Recording, SetAside
+from markermend.formats import files
+from markermend.formats.ingest import ingest, kind_of, motion_mm
+from markermend.formats.reading import Reading
+from markermend.storage import atomic, stage_files
+from support.c3d_files import trajectories, write
+from support.paths import PROJECT
+
+NAMES = ["static", r"(^|[^a-z])cal\d*$"]
+
+
+def moving(frames=300, markers=10, amplitude=400.0):
+    """A recording whose markers go to and fro along x by `amplitude` mm."""
+    phase = np.linspace(0, 6 * np.pi, frames)
+    positions = np.full((frames, markers, 3), 1000.0) + np.arange(markers)[:, None] * 50
+    positions[..., 0] += amplitude / 2 * np.sin(phase)[:, None]
+    return Recording(tuple(f"M{m}" for m in range(markers)), positions, 100.0)
+
+
+def reading_of(recording, **more):
+    return Reading(recording, "c3d", "mm", tuple(range(len(recording.markers))), **more)
+
+
+def ingested(reading, **more):
+    options = {"source": "walk.c3d", "recording": "walk", "subject": "Anna", "kind": "auto"}
+    return ingest(reading, **{**options, "static_names": NAMES, "static_motion_mm": 15.0, **more})
+
+
+def kind(recording, name="walk", stated="auto"):
+    return kind_of(recording, name=name, kind=stated, static_names=NAMES, static_motion_mm=15.0)
+
+
+def test_facts_tell_what_was_read():
+    reading = reading_of(moving(), unlabelled=("*1",), model_outputs=("LHipAngles",), missing={"residual": 3})
+    recording = ingested(replace(reading, warnings=("Odd.",)))
+    assert recording.facts == {
+        "source": {"name": "walk.c3d", "format": "c3d", "unit": "mm", "columns": list(range(10))},
+        "recording": "walk",
+        "subject": "Anna",
+        "kind": "dynamic",
+        "kind_reason": "Nine markers in ten move up to 395 mm; under 15 mm is static.",
+        "missing": {"residual": 3},
+        "warnings": ["Odd."],
+        "unlabelled": ["*1"],
+        "model_outputs": ["LHipAngles"],
+    }
+    json.dumps(recording.facts)
+
+
+def test_a_marker_that_was_never_seen_stays_with_a_warning():
+    recording = moving()
+    recording.positions[:, 4] = np.nan
+    result = ingested(reading_of(recording))
+    assert result.markers == recording.markers and result.missing[:, 4].all()
+    assert result.facts["warnings"] == ["Never seen: M4."]
+
+
+def test_no_marker_ever_seen():
+    recording = moving()
+    recording.positions[:] = np.nan
+    with pytest.raises(BadRecording, match=r"walk\.c3d has no 3-D data.*every sample"):
+        ingested(reading_of(recording))
+    nothing = Recording((), np.empty((300, 0, 3)), 100.0)
+    with pytest.raises(BadRecording, match=r"no labelled markers, only 1 unlabelled trajectories and 2 model outputs"):
+        ingested(reading_of(nothing, unlabelled=("*0",), model_outputs=("A", "B")))
+    with pytest.raises(BadRecording, match="no labelled markers; leave"):
+        ingested(reading_of(nothing))
+
+
+@pytest.mark.parametrize("rate", [0.0, -50.0, math.nan, math.inf])
+def test_an_impossible_rate(rate):
+    with pytest.raises(BadRecording, match=r"walk\.c3d has no usable rate.*recordings table"):
+        ingested(reading_of(replace(moving(), rate=rate)))
+
+
+def test_the_table_goes_first_in_what_is_static():
+    assert kind(moving(amplitude=1), stated="dynamic") == ("dynamic", "The recordings table says so.")
+    assert kind(moving(), "static01", "dynamic")[0] == "dynamic"
+    assert kind(moving(), stated="static")[0] == "static"
+
+
+@pytest.mark.parametrize("name", ["Static 01", "subject_STATIC", "cal", "Anna_Cal02"])
+def test_names_of_static_recordings(name):
+    decided, reason = kind(moving(), name)
+    assert decided == "static" and name in reason
+
+
+@pytest.mark.parametrize("name", ["vertical", "calf raise", "walk", "recal3"])
+def test_names_of_dynamic_recordings(name):
+    assert kind(moving(), name)[0] == "dynamic"
+
+
+def test_a_recording_without_motion_is_static():
+    decided, reason = kind(moving(amplitude=10))
+    assert decided == "static" and "under 15 mm" in reason
+
+
+def test_motion_is_that_of_the_ninth_marker_in_ten_without_outliers():
+    recording = moving(300, 11, 10.0)
+    recording.positions[:, 10, 0] *= 5
+    recording.positions[7, :, :] += 1000
+    recording.positions[100:150, 3] = np.nan
+    recording.positions[:, 5] = np.nan
+    expected = 10 * np.sin(np.pi / 2 * 0.9)
+    assert motion_mm(recording) == pytest.approx(expected, rel=0.03)
+
+
+def run_script(arguments):
+    """Run scripts/ingest.py in this process."""
+    path = PROJECT / "scripts/ingest.py"
+    spec = importlib.util.spec_from_file_location("ingest_script", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.main([str(argument) for argument in arguments])
+
+
+def flags(source, target, **more):
+    options = {"recording": "walk", "subject": "Anna", "kind": "auto", "rate": "none", "static-motion-mm": 15, **more}
+    lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]
+    named = [f"--{name}={value}" for name, value in options.items()]
+    return ["--source", source, "--markers", target, *named, *lists]
+
+
+def test_the_script_writes_markers_and_facts(tmp_path):
+    positions = trajectories(50, 4)
+    positions[3, 2] = np.nan
+    source = write(tmp_path / "walk.c3d", positions, labels=["A", "*1", "B", "C"], first_frame=705)
+    target = tmp_path / "results" / "01_markers.parquet"
+    run_script(flags(source, target))
+    recording = stage_files.read_recording(target)
+    assert recording.markers == ("A", "B", "C")
+    np.testing.assert_array_equal(recording.positions, positions[:, [0, 2, 3]])
+    assert (recording.rate, recording.first_frame) == (100.0, 705)
+    facts = recording.facts
+    assert facts["source"] == {
+        "name": "walk.c3d",
+        "sha256": atomic.sha256(source),
+        "format": "c3d",
+        "unit": "mm",
+        "columns": [0, 2, 3],
+    }
+    assert facts["missing"]["residual"] == 1 and facts["unlabelled"] == ["*1"] and facts["stage"] == "ingest"
+    first = target.read_bytes()
+    run_script(flags(source, target))
+    assert target.read_bytes() == first
+    run_script(flags(source, target, rate=250))
+    assert stage_files.read_recording(target).rate == 250
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "reason"), [("walk.c3d", b"", "empty"), ("walk.mat", b"x", r"\.mat.*\.c3d, \.trc")]
+)
+def test_the_script_sets_a_bad_recording_aside(tmp_path, name, content, reason):
+    source, target = tmp_path / name, tmp_path / "results" / "01_markers.parquet"
+    source.write_bytes(content)
+    run_script(flags(source, target))
+    with pytest.raises(SetAside, match=reason):
+        stage_files.read_recording(target)
+
+
+def test_a_file_is_dispatched_by_its_ending(tmp_path):
+    source = write(tmp_path / "WALK.C3D")
+    assert files.read(source, unlabelled=[], rate=None).recording.rate == 100
+    assert files.read(source, unlabelled=[], rate=50.0).recording.rate == 50
+    with pytest.raises(BadRecording, match="impossible"):
+        files.read(source, unlabelled=[], rate=0.0)
+    with pytest.raises(BadRecording, match="is not there"):
+        files.read(tmp_path / "run.c3d", unlabelled=[], rate=None)
+    positions = files.read(source, unlabelled=[], rate=None).recording.positions
+    changed = np.zeros(positions.shape[:2], bool)
+    changed[3, 1] = True
+    result = files.write_back(
+        source, tmp_path / "out.c3d", format="c3d", positions=positions + 1, changed=changed, columns=range(4)
+    )
+    assert result.samples == 1
+    after = files.read(tmp_path / "out.c3d", unlabelled=[], rate=None).recording.positions
+    np.testing.assert_allclose(after - positions, changed[..., None] * np.ones(3), atol=1e-4)
+
+
+@pytest.mark.data
+@pytest.mark.parametrize("name", ["16bitanalog", "parameterOverflow"])
+def test_files_whose_points_are_all_zero_have_no_3d_data(data, name):
+    reading = files.read(data / f"odd/{name}.c3d", unlabelled=[], rate=None)
+    with pytest.raises(BadRecording, match=rf"{name}\.c3d has no 3-D data"):
+        ingested(reading, source=f"{name}.c3d")
+
+
+@pytest.mark.data
+def test_a_marker_never_seen_in_a_real_recording(data):
+    reading = files.read(data / "raw/nick_freeform_001.c3d", unlabelled=[], rate=None)
+    recording = ingested(reading, recording="nick_freeform_001")
+    assert recording.facts["warnings"] == ["Never seen: Nick01:CLAV."]
+    assert recording.missing.mean() == pytest.approx(0.066, abs=0.001)
+    assert recording.facts["kind"] == "dynamic"

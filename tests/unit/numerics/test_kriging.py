@@ -1,0 +1,182 @@
+"""Kriging against a plain Gaussian process, the autocovariance against loops, and the fit on a known process."""
+
+import numpy as np
+import pytest
+
+from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise
+from markermend.prediction.marker_selection import scattered
+from support.fillings import CONFIG
+
+SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
+
+
+def naive_autocovariance(residual, lags):
+    """Mean product over all pairs of known samples, lag by lag."""
+    out = []
+    for lag in lags:
+        products = [
+            (residual[i] * residual[i + lag]).mean()
+            for i in range(len(residual) - lag)
+            if np.isfinite(residual[i]).all() and np.isfinite(residual[i + lag]).all()
+        ]
+        out.append(np.mean(products) if products else np.nan)
+    return np.array(out)
+
+
+def naive_gaussian_process(covariance, known, values, wanted):
+    """Condition sample by sample, with the covariance written out."""
+
+    def kernel(a, b):
+        total = 0.0
+        for k, scale in enumerate(covariance.scales_s):
+            once, twice = np.sqrt(3) * abs(a - b) / scale, np.sqrt(5) * abs(a - b) / scale
+            total += covariance.weights[1 + k] * (1 + once) * np.exp(-once)
+            total += covariance.weights[1 + len(covariance.scales_s) + k] * (1 + twice + twice**2 / 3) * np.exp(-twice)
+        return total
+
+    between = np.array([[kernel(a, b) + covariance.weights[0] * (a == b) for b in known] for a in known])
+    inverse = np.linalg.inv(between)
+    mean, variance = [], []
+    for w in wanted:
+        across = np.array([kernel(w, b) for b in known])
+        mean.append(across @ inverse @ values)
+        variance.append(kernel(w, w) + covariance.weights[0] - across @ inverse @ across)
+    return np.array(mean), np.array(variance)
+
+
+@pytest.fixture
+def covariance():
+    rng = np.random.default_rng(11)
+    return Covariance(np.concatenate([[0.3], rng.uniform(0, 2, 2 * len(SCALES))]), SCALES)
+
+
+def test_autocovariance_equals_loops_with_missing_samples():
+    residual = np.random.default_rng(1).normal(size=(80, 3)).cumsum(axis=0)
+    residual[[3, 4, 30, 77]] = np.nan
+    lags = np.array([0, 1, 2, 5, 19, 60])
+    assert np.allclose(autocovariance(residual, lags), naive_autocovariance(residual, lags))
+
+
+def test_a_lag_without_pairs_gets_nothing():
+    residual = np.full((40, 3), np.nan)
+    residual[::10] = 1.0
+    found = autocovariance(residual, np.arange(12))
+    assert found[0] == pytest.approx(1) and found[10] == pytest.approx(1)
+    assert np.isnan(found[1:10]).all()
+
+
+def test_the_fit_needs_no_sample_beside_another():
+    rng = np.random.default_rng(4)
+    smooth = np.convolve(rng.normal(size=40_000), np.hanning(41), mode="same")[:, None] + np.zeros(3)
+    sparse = np.full_like(smooth, np.nan)
+    rows = scattered(np.arange(len(smooth)), 2000)
+    sparse[rows] = smooth[rows]
+    whole = fit_covariance(smooth, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    fitted = fit_covariance(sparse, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    lags = np.array([0.01, 0.05, 0.1, 0.2])
+    assert np.allclose(fitted(lags), whole(lags), atol=0.2 * whole(np.zeros(1))[0])
+    assert fitted.noise < 0.1 * whole(np.zeros(1))[0]
+
+
+def test_nothing_known_is_no_covariance():
+    fitted = fit_covariance(np.full((50, 3), np.nan), rate=100.0, scales_s=SCALES, longest_s=2.0)
+    assert fitted(np.zeros(1))[0] == 0 and fitted.noise < 1e-6
+
+
+def test_scattered_frames_are_spread_evenly_and_at_every_distance():
+    frames = np.arange(7, 50_007)
+    chosen = scattered(frames, 2500)
+    assert len(chosen) == 2500 and (np.diff(chosen) > 0).all() and np.isin(chosen, frames).all()
+    assert np.ptp(np.histogram(chosen, bins=25, range=(7, 50_007))[0]) < 60  # 100 each
+    seen = np.isin(frames, chosen)
+    pairs = np.array([np.count_nonzero(seen[lag:] & seen[:-lag]) for lag in range(1, 250)])
+    assert pairs.min() > 60 and abs(pairs.mean() - 125) < 10
+    assert np.array_equal(scattered(frames[:9], 9), frames[:9])
+
+
+def test_kriging_equals_the_gaussian_process(covariance):
+    known = np.array([0.0, 0.01, 0.04, 0.5, 0.53])
+    values = np.random.default_rng(2).normal(size=(5, 3))
+    wanted = np.linspace(0.05, 0.45, 9)
+    mean, variance = krige(covariance, known_s=known, values=values, wanted_s=wanted)
+    expected, spread = naive_gaussian_process(covariance, known, values, wanted)
+    # The jitter that keeps the system regular is a hundred-thousandth of the variance.
+    assert np.allclose(mean, expected, atol=1e-3)
+    assert np.allclose(variance, spread, atol=1e-3)
+
+
+def test_without_noise_the_known_are_met(covariance):
+    exact = Covariance(np.concatenate([[0.0], covariance.weights[1:]]), SCALES)
+    known, values = np.array([0.0, 0.3]), np.array([[1.0, -2, 3], [0.5, 0, -1]])
+    mean, variance = krige(exact, known_s=known, values=values, wanted_s=known)
+    assert np.allclose(mean, values, atol=1e-3)
+    assert (variance < 1e-3).all()
+
+
+def test_far_from_everything_known_the_mean_is_zero_and_the_variance_whole(covariance):
+    mean, variance = krige(covariance, known_s=np.zeros(1), values=np.ones((1, 3)), wanted_s=np.array([1e3]))
+    assert np.allclose(mean, 0)
+    assert variance[0] == pytest.approx(covariance.weights.sum())
+    mean, variance = krige(covariance, known_s=np.zeros(0), values=np.zeros((0, 3)), wanted_s=np.zeros(2))
+    assert np.allclose(mean, 0) and np.allclose(variance, covariance.weights.sum())
+
+
+def test_the_fit_finds_the_covariance_of_a_known_process():
+    times = np.arange(1500) / 100.0
+    truth = 4.0 * np.exp(-0.5 * ((times[:, None] - times) / 0.2) ** 2)
+    noise = 0.25
+    rng = np.random.default_rng(3)
+    samples = np.linalg.cholesky(truth + 1e-6 * np.eye(1500)) @ rng.normal(size=(1500, 6))
+    fitted = fit_covariance(
+        samples + rng.normal(0, np.sqrt(noise), samples.shape), rate=100.0, scales_s=SCALES, longest_s=2.0
+    )
+    assert fitted.noise == pytest.approx(noise, abs=0.15)
+    lags = np.array([0.02, 0.1, 0.2, 0.4])
+    assert np.allclose(fitted(lags), 4.0 * np.exp(-0.5 * (lags / 0.2) ** 2), atol=0.8)
+    assert (fitted.weights >= 0).all()
+
+
+def test_kernels_are_one_at_lag_zero():
+    assert np.allclose(kernels(np.zeros(3), SCALES), 1)
+
+
+def test_an_exact_model_leaves_a_covariance_that_can_be_inverted():
+    fitted = fit_covariance(np.zeros((200, 3)), rate=100.0, scales_s=SCALES, longest_s=2.0)
+    mean, variance = krige(fitted, known_s=np.array([0.0, 0.1]), values=np.zeros((2, 3)), wanted_s=np.array([0.05]))
+    assert np.isfinite(mean).all() and np.isfinite(variance).all()
+
+
+def drift(seconds=40, rate=100.0):
+    """A smooth course (frames, 3) of 10 mm that turns within about a second."""
+    t = np.arange(0, seconds, 1 / rate)[:, None]
+    return 10 * np.sin(2 * np.pi * np.array([0.3, 0.7, 1.1]) * t + np.arange(3))
+
+
+def test_the_white_noise_on_a_smooth_course_is_told():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    residual[np.random.default_rng(6).choice(4000, 30)] += 100
+    assert white_noise(drift()) < 1e-3
+    assert white_noise(residual) == pytest.approx(0.2**2, rel=0.3)
+
+
+def test_scattered_frames_tell_the_noise_while_enough_lie_side_by_side():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    sparse, sparser = np.full_like(residual, np.nan), np.full_like(residual, np.nan)
+    for thinned, most in ((sparse, 1000), (sparser, 100)):
+        chosen = scattered(np.arange(4000), most)
+        thinned[chosen] = residual[chosen]
+    assert white_noise(sparse) == pytest.approx(0.2**2, rel=0.5)
+    assert white_noise(sparser) == 0
+
+
+def test_noise_does_not_send_a_smooth_residual_astray():
+    residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
+    covariance = fit_covariance(residual, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    noiseless = Covariance(np.append(0.0, covariance.weights[1:]), SCALES)
+    errors = []
+    for start in range(100, 3900, 100):
+        wanted, known = np.arange(start, start + 40), np.r_[start - 12 : start, start + 40 : start + 52]
+        for each in (covariance, noiseless):
+            mean, _ = krige(each, known_s=known / 100, values=residual[known], wanted_s=wanted / 100)
+            errors.append(np.linalg.norm(mean - drift()[wanted], axis=1).mean())
+    assert np.mean(errors[::2]) < 0.5 * np.mean(errors[1::2])

@@ -1,0 +1,89 @@
+"""The local ridge: exact on rigid bodies, honest about its error, blind to what is hidden, equal to its naive parts."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.prediction.local_ridge.model import RidgeModel, ridge_regression
+from markermend.prediction.local_ridge.predictor import LocalRidge
+from support.fillings import predictor, rigid_body, scene
+
+
+@pytest.fixture(scope="module")
+def ridge():
+    return predictor("local_ridge")
+
+
+def test_residuals_of_a_rigid_body_vanish(ridge):
+    positions = rigid_body()
+    assert np.nanmax(np.abs(ridge.residuals(scene(positions)))) < 0.01
+
+
+def test_a_residual_shows_an_artifact_in_its_size_and_place(ridge, walker):
+    positions = walker.recording.positions.copy()
+    clean = ridge.residuals(scene(positions), markers=np.array([7]))[:, 7]
+    positions[500:520, 7] += [0, 0, 30.0]
+    found = ridge.residuals(scene(positions), markers=np.array([7]))[:, 7]
+    change = found - clean
+    assert np.allclose(change[500:520].mean(axis=0), [0, 0, 30], atol=2)
+    assert np.abs(change[:490]).max() < 2 and np.abs(change[530:]).max() < 2
+
+
+def test_markers_not_asked_for_and_missing_samples_stay_open(ridge, walker):
+    positions = walker.recording.positions[:400].copy()
+    positions[100:120, 7] = np.nan
+    found = ridge.residuals(scene(positions), markers=np.array([7]))
+    assert np.isnan(found[:, :7]).all() and np.isnan(found[:, 8:]).all()
+    assert np.isnan(found[100:120, 7]).all()
+    assert np.isfinite(found[:100, 7]).all() and np.isfinite(found[120:, 7]).all()
+
+
+def test_the_borders_are_met_and_the_error_grows_towards_the_middle(ridge, walker):
+    positions = walker.recording.positions
+    found = ridge.predict(scene(positions), 7, 500, 620)
+    assert np.linalg.norm(found.positions[[0, -1]] - positions[[499, 620], 7], axis=1).max() < 2
+    assert found.error[60] > found.error[1] > 0
+    assert found.error[60] > found.error[-2]
+
+
+def test_stated_errors_are_of_the_right_size(ridge, walker):
+    positions = walker.recording.positions
+    seen = scene(positions)
+    inside = []
+    for marker in range(0, positions.shape[1], 4):
+        for start in (200, 700):
+            found = ridge.predict(seen, marker, start, start + 60)
+            distance = np.linalg.norm(found.positions - positions[start - 1 : start + 61, marker], axis=1)
+            inside.append((distance < 2.795 * found.error)[1:-1])
+    assert 0.65 < np.mean(inside) < 1
+
+
+def test_residuals_left_out_equal_training_again_without_the_block():
+    rng = np.random.default_rng(7)
+    local = rng.normal(size=(90, 9))
+    block = np.sort(rng.integers(0, 5, 90))
+    weights = rng.uniform(0.2, 1, 90)
+    model = RidgeModel(np.arange(3), np.arange(2), np.zeros((3, 3)), np.zeros(9), local, weights, np.arange(90))
+    found = model.left_out(np.array([True, True]), 0.1, block)
+    for b in range(5):
+        kept, rows = block != b, block == b
+        beta = ridge_regression(local[kept, :6], local[kept, 6:], weights[kept], 0.1)
+        expected = local[rows, 6:] - np.concatenate([np.ones((rows.sum(), 1)), local[rows, :6]], axis=1) @ beta
+        assert np.allclose(found[rows], expected)
+
+
+def test_too_few_frames_or_neighbours_give_nothing(ridge):
+    positions = rigid_body(frames=50)
+    assert np.isnan(ridge.predict(scene(positions), 2, 20, 30).positions).all()
+    two = rigid_body(markers=3)
+    assert np.isnan(ridge.predict(scene(two), 2, 100, 110).positions).all()
+
+
+def test_markers_on_a_line_do_not_break_it():
+    body = rigid_body(markers=4)
+    axis = body[:, 1] - body[:, 0]
+    line = np.stack([body[:, 0] + share * axis for share in (0, 0.5, 1, 1.5)], axis=1)
+    options = predictor("local_ridge").options
+    found = LocalRidge(replace(options, width_mm=0.0)).predict(scene(line), 2, 100, 140).positions
+    assert np.abs(found - line[99:141, 2]).max() < 1

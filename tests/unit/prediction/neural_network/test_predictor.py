@@ -1,0 +1,264 @@
+"""Networks: what they are fed, what they learn, that none depends on its batch, and that torch is asked for in words."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+import fill
+from markermend.command.stage import flag
+from markermend.planning import config as workflow_settings
+from markermend.planning.recordings import BadDataSet
+from markermend.prediction.neural_network import predictor
+from markermend.prediction.neural_network.inputs import chosen, completed, features, stretches
+from markermend.prediction.neural_network.options import NetworkOptions
+from markermend.prediction.neural_network.predictor import KINDS, Network
+from markermend.prediction.registry import members
+from markermend.prediction.scene import Scene, Trainable
+from markermend.storage import mesh_file, stage_files
+from support.fillings import CONFIG, neighbours, restored, rigid_body, settings
+from support.paths import PROJECT
+
+OPTIONS = NetworkOptions(**settings()["networks"])
+
+
+def network(name="network_linear", **changed):
+    return Network(name, replace(OPTIONS, **changed))
+
+
+@pytest.fixture(scope="module")
+def person(walker):
+    """Four seconds of the walker's first twelve markers."""
+    return walker.recording.positions[:400, :12]
+
+
+def hidden(positions, *gaps):
+    gapped = positions.copy()
+    for marker, start, stop in gaps:
+        gapped[start:stop, marker] = np.nan
+    return Scene(gapped, 100.0, neighbours(positions))
+
+
+def test_inputs_are_positions_now_and_a_frame_ago():
+    positions = np.arange(4 * 2 * 3, dtype=float).reshape(4, 2, 3) ** 2
+    columns, middle = features(positions, np.array([0, 2]), centred=False)
+    assert not middle.any()
+    assert columns[1].tolist() == [*positions[2, 0], *positions[1, 0], *positions[2, 1], *positions[1, 1]]
+    assert columns[0].tolist() == [*positions[0, 0], *positions[0, 0], *positions[0, 1], *positions[0, 1]]
+    columns, middle = features(positions, np.array([0, 2]), centred=True)
+    assert np.allclose(middle[1], positions[2].mean(axis=0))
+    assert np.allclose(columns[1, 3:6], positions[1, 0] - middle[1])
+
+
+def test_missing_inputs_are_told_from_enough_others():
+    truth = rigid_body(frames=300, markers=5)
+    gapped = truth.copy()
+    gapped[100:120, 0] = np.nan
+    gapped[110:130, 1:3] = np.nan
+    examples = truth[~np.isnan(gapped).any(axis=(1, 2))]
+    told = completed(gapped, examples, minimum=3)
+    assert np.isnan(told[110:120, :3]).all()
+    told[110:120] = truth[110:120]
+    assert np.isfinite(told).all()
+    assert np.abs(told[100:110] - truth[100:110]).max() < 0.01
+    assert np.array_equal(told[200:], truth[200:])
+
+
+def test_stretches_are_whole_even_and_about_as_many_frames_as_wanted():
+    seen = np.ones(1000, bool)
+    seen[[300, 305]] = False
+    pieces = stretches(seen, longest=100, frames=10_000)
+    assert np.array_equal(np.concatenate(pieces), np.flatnonzero(seen))
+    assert all((np.diff(piece) == 1).all() and len(piece) <= 100 for piece in pieces)
+    fewer = stretches(seen, longest=100, frames=400)
+    assert 300 <= sum(map(len, fewer)) <= 500
+    assert fewer[0][0] == 0 and fewer[-1][-1] == 999
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_networks_trained_at_once_are_those_trained_one_by_one(name, person):
+    """Of markers with unlike inputs and unlike gaps, in two scenes: equal bytes."""
+    first = hidden(person, (3, 100, 140), (7, 200, 230), (5, 40, 60))
+    second = hidden(person[:300, :4], (1, 100, 120))
+    jobs = [(first, 3), (first, 7), (first, 5), (second, 1)]
+    gaps = [(first, 3, 100, 140), (first, 7, 200, 230), (first, 5, 40, 60), (second, 1, 100, 120)]
+    together, single = network(name), network(name)
+    assert isinstance(together, Trainable)
+    together.train(jobs)
+    for place, marker, start, stop in gaps:
+        fresh = Scene(place.positions, 100.0, place.neighbours)
+        alone = single.predict(fresh, marker, start, stop).positions
+        assert np.isfinite(alone).all()
+        assert np.array_equal(together.predict(place, marker, start, stop).positions, alone)
+
+
+def test_nothing_is_trained_twice(person, monkeypatch):
+    from markermend.prediction.neural_network import training
+
+    counts = []
+    train = training.train
+    monkeypatch.setattr(training, "train", lambda *all_: counts.append(len(all_[1])) or train(*all_))
+    seen = hidden(person, (3, 100, 140), (3, 300, 310), (7, 200, 230))
+    one = network()
+    one.train([(seen, 3), (seen, 7), (seen, 3)])
+    one.predict(seen, 3, 100, 140)
+    one.predict(seen, 3, 300, 310)
+    one.predict(seen, 7, 200, 230)
+    one.train([(seen, 3)])
+    assert counts == [2]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_marker_that_its_neighbours_tell_is_learned(name, walker):
+    truth = walker.recording.positions[:600]
+    seen = hidden(truth, (9, 300, 350))
+    found = network(name, epochs=60, recurrent_units=12, learning_rate=0.05).predict(seen, 9, 300, 350).positions
+    away = np.linalg.norm(found - truth[299:351, 9], axis=1).mean()
+    spread = np.linalg.norm(truth[:, 9] - truth[:, 9].mean(axis=0), axis=1).mean()
+    assert away < 0.3 * spread
+
+
+def test_a_linear_map_is_learned_exactly():
+    rng = np.random.default_rng(4)
+    courses = rng.standard_normal((500, 4, 3)) * 100
+    courses[:, 3] = courses[:, 0] * 0.5 - courses[:, 1] * 0.2 + courses[:, 2][:, ::-1] * 0.3 + 40
+    seen = hidden(courses, (3, 200, 210))
+    one = network(epochs=600, centred=False, share=0.0, drop=1.0)
+    found = one.predict(seen, 3, 200, 210).positions[1:-1]
+    assert np.abs(found - courses[200:210, 3]).max() < 0.5
+
+
+def test_what_was_filled_teaches_nothing(person):
+    measured = hidden(person, (3, 100, 140), (8, 100, 200))
+    filled = measured.positions.copy()
+    filled[100:200, 8] = 1e5
+    one = network()
+    later = Scene(filled, 100.0, measured.neighbours, measured=measured)
+    usual = replace(later, neighbours=[np.array([m for m in near if m != 8]) for near in measured.neighbours])
+    apart = Scene(measured.positions, 100.0, usual.neighbours)
+    other = one.predict(usual, 3, 100, 140).positions
+    assert np.array_equal(other, one.predict(apart, 3, 100, 140).positions)
+    assert np.abs(one.predict(hidden(person), 8, 100, 110).positions).max() < 5000
+
+
+def test_filled_references_are_looked_at(person):
+    measured = hidden(person, (3, 100, 140), (int(neighbours(person)[3][0]), 100, 140))
+    filled = np.where(np.isnan(measured.positions), person, measured.positions)
+    filled[100:140, 3] = np.nan
+    one = network(epochs=200)
+    with_them = one.predict(Scene(filled, 100.0, measured.neighbours, measured=measured), 3, 100, 140).positions
+    without = one.predict(measured, 3, 100, 140).positions
+    assert np.isfinite(with_them).all() and not np.array_equal(with_them, without)
+
+
+def test_a_gap_in_which_the_usual_inputs_are_missing_has_others(person):
+    near = neighbours(person)[3]
+    seen = hidden(person, (3, 100, 140), (3, 300, 330), *((int(other), 300, 330) for other in near[:4]))
+    one = network()
+    one.train([(seen, 3)])
+    assert np.isfinite(one.predict(seen, 3, 100, 140).positions).all()
+    assert np.isfinite(one.predict(seen, 3, 300, 330).positions).all()
+    inputs = {inputs for _, inputs in one._learned(seen).networks}
+    assert len(inputs) == 2
+
+
+def test_too_little_to_learn_from_tells_nothing(person):
+    positions = person.copy()
+    positions[OPTIONS.minimum_frames - 1 :, 3] = np.nan
+    one = network()
+    seen = Scene(positions, 100.0, neighbours(person))
+    one.train([(seen, 3)])
+    assert np.isnan(one.predict(seen, 3, 100, 120).positions).all()
+
+
+@pytest.mark.parametrize("name", ["network_linear", "network_gru"])
+def test_a_blackout_during_the_gap_stays_open(name, person):
+    positions = person.copy()
+    positions[100:140, 3] = np.nan
+    positions[110:120] = np.nan
+    found = network(name).predict(Scene(positions, 100.0, neighbours(person)), 3, 100, 140).positions
+    assert np.isnan(found[11:21]).all()
+    assert np.isfinite(np.delete(found, np.s_[11:21], axis=0)).all()
+
+
+def test_recurrent_networks_look_beyond_the_gap(person):
+    """What stands before the gap is context for all of them, what stands behind it for those of two directions."""
+    seen = hidden(person, (3, 100, 140))
+    for name, before, behind in (("network_tanh", 0, 0), ("network_gru", 1, 0), ("network_bilstm", 1, 1)):
+        one = network(name)
+        usual = one.predict(seen, 3, 100, 140).positions
+        for frames, matters in ((slice(85, 95), before), (slice(145, 155), behind)):
+            moved = seen.positions.copy()
+            moved[frames] += 300.0
+            other = Scene(moved, 100.0, seen.neighbours)
+            other.remember((one, "learned"), partial(one._learned, seen))
+            again = one.predict(other, 3, 100, 140).positions
+            assert np.array_equal(usual, again) != bool(matters)
+
+
+def test_trials_train_for_fewer_epochs():
+    full = members(["network_gru"], settings())[0]
+    brief = members(["network_gru"], settings(), most_frames=100)[0]
+    assert (full.options.epochs, brief.options.epochs) == (OPTIONS.epochs, OPTIONS.trial_epochs)
+    assert replace(brief.options, epochs=full.options.epochs) == full.options
+
+
+def test_without_torch_networks_are_refused_before_a_run(monkeypatch):
+    monkeypatch.setattr(predictor, "find_spec", lambda name: None)
+    config = {**CONFIG, "fill": {**CONFIG["fill"], "members": ["spline", "network_gru"]}}
+    with pytest.raises(
+        BadDataSet, match=r"fill.members: network_gru cannot be trained without torch: install it with pip"
+    ):
+        workflow_settings.judge(config, deployed=False)
+    workflow_settings.judge(config, deployed=True)
+    workflow_settings.judge(CONFIG, deployed=False)
+    with pytest.raises(ValueError, match="without torch"):
+        members(["network_gru"], settings())
+
+
+FILL = """
+import sys
+import fill
+fill.main(sys.argv[1:])
+print("torch" in sys.modules)
+"""
+
+
+def stage(folder, names):
+    """Run the fill stage; what it wrote, and whether torch was imported."""
+    given = {**CONFIG, **CONFIG["fill"], "members": names, "networks": settings()["networks"], "decisions": []}
+    options = [f"{flag(name)}={workflow_settings.text(given[name])}" for name in fill.STAGE.options]
+    files = ["--repaired", folder / "06.parquet", "--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    command = [sys.executable, "-c", FILL, *map(str, files), *options]
+    done = subprocess.run(command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
+    return stage_files.read_recording(folder / "07.parquet"), done.stdout.split()[-1] == "True"
+
+
+def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_path):
+    gapped = hidden(person, (3, 100, 140), (7, 200, 215)).positions
+    names = tuple(f"M{m}" for m in range(person.shape[1]))
+    recording = restored(gapped, markers=names, recording="walk", kind="dynamic")
+    stage_files.write_recording(tmp_path / "06.parquet", recording, {"stage": "repair"})
+    ranked = {name: [names[other] for other in near] for name, near in zip(names, neighbours(person), strict=True)}
+    body = {"recordings": ["walk"], "markers": names, "segments": [], "predictors": ranked, "neighbours": ranked}
+    (tmp_path / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
+    assert mesh_file.read(tmp_path / "mesh.json", "walk").markers == names
+    usual, torch = stage(tmp_path, CONFIG["fill"]["members"])
+    assert len(usual.facts["fills"]) == 2 and not torch
+    learned, torch = stage(tmp_path, ["network_linear"])
+    assert len(learned.facts["fills"]) == 2 and torch
+    assert {name for entry in learned.facts["fills"] for name in entry["weights"]} == {"network_linear"}
+
+
+def test_siblings_and_parent_marker_are_the_first_inputs(person):
+    seen = hidden(person, (3, 100, 140))
+    related = replace(seen, relatives=[np.array([11, 9]) for _ in range(12)])
+    limits = {"most": 4, "minimum": 3, "share": 0.6, "minimum_frames": 60}
+    there = np.ones(12, bool)
+    near = neighbours(person)[3]
+    assert chosen(related, 3, there, **limits).tolist() == [11, 9, *near[~np.isin(near, (9, 11))][:2]]
+    assert chosen(seen, 3, there, **limits).tolist() == near[:4].tolist()

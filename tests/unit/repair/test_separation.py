@@ -1,0 +1,242 @@
+"""Parting a prediction's error from an artifact: exact, honest about what remains unsure, and better than either alone."""
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from markermend.core.events import Event
+from markermend.numerics.kriging import Covariance
+from markermend.repair.separation import (
+    COURSES,
+    Parted,
+    SeparationOptions,
+    artifacts,
+    averaged,
+    bridge,
+    pinned,
+    separate,
+    tent,
+)
+from markermend.simulation.artifact_models import shape
+from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
+
+N = 24
+KERNEL = Covariance(np.array([0.04, 2.0, 5.0, 1.0, 0.5]), np.array([0.05, 0.3]))
+SEPARATION = {
+    "ridges": [{}],
+    "amplitudes_mm": [3, 12, 48],
+    "roughness_mm": [0.1, 1],
+    "border_s": 0.1,
+    "margins": [0],
+    "trust": 1,
+    "most_frames": 1000,
+}
+OPTIONS = SeparationOptions(**SEPARATION)
+EXTENTS = [(0, N), (3, N - 2)]
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return body()
+
+
+def errors():
+    """Covariance of an error of some mm that is small at both borders."""
+    deviation = 3 * np.sqrt(np.diag(pinned_between())) + 0.5
+    return correlation() * deviation * deviation[:, None]
+
+
+def times():
+    return np.arange(N) / 100, np.concatenate([np.arange(-8, 0), np.arange(N, N + 8)]) / 100
+
+
+def correlation():
+    wanted, known = times()
+    return pinned(KERNEL, known_s=known, wanted_s=wanted)
+
+
+def pinned_between():
+    """Twin of the covariance that `pinned` normalises: a joint normal, conditioned by inverting its precision."""
+    wanted, known = times()
+    place = np.concatenate([wanted, known])
+    joint = KERNEL(place[:, None] - place) + KERNEL.noise * np.eye(len(place))
+    return np.linalg.inv(np.linalg.inv(joint + 1e-9 * np.eye(len(place)))[:N, :N])
+
+
+def test_pinned_is_the_correlation_given_the_borders():
+    expected = pinned_between()
+    deviation = np.sqrt(np.diag(expected))
+    assert np.allclose(correlation(), expected / deviation / deviation[:, None], atol=1e-3)
+    assert np.allclose(np.diag(correlation()), 1)
+
+
+def test_nothing_known_leaves_the_process_as_it_is():
+    wanted, _ = times()
+    free = KERNEL(wanted[:, None] - wanted) + KERNEL.noise * np.eye(N)
+    assert np.allclose(pinned(KERNEL, known_s=np.zeros(0), wanted_s=wanted), free / free[0, 0])
+
+
+def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
+    covariance = bridge(49)
+    drawn = np.random.default_rng(1).multivariate_normal(np.zeros(49), covariance, 200)
+    assert np.abs(np.diff(drawn, n=2, axis=1)).max() < 0.2 * np.abs(drawn).max()
+    assert np.diag(covariance).argmax() == 24 and np.diag(covariance)[[0, -1]].max() < 0.02 * covariance[24, 24]
+
+
+def test_a_tent_is_one_course_of_any_size():
+    """Its covariance is that of the published course of slow changes times a random amplitude."""
+    course = shape("slow", 40)
+    assert np.allclose(tent(40), np.outer(course, course) * tent(40).max())
+    assert tent(40).max() == pytest.approx(1, abs=0.06)
+
+
+@pytest.mark.parametrize("method", COURSES)
+@pytest.mark.parametrize(("lost", "trust"), [([], 1.0), ([0, 5, 6], 1.0), ([], 0.2)])
+def test_separating_is_bayes_rule(method, lost, trust):
+    """Each artifact in turn by conditioning one joint normal distribution, then averaged by their likelihoods."""
+    rng = np.random.default_rng(5)
+    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
+    difference = rng.multivariate_normal(np.zeros(N), covariance + tried[2], 3).T
+    difference[lost] = np.nan
+    rows = np.setdiff1d(np.arange(N), lost)
+    weights, means, seconds = [], [], []
+    for artifact in tried:
+        seen = (covariance + artifact)[np.ix_(rows, rows)]
+        weights.append(multivariate_normal(np.zeros(len(rows)), seen).logpdf(difference[rows].T).sum())
+        gain = covariance[:, rows] @ np.linalg.inv(seen)
+        means.append(gain @ difference[rows])
+        seconds.append(np.diag(covariance - gain @ covariance[rows])[:, None] + means[-1] ** 2)
+    evidence = np.log(np.mean(np.exp(trust * (np.array(weights) - max(weights))))) + trust * max(weights)
+    weights = np.exp(trust * (np.array(weights) - max(weights)))
+    weights /= weights.sum()
+    mean = np.tensordot(weights, means, 1)
+    deviation = np.sqrt((np.tensordot(weights, seconds, 1) - mean**2).mean(axis=1))
+    misfits = [
+        np.trace(difference[rows].T @ np.linalg.solve((covariance + artifact)[np.ix_(rows, rows)], difference[rows]))
+        for artifact in tried
+    ]
+    deviation *= max(1.0, np.sqrt(weights @ misfits / difference[rows].size))
+    parted = separate(difference, covariance, tried, trust=trust)
+    assert np.allclose(parted.mean, mean, atol=1e-4) and np.allclose(np.sqrt(parted.variance), deviation, rtol=1e-3)
+    constant = trust * difference[rows].size / 2 * np.log(2 * np.pi)
+    assert parted.evidence == pytest.approx(evidence + constant, abs=1e-2)
+
+
+@pytest.mark.parametrize("method", COURSES)
+def test_what_remains_unsure_is_stated(method):
+    rng = np.random.default_rng(2)
+    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
+    missed = []
+    for _ in range(150):
+        truth = rng.multivariate_normal(np.zeros(N), covariance, 3).T
+        artifact = rng.multivariate_normal(np.zeros(N), tried[rng.integers(len(tried))], 3).T
+        parted = separate(truth + artifact, covariance, tried, trust=1)
+        missed.append(np.linalg.norm(parted.mean - truth, axis=1) / np.sqrt(parted.variance))
+    # Averaged over artifacts the error is no longer normal: more of it is near and more of it is far.
+    assert np.mean(np.concatenate(missed) < 1.8724) == pytest.approx(0.7, abs=0.06)
+    assert np.mean(np.concatenate(missed) < 2.7955) == pytest.approx(0.95, abs=0.03)
+
+
+def test_predictions_that_err_apart_are_surer_together():
+    rng = np.random.default_rng(8)
+    courses = rng.normal(0, 2.0, (2, 4000, 3))
+    mean, deviation = averaged(courses, [Parted(course, np.full(4000, 4.0), -7.0) for course in courses])
+    assert np.allclose(mean, courses.mean(axis=0))
+    assert np.sqrt((mean**2).mean()) == pytest.approx(np.sqrt(2), rel=0.03)
+    assert np.sqrt(2) < np.sqrt((deviation**2).mean()) < 0.9 * 2
+
+
+def test_predictions_that_err_alike_are_no_surer_together():
+    course = np.random.default_rng(8).normal(0, 2.0, (50, 3))
+    mean, deviation = averaged([course, course], [Parted(course, np.full(50, 4.0), -7.0)] * 2)
+    assert np.allclose(mean, course) and np.allclose(deviation, 2)
+
+
+def test_the_likelier_prediction_counts_for_more():
+    near, far = np.zeros((5, 3)), np.ones((5, 3))
+    parts = [Parted(near, np.full(5, 4.0), -10.0), Parted(far, np.full(5, 9.0), -12.0)]
+    mean, deviation = averaged([near, far], parts)
+    assert np.allclose(mean, 1 / (1 + np.exp(2)))
+    assert (deviation < 2.4).all() and (deviation > 1.9).all()
+
+
+RAMP = np.concatenate([np.arange(1, 21), np.arange(20, 0, -1)])[:, None] / 20
+DAMAGE = {
+    "noise": ("separate_noise", 0.6, np.random.default_rng(4).normal(0, 6.0, (40, 3))),
+    "steps": ("separate_step", 0.1, np.full((40, 3), 12.0)),
+    "slow": ("separate_slow", 0.9, RAMP * [12.0, -9.0, 6.0]),
+}
+
+
+@pytest.fixture(scope="module")
+def wobbling(clean):
+    """One marker moves by some mm in ways of its own, of which the neighbours know nothing."""
+    push = np.random.default_rng(6).normal(0, 4.0, (clean.frames + 30, 3))
+    own = np.stack([np.convolve(axis, np.hanning(31) / np.sqrt(11.25), "valid") for axis in push.T], axis=1)
+    return distorted(clean, own[: clean.frames], 0, clean.frames)
+
+
+@pytest.mark.parametrize("kind", DAMAGE)
+def test_what_was_measured_mends_the_prediction(wobbling, kind):
+    method, share, change = DAMAGE[kind]
+    recording, found = distorted(wobbling, change), {kind: [Event(MARKER, START, STOP, 4.0)]}
+    plain, parted = (mend(recording, found, methods={**METHODS, kind: [own]}) for own in ("local_ridge", method))
+    assert parted.facts["repairs"][0]["method"] == method
+    before, alone, after = (np.sqrt((error(wobbling, one) ** 2).mean()) for one in (recording, plain, parted))
+    assert after < share * alone and after < share * before
+
+
+@pytest.mark.parametrize("kind", DAMAGE)
+def test_several_ridges_predict_together(wobbling, kind):
+    """Each alone is offered by itself; all together are neither worse than the worst nor any of them alone."""
+    method, _, change = DAMAGE[kind]
+    recording, found = distorted(wobbling, change), {kind: [Event(MARKER, START, STOP, 4.0)]}
+    alone, other, both = (
+        mend(recording, found, methods={**METHODS, kind: [method]}, separation={**SEPARATION, "ridges": ridges})
+        for ridges in ([{}], [{"inputs": 4}], [{}, {"inputs": 4}])
+    )
+    apart = [np.sqrt((error(wobbling, one) ** 2).mean()) for one in (alone, other, both)]
+    assert apart[2] <= max(apart[:2]) and apart[2] not in apart[:2]
+
+
+@pytest.mark.parametrize("method", COURSES)
+def test_a_gap_within_stays_a_gap(clean, method):
+    recording = distorted(clean, 12.0)
+    m = clean.markers.index(MARKER)
+    recording.positions[612:618, m] = np.nan
+    result = mend(recording, {"steps": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "steps": [method]})
+    assert result.facts["repairs"][0]["method"] == method
+    assert np.isnan(result.positions[612:618, m]).all() and not np.isnan(result.positions[START:612, m]).any()
+
+
+def test_what_is_too_long_to_part_is_left_to_others(clean):
+    found = {"steps": [Event(MARKER, START, STOP, 4.0)]}
+    given = {**SEPARATION, "most_frames": STOP - START - 1}
+    methods = {**METHODS, "steps": ["separate_step"]}
+    result = mend(distorted(clean, 12.0), found, methods=methods, separation=given)
+    (left,) = result.facts["repairs_left"]
+    assert left["reason"] == "no repair can be trusted (separate_step: not applicable)"
+
+
+def test_a_slow_change_may_begin_before_it_was_found(clean):
+    """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
+    course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
+    recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
+    given = {**SEPARATION, "amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
+    exact, wider = (
+        mend(recording, found, methods={**METHODS, "slow": ["separate_slow"]}, separation={**given, "margins": margins})
+        for margins in ([0], [0, 0.1])
+    )
+    assert error(clean, wider).max() < 0.5 * error(clean, exact).max()
+    outside = np.r_[:START, STOP : clean.frames]
+    assert np.array_equal(wider.positions[outside], recording.positions[outside])
+
+
+def test_beside_a_gap_a_slow_change_begins_where_the_marker_is_seen(clean):
+    m, recording = clean.markers.index(MARKER), distorted(clean, RAMP * [12.0, -9.0, 6.0])
+    recording.positions[STOP : STOP + 20, m] = np.nan
+    result = mend(
+        recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "slow": ["separate_slow"]}
+    )
+    assert result.facts["repairs"][0]["method"] == "separate_slow"
+    assert np.isnan(result.positions[STOP : STOP + 20, m]).all() and error(clean, result).max() < 1

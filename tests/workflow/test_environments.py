@@ -1,0 +1,59 @@
+"""The lock, the conda environments and the imports name the same packages."""
+
+import ast
+import re
+import subprocess
+import sys
+
+import pytest
+import yaml
+
+from support.workflow_runs import PROJECT
+
+LOCK = (PROJECT / "requirements.lock").read_text()
+LOCKED = dict(re.findall(r"^([A-Za-z0-9._-]+)==([^ ;\\]+)", LOCK, re.MULTILINE))
+WANTED = [line for line in (PROJECT / "requirements.in").read_text().split("\n") if line and not line.startswith("#")]
+RUNTIME = WANTED[: WANTED.index("snakemake")]
+
+
+def test_every_locked_package_has_hashes_and_no_home():
+    entries = re.split(r"\n(?=[A-Za-z0-9])", LOCK)[1:]
+    assert len(entries) == len(LOCKED) > len(WANTED)
+    assert all("--hash=sha256:" in entry for entry in entries)
+    assert not re.search(r"https?:|file:|index-url|find-links|^-|/opt/|/home/", LOCK, re.MULTILINE)
+    assert set(WANTED) <= set(LOCKED)
+
+
+@pytest.mark.parametrize("name", ["base", "torch"])
+def test_conda_environments_have_the_locked_versions(name):
+    packages = yaml.safe_load((PROJECT / f"envs/{name}.yaml").read_text())["dependencies"]
+    pinned = dict(re.split("=+", package) for package in packages[:-1] + packages[-1]["pip"])
+    apart = {"python": "3.11", "pip": pinned["pip"], "torch": "2.13.0"}
+    assert {package: LOCKED.get(package, apart.get(package)) for package in pinned} == pinned
+    assert name != "base" or set(RUNTIME) <= set(pinned)
+
+
+def imports(path):
+    """The packages that a file imports anywhere."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name.split(".")[0] for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module.split(".")[0]
+
+
+def test_the_code_imports_nothing_else_and_torch_where_networks_train():
+    imported = {path.name: set(imports(path)) for path in (PROJECT / "scripts").rglob("*.py")}
+    assert set().union(*imported.values()) - sys.stdlib_module_names - {"markermend", "torch"} <= set(RUNTIME)
+    assert [name for name, packages in imported.items() if "torch" in packages] == ["training.py"]
+
+
+def test_make_installs_the_torch_of_the_environment():
+    command = ["make", "--dry-run", "--always-make", ".venv/ready"]
+    usual = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    version = yaml.safe_load((PROJECT / "envs/torch.yaml").read_text())["dependencies"][-1]["pip"][0]
+    assert version.startswith("torch==")
+    # before the lock, which then has the last word on what both need
+    assert usual.index(f"pip install --quiet {version}\n") < usual.index("--require-hashes")
+    without = subprocess.run([*command, "TORCH="], cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+    assert "torch" not in without

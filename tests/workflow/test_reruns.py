@@ -1,0 +1,202 @@
+"""What a second run does: nothing, unless something that a result depends on has changed."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+import yaml
+
+from markermend.planning import code_hashes
+from support.workflow_runs import Project, write_recording
+
+CHAIN = [
+    "ingest", "mesh", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report",
+]  # fmt: skip
+NOTHING = "Nothing to be done"
+FAULT = """
+import os, sys
+if os.path.basename(sys.orig_argv[1]) == "repair.py":
+    replace = os.replace
+    def fail_once(source, target):
+        os.replace = replace
+        raise OSError(28, "No space left on device")
+    os.replace = fail_once
+"""
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory) -> Project:
+    """A project whose workflow has run, on a recording of each of two subjects."""
+    project = Project(tmp_path_factory.mktemp("reruns"))
+    for seed, name in enumerate(["S01/a", "S02/b"]):
+        write_recording(project.recordings / f"{name}.c3d", seed=seed)
+    project.run()
+    return project
+
+
+@contextmanager
+def edited(path: Path, addition: str) -> Iterator[None]:
+    """Append to a file, and take it back."""
+    before = path.read_bytes()
+    path.write_bytes(before + addition.encode())
+    try:
+        yield
+    finally:
+        path.write_bytes(before)
+
+
+def changes(project: Project, recording: str) -> list[dict[str, str]]:
+    """The table of changes of one recording."""
+    with open(project.results / recording / "changes.tsv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file, delimiter="\t"))
+
+
+def places(rows: Iterable[dict[str, str]]) -> list[tuple[str, ...]]:
+    """What changed where."""
+    return [tuple(row[name] for name in ("marker", "first_frame", "last_frame", "class")) for row in rows]
+
+
+def script(rule):
+    return rule.split("_")[0]
+
+
+def test_a_second_run_has_nothing_to_do_and_neither_has_one_after_a_touch(finished):
+    assert NOTHING in finished.plan().text
+    for path in [
+        finished.recordings / "S01/a.c3d",
+        *finished.results.glob("S01/**/0*"),
+        *finished.folder.rglob("*.py"),
+    ]:
+        path.touch()
+    assert NOTHING in finished.plan().text
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "markermend/storage/stage_files.py",
+        "markermend/mesh/segment_tree.py",
+        "markermend/export/write_back.py",
+        "fill.py",
+    ],
+)
+def test_an_edit_reruns_the_first_stage_that_uses_the_module_and_what_follows(finished, module):
+    users = [
+        stage for stage in CHAIN if module in str(code_hashes.code(finished.folder / f"scripts/{script(stage)}.py"))
+    ]
+    with edited(finished.folder / "scripts" / module, "\n# edited\n"):
+        plan = finished.plan()
+    assert plan.parameters_changed == {users[0]}
+    assert set(plan.jobs) == {*CHAIN[CHAIN.index(users[0]) :], "all"}
+    assert f"now: '{module}:" in plan.text
+
+
+@pytest.mark.parametrize(("stage", "change"), [("steps", {"default": {"sigmas": 7.5}}), ("qc", {"plots": 7})])
+def test_an_option_reruns_its_stage_and_what_follows(finished, stage, change, tmp_path):
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({stage: change}))
+    plan = finished.plan("--configfile", str(tmp_path / "study.yaml"))
+    assert plan.parameters_changed == {stage}
+    assert plan.jobs == {**dict.fromkeys(CHAIN[CHAIN.index(stage) : -1], 2), "report": 1, "all": 1}
+
+
+def test_an_added_recording_reruns_what_its_subject_shares_and_the_report(finished):
+    write_recording(finished.recordings / "S02/new.c3d", seed=9)
+    plan = finished.plan()
+    (finished.recordings / "S02/new.c3d").unlink()
+    assert plan.jobs == {"ingest": 1, "mesh": 1, **dict.fromkeys(CHAIN[2:-1], 2), "report": 1, "all": 1}
+    assert "S01" not in plan.text.partition("Building DAG")[2].replace("S01/a/08", "")
+
+
+def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
+    found = changes(finished, "S01/a")
+    peak = next(row for row in found if row["class"] == "peak")
+    untouched = changes(finished, "S02/b")
+    line = "\t".join(
+        [*(peak[name] for name in ("recording", "marker", "first_frame", "last_frame")), "reject\tpeak\thop"]
+    )
+    with edited(finished.folder / "config/decisions.tsv", f"{line}\n"):
+        plan = finished.plan()
+        assert plan.jobs == {**dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)}
+        assert plan.parameters_changed == {"repair"}
+        finished.run()
+        assert places(changes(finished, "S01/a")) == places(row for row in found if row != peak)
+        assert changes(finished, "S02/b") == untouched
+        page = (finished.results / "S01/a/page.html").read_text()
+        assert "a person decided: reject peak (hop)" in page and "What a person decided" in page
+        with edited(finished.folder / "config/decisions.tsv", "b\tM1\t41\t50\treject\tgap\n"):
+            assert finished.plan().jobs == plan.jobs
+        assert NOTHING in finished.plan().text
+    finished.run()
+    assert changes(finished, "S01/a") == found
+
+
+def test_a_table_of_decisions_that_contradicts_itself_stops_before_anything_runs(finished):
+    path = finished.folder / "config/decisions.tsv"
+    with edited(path, "a\tM1\t1\t5\taccept\nb\tM1\t5\t7\tacept\na\tM*\t5\t7\treject\n"):
+        done = subprocess.run(
+            finished.command("-n"), cwd=finished.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+    assert done.returncode == 1 and "Traceback" not in done.stdout
+    assert f"decisions: {path} cannot be used" in done.stdout
+    assert "line 3, column decision: 'acept' is none of" in done.stdout
+    assert "lines 2 and 4 contradict each other: M1 accept, M* reject" in done.stdout
+
+
+def test_a_table_of_decisions_that_was_named_must_be_there(finished, tmp_path):
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"decisions": str(tmp_path / "none.tsv")}))
+    done = subprocess.run(
+        finished.command("-n", "--configfile", str(tmp_path / "study.yaml")),
+        cwd=finished.folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert done.returncode == 1 and f"{tmp_path}/none.tsv" in done.stdout and "Traceback" not in done.stdout
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"decisions": None}))
+    assert NOTHING in finished.plan("--configfile", str(tmp_path / "study.yaml")).text
+
+
+def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(FAULT)
+    write_recording(tmp_path / "recordings/S01/a.c3d", seed=1)
+    places = {"recordings": tmp_path / "recordings", "results": tmp_path / "results"}
+    here = tmp_path / "results/S01/a"
+    text = finished.run(environment={"PYTHONPATH": str(tmp_path)}, **places)
+    assert "set aside: S01/a: repair failed: OSError: [Errno 28] No space left on device" in text
+    assert (here / "failures.tsv").read_text().count("\n") == 1
+    assert json.loads((here / "08_qc.json").read_text())["status"] == "set aside"
+
+    assert finished.plan(**places).parameters_changed == {"repair"}
+    assert "set aside" not in finished.run(**places)
+    assert json.loads((here / "08_qc.json").read_text())["status"] != "set aside"
+    assert NOTHING in finished.plan(**places).text
+
+
+def test_a_killed_run_is_finished_by_the_same_command_with_the_same_bytes(finished, tmp_path):
+    results = tmp_path / "results"
+    run = subprocess.Popen(
+        finished.command(results=results),
+        cwd=finished.folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not list(results.glob("*/*/02_peaks.parquet")) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.killpg(run.pid, signal.SIGKILL)
+    run.wait()
+    assert not (results / "report/index.html").exists()
+
+    finished.run(results=results)
+    undisturbed, resumed = finished.outputs(), finished.outputs(results)
+    left = {name for name in resumed.keys() - undisturbed.keys() if not Path(name).name.startswith(".")}
+    assert not left
+    assert {name: resumed[name] == content for name, content in undisturbed.items()} == dict.fromkeys(undisturbed, True)
