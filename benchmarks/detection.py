@@ -32,6 +32,10 @@ from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
+from markermend.options.detection import FrozenOptions, LabelsOptions, TailsOptions
+from markermend.options.published import PublishedSlowOptions
+from markermend.options.repair import RepairOptions
+
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
@@ -49,15 +53,14 @@ from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
 from markermend.prediction.registry import REGISTRY, SHARED, members
 from markermend.prediction.scene import Scene
-from markermend.repair.candidates import RepairOptions
 from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.protocols import PROCEDURES
 
 PROJECT = Path(__file__).resolve().parents[1]
 UNMEASURED = {
-    "frozen": (frozen.detect_frozen, frozen.FrozenSettings),
-    "tails": (tails.detect_tails, tails.TailSettings),
+    "frozen": (frozen.detect_frozen, FrozenOptions),
+    "tails": (tails.detect_tails, TailsOptions),
 }
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": detection_slow}
 GLITCHES = Path(__file__).with_name("confirmed_glitches.tsv")
@@ -87,11 +90,11 @@ def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
             given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
             found[kind] = look(scene, settings=settings(**config[kind]), **given)
             claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=labels.SwapSettings(**config["swaps"]))
+        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=LabelsOptions(**config["swaps"]))
         scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
     for kind, module in DETECTORS.items():
         settings = module.settings({**config[kind], "preset": preset})
-        if isinstance(settings, slow.CoordinateSlow):
+        if isinstance(settings, PublishedSlowOptions):
             predictor = slow.predictor(settings, config)
         given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
         result = getattr(module, f"detect_{kind}")(scene, settings=settings, **given)

@@ -23,6 +23,8 @@ from dataclasses import replace
 from functools import cache, partial, reduce
 from pathlib import Path
 
+from markermend.options.filling import EnsembleOptions, FillOptions
+
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
@@ -30,8 +32,7 @@ import numpy as np
 import yaml
 
 from markermend.core.recording import MEASURED, MISSING, Restored
-from markermend.filling.eligibility import FillOptions
-from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.filling.ensemble import Ensemble
 from markermend.filling.fill import fill_gaps
 from markermend.formats import files
 from markermend.formats.ingest import ingest

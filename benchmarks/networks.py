@@ -14,13 +14,14 @@ import sys
 import time
 from pathlib import Path
 
+from markermend.options.prediction import NeuralNetworkOptions
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import torch
 import yaml
 
-from markermend.prediction.neural_network.options import NetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import walk
@@ -69,7 +70,9 @@ def main():
     parser.add_argument("--frames", type=int, default=OPTIONS["frames"], help="training frames, at most")
     arguments = parser.parse_args()
     batch = max(arguments.networks)
-    options = NetworkOptions(**{**OPTIONS, "epochs": arguments.epochs, "frames": arguments.frames, "batch": batch})
+    options = NeuralNetworkOptions(
+        **{**OPTIONS, "epochs": arguments.epochs, "frames": arguments.frames, "batch": batch}
+    )
     print(f"{torch.cuda.get_device_name() if torch.cuda.is_available() else 'CPU'}, {torch.get_num_threads()} threads")
     print(f"{options.frames} frames, {options.epochs} epochs\n")
     print(f"{'kind':16} {'networks':>8} {'at once, s':>11} {'one by one, s':>14} {'ratio':>6} {'apart, mm':>10}")

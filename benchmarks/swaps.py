@@ -17,12 +17,14 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
+from markermend.options.detection import LabelsOptions
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import yaml
 
-from markermend.detection.labels import SwapSettings, detect_swaps, undone
+from markermend.detection.labels import detect_swaps, undone
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
 from markermend.prediction.scene import Scene
@@ -78,7 +80,7 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
     arguments = parser.parse_args()
     config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
-    settings = SwapSettings(**config["swaps"])
+    settings = LabelsOptions(**config["swaps"])
     tried: Counter[tuple[str, int, int]] = Counter()
     right: Counter[tuple[str, int, int]] = Counter()
     false = in_clean = 0

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 from markermend.command.stage import Stage, boolean, mapping, objects, optional
 from markermend.core import decisions
-from markermend.filling.eligibility import FillOptions
-from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.filling.ensemble import Ensemble
 from markermend.filling.fill import fill_gaps
+from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.prediction.registry import FAMILIES, REGISTRY, members
 from markermend.storage import mesh_file, stage_files
 

@@ -5,7 +5,8 @@ Writes: 02_frozen.parquet.
 """
 
 from markermend.command import detector
-from markermend.detection.frozen import FrozenSettings, detect_frozen
+from markermend.detection.frozen import detect_frozen
+from markermend.options.detection import FrozenOptions
 
 STAGE = detector.unmeasured_stage("frozen", __doc__, finds="frozen stretches")
 STAGE.option("frames", int, "frames with the same position, at least")
@@ -15,7 +16,7 @@ STAGE.option("sigmas", float, "and the marker by so many standard deviations of 
 
 
 def work(call):
-    return detector.search(call, detect_frozen, FrozenSettings)
+    return detector.search(call, detect_frozen, FrozenOptions)
 
 
 def main(argv=None):

@@ -6,8 +6,8 @@ Writes: 06_repaired.parquet.
 
 from markermend.command.stage import Stage, mapping, objects
 from markermend.core import decisions
+from markermend.options.repair import RepairOptions
 from markermend.prediction.registry import FAMILIES, REGISTRY, SHARED, members
-from markermend.repair.candidates import RepairOptions
 from markermend.repair.methods import METHODS
 from markermend.repair.repair import repair
 from markermend.storage import mesh_file, stage_files

@@ -8,6 +8,7 @@ from markermend.command import detector
 from markermend.command.stage import mapping
 from markermend.detection import slow as detection_slow
 from markermend.detection.published import slow
+from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.lagged_regression.predictor import LOOSE
 from markermend.storage import stage_files
 
@@ -19,7 +20,7 @@ for name in LOOSE:
 def work(call):
     given, _ = detector.arguments(call)
     settings = detection_slow.settings(call.options)
-    if isinstance(settings, slow.CoordinateSlow):
+    if isinstance(settings, PublishedSlowOptions):
         given["predictor"] = slow.predictor(settings, call.options)
     found = detection_slow.detect_slow(**given, settings=settings)
     stage_files.write_events(call.events, found, call.facts)

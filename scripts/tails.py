@@ -5,7 +5,8 @@ Writes: 02_tails.parquet.
 """
 
 from markermend.command import detector
-from markermend.detection.tails import TailSettings, detect_tails
+from markermend.detection.tails import detect_tails
+from markermend.options.detection import TailsOptions
 
 STAGE = detector.unmeasured_stage("tails", __doc__, finds="noisy tails")
 STAGE.option("longest_s", float, "longest tail, s")
@@ -18,7 +19,7 @@ STAGE.option("weak", float, "half of its samples must exceed this share of that 
 
 
 def work(call):
-    return detector.search(call, detect_tails, TailSettings)
+    return detector.search(call, detect_tails, TailsOptions)
 
 
 def main(argv=None):

@@ -4,8 +4,8 @@ import numpy as np
 import yaml
 
 from markermend.core.recording import MEASURED, MISSING, Restored
-from markermend.filling.eligibility import FillOptions
-from markermend.filling.ensemble import Ensemble, EnsembleOptions
+from markermend.filling.ensemble import Ensemble
+from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.prediction.registry import FAMILIES, members
 from markermend.prediction.scene import Scene
 from support.paths import PROJECT

@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.repair import RepairOptions
 from markermend.prediction.interpolation import Interpolation
-from markermend.prediction.local_ridge.inputs import RidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.repair.candidates import RepairOptions
 from markermend.repair.repair import repair
 from support import bodies
 
-RIDGE = RidgeOptions(
+RIDGE = LocalRidgeOptions(
     anchors=3,
     inputs=8,
     width_mm=5,

@@ -13,14 +13,14 @@ from markermend.detection import steps as detection_steps
 from markermend.detection.published import noise, peaks, steps
 from markermend.numerics import interpolation, intervals
 from markermend.numerics.intervals import runs
-from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 from support.paths import PROJECT
 
 CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text())
 RATES = (50.0, 100.0, 200.0)
-RIDGE = LocalRidge(RidgeOptions(**CONFIG["local_ridge"]))
+RIDGE = LocalRidge(LocalRidgeOptions(**CONFIG["local_ridge"]))
 DETECTORS = {"peaks": detection_peaks, "noise": detection_noise, "steps": detection_steps, "slow": slow}
 NOTHING = {"peaks": [], "noise": [], "steps": []}
 

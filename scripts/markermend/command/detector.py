@@ -15,8 +15,8 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.detection import labels
-from markermend.detection.labels import SwapSettings
-from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.options.detection import LabelsOptions
+from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file as storage_mesh_file
@@ -61,10 +61,10 @@ def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
     recording, scene, earlier = read(call.markers, call.mesh, call.earlier)
     swapped: list[events.Event] = []
     if call.options["preset"] != "paper":
-        settings = SwapSettings(**call.options["swaps"])
+        settings = LabelsOptions(**call.options["swaps"])
         swapped = labels.detect_swaps(scene, markers=recording.markers, settings=settings)
         scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
-    predictor = LocalRidge(RidgeOptions(**call.options["local_ridge"]))
+    predictor = LocalRidge(LocalRidgeOptions(**call.options["local_ridge"]))
     return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}, swapped
 
 
@@ -104,7 +104,7 @@ def search(call: Any, detect: Callable[..., list[Event]], settings: type) -> str
     """
     recording, scene, earlier = detector.read(call.markers, call.mesh, call.earlier)
     options = dict(call.options)
-    predictor = LocalRidge(RidgeOptions(**options.pop("local_ridge")))
+    predictor = LocalRidge(LocalRidgeOptions(**options.pop("local_ridge")))
     given = {"markers": recording.markers, "earlier": earlier, "predictor": predictor}
     found = detect(scene, settings=settings(**options), **given)
     stage_files.write_events(call.events, found, call.facts)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,26 +10,12 @@ from markermend.core.events import Event
 from markermend.detection import inputs, prediction_discrepancy
 from markermend.detection.prediction_discrepancy import Place
 from markermend.numerics.intervals import runs
+from markermend.options.detection import FrozenOptions
 from markermend.prediction.scene import Predictor, Scene
 
 
-@dataclass(frozen=True)
-class FrozenSettings:
-    """What counts as frozen (config section `frozen`).
-
-    frames: so many frames with the same position, at least. floor_mm: the nearest neighbours must move by this much
-    meanwhile, and so must the marker by what they tell. neighbours: how many of them. sigmas: the marker must have moved
-    by so many standard deviations of the prediction.
-    """
-
-    frames: int
-    floor_mm: float
-    neighbours: int
-    sigmas: float
-
-
 def detect_frozen(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: FrozenSettings, predictor: Predictor
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: FrozenOptions, predictor: Predictor
 ) -> list[Event]:
     """Find frozen stretches; the first sample of each was measured and is not part of it.
 
@@ -51,7 +36,7 @@ def detect_frozen(
     return sorted(found, key=lambda event: event.order)
 
 
-def _repeated(scene: Scene, settings: FrozenSettings) -> Iterator[Place]:
+def _repeated(scene: Scene, settings: FrozenOptions) -> Iterator[Place]:
     """Where a position is repeated while the nearest neighbours that are seen move, without its first sample."""
     same = (scene.positions[1:] == scene.positions[:-1]).all(axis=2)
     for m, around in enumerate(scene.neighbours):
@@ -61,7 +46,7 @@ def _repeated(scene: Scene, settings: FrozenSettings) -> Iterator[Place]:
                 yield m, first + 1, last + 1
 
 
-def _moves(scene: Scene, around: np.ndarray, start: int, stop: int, settings: FrozenSettings) -> bool:
+def _moves(scene: Scene, around: np.ndarray, start: int, stop: int, settings: FrozenOptions) -> bool:
     """Whether each of the nearest neighbours that are seen throughout moves by more than the floor; there must be three."""
     seen = around[scene.present[start:stop, around].all(axis=0)][: settings.neighbours]
     course = scene.positions[start:stop, seen]

@@ -18,26 +18,8 @@ from markermend.core.events import Event
 from markermend.detection import label_permutations
 from markermend.numerics import intervals, robust
 from markermend.numerics.intervals import runs
+from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class SwapSettings:
-    """What counts as a swap (config section `swaps`).
-
-    ratio: what is left of an exchange's jump once it is undone is at most this part of it. jump: a step from frame to
-    frame departs from the median over window_s by so many times the usual departure. floor_mm: and by at least so much.
-    near: neighbours of either marker that tell the shape. trust: labels are believed as much as a shape of this
-    clearness (0 to 1). clear: how clearly shape and trust together must tell the swapped part from the rest (0 to 1).
-    """
-
-    ratio: float
-    jump: float
-    window_s: float
-    floor_mm: float
-    near: int
-    trust: float
-    clear: float
 
 
 @dataclass(frozen=True)
@@ -60,7 +42,7 @@ def _usual(change: np.ndarray, window: int) -> np.ndarray:
     return np.nan_to_num(robust.moving_median_across(change, window))
 
 
-def jumping(positions: np.ndarray, *, window: int, settings: SwapSettings) -> np.ndarray:
+def jumping(positions: np.ndarray, *, window: int, settings: LabelsOptions) -> np.ndarray:
     """Bool (frames, markers): True where a marker's velocity breaks as an exchange would make it.
 
     positions: (frames, markers, 3), mm, NaN = missing. The step to this frame differs from the median of the steps about
@@ -76,7 +58,7 @@ def jumping(positions: np.ndarray, *, window: int, settings: SwapSettings) -> np
     return out
 
 
-def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: SwapSettings) -> list[Exchange]:
+def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: LabelsOptions) -> list[Exchange]:
     """Find the frames at which two markers change places, in time; a marker takes part in one at a time.
 
     scene: positions (frames, markers, 3), mm, NaN = missing. sudden, window: see jumping.
@@ -99,7 +81,7 @@ def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: SwapSe
     return _disjoint(found)
 
 
-def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings: SwapSettings) -> list[Exchange]:
+def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings: LabelsOptions) -> list[Exchange]:
     """The exchange of two markers that are seen on both sides of it, if it is one and leaves nothing like a jump.
 
     Where three markers change places in a ring, exchanging two of them would leave a smaller jump.
@@ -116,7 +98,7 @@ def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings:
     return _accept(a, b, t, turned, max(left, drift), settings)
 
 
-def _half(positions: np.ndarray, a: int, b: int, t: int, settings: SwapSettings) -> list[Exchange]:
+def _half(positions: np.ndarray, a: int, b: int, t: int, settings: LabelsOptions) -> list[Exchange]:
     """The exchange of a marker with one that is seen on one side of it alone, if it is one."""
     jump = float(_length(positions[t, a] - positions[t - 1, a]))
     if np.isnan(positions[t, b, 0]):
@@ -126,7 +108,7 @@ def _half(positions: np.ndarray, a: int, b: int, t: int, settings: SwapSettings)
     return _accept(a, b, t, jump, left, settings)
 
 
-def _accept(a: int, b: int, t: int, jump: float, left: float, settings: SwapSettings) -> list[Exchange]:
+def _accept(a: int, b: int, t: int, jump: float, left: float, settings: LabelsOptions) -> list[Exchange]:
     """The exchange, if little enough of its jump is left once it is undone."""
     if jump < settings.floor_mm or left > settings.ratio * jump:
         return []
@@ -164,7 +146,7 @@ def shape_vote(scene: Scene, a: int, b: int, *, near: int) -> np.ndarray:
 
 
 def swapped(
-    scene: Scene, a: int, b: int, own: Sequence[Exchange], *, settings: SwapSettings
+    scene: Scene, a: int, b: int, own: Sequence[Exchange], *, settings: LabelsOptions
 ) -> list[tuple[int, int, float]]:
     """The intervals over which two markers stand in for each other: start, stop, and score, given their exchanges.
 
@@ -188,7 +170,7 @@ def swapped(
     return found
 
 
-def detect_swaps(scene: Scene, *, markers: Sequence[str], settings: SwapSettings) -> list[Event]:
+def detect_swaps(scene: Scene, *, markers: Sequence[str], settings: LabelsOptions) -> list[Event]:
     """Find the swaps of a recording: one event for each marker, with that under whose label it is as partner.
 
     Two markers are each other's partners; three and more form a ring of partners. All have the same interval.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,29 +11,17 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import increments as neighbour_increments
-from markermend.detection.neighbour.increments import Changes, SuddenSettings
+from markermend.detection.neighbour.increments import Changes
 from markermend.detection.published import coordinatewise
-from markermend.detection.published.noise import CoordinateNoise, find_noise
+from markermend.detection.published.noise import find_noise
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+from markermend.options.detection import NoiseOptions
+from markermend.options.published import PublishedNoiseOptions
 from markermend.prediction.scene import ResidualSource, Scene
 
 
-@dataclass(frozen=True)
-class NeighbourNoise(SuddenSettings):
-    """Settings of the detector against the neighbours (config noise.default), beside those of sudden changes.
-
-    link_s: sudden changes so near belong together. shortest_s: shortest stretch. density: share of its samples that
-    change suddenly. minimum_changes: and how many of them at least.
-    """
-
-    link_s: float
-    shortest_s: float
-    density: float
-    minimum_changes: int
-
-
-def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settings: NeighbourNoise) -> list[Event]:
+def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settings: NoiseOptions) -> list[Event]:
     """Find the stretches of heavy noise of one marker among its sudden changes."""
     score, vector = changes.score[:, marker], changes.vector[:, marker]
     shortest, link = intervals.samples(settings.shortest_s, rate), intervals.samples(settings.link_s, rate)
@@ -53,9 +40,9 @@ def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settin
     return found
 
 
-def settings(options: Mapping[str, Any]) -> CoordinateNoise | NeighbourNoise:
+def settings(options: Mapping[str, Any]) -> PublishedNoiseOptions | NoiseOptions:
     """The settings of the preset that the config section `noise` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": NeighbourNoise, "coordinates": CoordinateNoise, "paper": CoordinateNoise}
+    kinds = {"default": NoiseOptions, "coordinates": PublishedNoiseOptions, "paper": PublishedNoiseOptions}
     return inputs.preset(options, kinds)
 
 
@@ -64,7 +51,7 @@ def detect_noise(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CoordinateNoise | NeighbourNoise,
+    settings: PublishedNoiseOptions | NoiseOptions,
     predictor: ResidualSource,
 ) -> list[Event]:
     """Find the stretches of heavy noise of a recording.
@@ -74,7 +61,7 @@ def detect_noise(
     detector against the neighbours alone.
     """
     rate = scene.rate
-    if isinstance(settings, CoordinateNoise):
+    if isinstance(settings, PublishedNoiseOptions):
         return coordinatewise.detect(
             scene,
             lambda signal, _: find_noise(signal, rate=rate, settings=settings),

@@ -11,16 +11,17 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import pulses, residual_windows
-from markermend.detection.neighbour.pulses import ExcursionSettings
 from markermend.detection.neighbour.residual_windows import Courses
 from markermend.detection.published import coordinatewise
-from markermend.detection.published.peaks import CoordinatePeaks, find_peaks
+from markermend.detection.published.peaks import find_peaks
+from markermend.options.detection import PeaksOptions
+from markermend.options.published import PublishedPeaksOptions
 from markermend.prediction.scene import ResidualSource, Scene
 
 
-def settings(options: Mapping[str, Any]) -> CoordinatePeaks | ExcursionSettings:
+def settings(options: Mapping[str, Any]) -> PublishedPeaksOptions | PeaksOptions:
     """The settings of the preset that the config section `peaks` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": ExcursionSettings, "coordinates": CoordinatePeaks, "paper": CoordinatePeaks}
+    kinds = {"default": PeaksOptions, "coordinates": PublishedPeaksOptions, "paper": PublishedPeaksOptions}
     return inputs.preset(options, kinds)
 
 
@@ -29,7 +30,7 @@ def detect_peaks(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CoordinatePeaks | ExcursionSettings,
+    settings: PublishedPeaksOptions | PeaksOptions,
     predictor: ResidualSource,
 ) -> list[Event]:
     """Find the isolated peaks of a recording.
@@ -39,7 +40,7 @@ def detect_peaks(
     detector against the neighbours alone.
     """
     rate = scene.rate
-    if isinstance(settings, CoordinatePeaks):
+    if isinstance(settings, PublishedPeaksOptions):
         return coordinatewise.detect(
             scene,
             lambda signal, _: find_peaks(signal, rate=rate, settings=settings),

@@ -18,16 +18,17 @@ from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_attribution import Company
-from markermend.detection.neighbour.drift_candidates import Matches, NeighbourSlow, bar, frames, measure
+from markermend.detection.neighbour.drift_candidates import Matches, bar, frames, measure
 from markermend.detection.published import slow
-from markermend.detection.published.slow import CoordinateSlow
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+from markermend.options.detection import SlowOptions
+from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
 
-def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, settings: NeighbourSlow) -> list[Event]:
+def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, settings: SlowOptions) -> list[Event]:
     """Find the slow changes of one marker: the bumps that stand out, the clearest first, each with room about it.
 
     A bump that is altogether plain may be the tip of a longer one: it lasts as long as it takes to come to rest.
@@ -56,15 +57,15 @@ def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, setting
     return found
 
 
-def stands_out(residual: np.ndarray, start: int, stop: int, *, settings: NeighbourSlow) -> bool:
+def stands_out(residual: np.ndarray, start: int, stop: int, *, settings: SlowOptions) -> bool:
     """Whether a residual (frames, 3) rises high enough in [start, stop), from rest to rest."""
     least = max(settings.floor_mm, drift_shape.unrest(residual, start, stop, flank=settings.flank) / settings.rest)
     return drift_shape.height(residual, start, stop, flank=settings.flank) >= least
 
 
-def settings(options: Mapping[str, Any]) -> CoordinateSlow | NeighbourSlow:
+def settings(options: Mapping[str, Any]) -> PublishedSlowOptions | SlowOptions:
     """The settings of the preset that the config section `slow` asks for; raises ValueError for an unknown one."""
-    return inputs.preset(options, {"default": NeighbourSlow, "paper": CoordinateSlow})
+    return inputs.preset(options, {"default": SlowOptions, "paper": PublishedSlowOptions})
 
 
 def detect_slow(
@@ -72,7 +73,7 @@ def detect_slow(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CoordinateSlow | NeighbourSlow,
+    settings: PublishedSlowOptions | SlowOptions,
     predictor: Any,
 ) -> list[Event]:
     """Find the slow changes of a recording.
@@ -81,7 +82,7 @@ def detect_slow(
     detectors before claimed. settings: of one of the two detectors. predictor: a ResidualSource for the one of single
     coordinates, a LocalRidge for the other, which changes its settings.
     """
-    if isinstance(settings, CoordinateSlow):
+    if isinstance(settings, PublishedSlowOptions):
         return slow.detect(scene, markers=markers, earlier=earlier, settings=settings, predictor=predictor)
     rest = inputs.without(scene, earlier)
     source = LocalRidge(replace(predictor.options, **settings.ridge))

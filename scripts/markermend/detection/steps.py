@@ -13,14 +13,16 @@ from markermend.core import events
 from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
 from markermend.detection.neighbour import edges, residual_windows
-from markermend.detection.neighbour.level_shifts import NeighbourSteps, cut_short, judge_steps
+from markermend.detection.neighbour.level_shifts import cut_short, judge_steps
 from markermend.detection.neighbour.residual_windows import Courses
-from markermend.detection.published.steps import CoordinateSteps, _detect_in_coordinates
+from markermend.detection.published.steps import _detect_in_coordinates
+from markermend.options.detection import StepsOptions
+from markermend.options.published import PublishedStepsOptions
 from markermend.prediction.scene import ResidualSource, Scene
 
 
 def open_steps(
-    course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: NeighbourSteps
+    course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: StepsOptions
 ) -> list[OpenStep]:
     """List the jumps that no event begins or ends with, by marker and frame."""
     used = {(event.marker, frame) for event in found for frame in range(event.start, event.stop + 1)}
@@ -32,9 +34,9 @@ def open_steps(
     ]
 
 
-def settings(options: Mapping[str, Any]) -> CoordinateSteps | NeighbourSteps:
+def settings(options: Mapping[str, Any]) -> PublishedStepsOptions | StepsOptions:
     """The settings of the preset that the config section `steps` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": NeighbourSteps, "coordinates": CoordinateSteps, "paper": CoordinateSteps}
+    kinds = {"default": StepsOptions, "coordinates": PublishedStepsOptions, "paper": PublishedStepsOptions}
     return inputs.preset(options, kinds)
 
 
@@ -43,7 +45,7 @@ def detect_steps(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CoordinateSteps | NeighbourSteps,
+    settings: PublishedStepsOptions | StepsOptions,
     predictor: ResidualSource,
 ) -> tuple[list[Event], list[OpenStep]]:
     """Find the steps of a recording, and the jumps that remain without a counterpart.
@@ -52,14 +54,14 @@ def detect_steps(
     detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
-    if isinstance(settings, CoordinateSteps):
+    if isinstance(settings, PublishedStepsOptions):
         return _detect_in_coordinates(scene, markers=markers, earlier=earlier, settings=settings)
     rate = scene.rate
     maps, length = edges.central(rate, settings)
     missing = ~scene.present
     clear = replace(settings, weak=1.0)  # weak jumps are no ground to suspect several markers: motion makes many
 
-    def judge(course: Courses, m: int, by: NeighbourSteps) -> list[Event]:
+    def judge(course: Courses, m: int, by: StepsOptions) -> list[Event]:
         return judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=by)
 
     found, course = residual_windows.detect(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,31 +11,13 @@ from markermend.core.events import Event
 from markermend.detection import inputs, prediction_discrepancy
 from markermend.detection.prediction_discrepancy import Place
 from markermend.numerics.intervals import runs, samples
+from markermend.options.detection import TailsOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
 
-@dataclass(frozen=True)
-class TailSettings:
-    """What counts as a tail (config section `tails`).
-
-    longest_s: of a tail. before_s: samples beyond that, further from the gap, which must be there. changes: a tail begins
-    with a sudden change, so many times as large as is usual for the marker within activity_s. floor_mm, sigmas: how far
-    from where it should be its worst sample must be, in mm and in standard deviations of the prediction. weak: at least
-    half of its samples must exceed this share of that.
-    """
-
-    longest_s: float
-    before_s: float
-    activity_s: float
-    changes: float
-    floor_mm: float
-    sigmas: float
-    weak: float
-
-
 def detect_tails(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: TailSettings, predictor: LocalRidge
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: TailsOptions, predictor: LocalRidge
 ) -> list[Event]:
     """Find noisy tails on either side of gaps.
 
@@ -60,7 +41,7 @@ def detect_tails(
     return events.tidy(found)
 
 
-def _suspects(scene: Scene, believed: Scene, settings: TailSettings, predictor: LocalRidge) -> list[tuple[Place, int]]:
+def _suspects(scene: Scene, believed: Scene, settings: TailsOptions, predictor: LocalRidge) -> list[tuple[Place, int]]:
     """From the first sudden change beside a gap up to the gap, each with the side on which the gap is."""
     lengths = settings.longest_s, settings.before_s, settings.activity_s
     longest, before, activity = (max(2, samples(length, scene.rate)) for length in lengths)

@@ -4,31 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
+
+from markermend.options.filling import RadiusOptions
 
 PROBABILITIES = 0.68, 0.95
 """Those of the balls `error` and `error95`."""
 _QUANTILES = 0.467699, 1.644854
 """Of the standard normal distribution at the two probabilities."""
-
-
-@dataclass(frozen=True)
-class RadiusOptions:
-    """What is believed about radii before a recording is looked at (config section `fill.ensemble`, key `radius`).
-
-    inner, outer: radii of the 68 and 95 % balls in units of the stated standard deviation per axis (Gaussian: 1.872 and
-    2.795). trials: how many pseudo-gaps of the recording weigh as much as that belief.
-    """
-
-    inner: float
-    outer: float
-    trials: float
-
-    def __post_init__(self) -> None:
-        if not 0 < self.inner < self.outer or self.trials <= 0:
-            raise ValueError("radii: 0 < inner < outer and trials > 0")
 
 
 def radii(missed: Sequence[np.ndarray], options: RadiusOptions) -> tuple[float, float]:

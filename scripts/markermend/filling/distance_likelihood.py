@@ -13,28 +13,9 @@ import numpy as np
 from markermend.filling.constraints import constrain_spacing
 from markermend.filling.model_averaging import pma_likelihood
 from markermend.numerics.kernel_density import Density, kernel_density
+from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import references, thinned
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class DistanceOptions:
-    """Settings of both (config section `fill.ensemble`, key `distances`).
-
-    references: distances to so many are judged. minimum_frames: joint frames that make a reference. frames: most frames
-    and samples used to learn distances. smoothing_s: moving average over the likelihoods. floor: least likelihood.
-    spacing_references, spacing_low, spacing_high, spacing_rounds: see constrain_spacing (0 rounds: off).
-    """
-
-    references: int
-    minimum_frames: int
-    frames: int
-    smoothing_s: float
-    floor: float
-    spacing_references: int
-    spacing_low: float
-    spacing_high: float
-    spacing_rounds: int
 
 
 @dataclass(frozen=True, eq=False)

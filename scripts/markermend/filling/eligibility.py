@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
@@ -12,28 +12,7 @@ import numpy as np
 from markermend.core.decisions import Ruling
 from markermend.core.recording import Restored
 from markermend.numerics.intervals import runs
-
-
-@dataclass(frozen=True)
-class FillOptions:
-    """What may be filled (config section `fill`).
-
-    max_gap_s: longest gap filled, s, None = any. max_gap_s_of: the same for name patterns of markers. ends: whether
-    gaps at the recording's ends are filled. protect: name patterns of markers never filled. seen_share: markers seen in
-    fewer of the frames are left alone. border_s: how long the marker must be seen without a break on either side, s.
-    max_error_mm: gaps whose expected error (68 %) exceeds it stay open, None = any. max_altered_share: if more of the
-    recording's samples were altered, nothing is filled. reuse: filled markers are references for later ones.
-    """
-
-    max_gap_s: float | None
-    max_gap_s_of: Mapping[str, float]
-    ends: bool
-    protect: Sequence[str]
-    seen_share: float
-    border_s: float
-    max_error_mm: float | None
-    max_altered_share: float
-    reuse: bool
+from markermend.options.filling import FillOptions
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,14 @@ markers that the real gap misses. They also calibrate the error that is stated f
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from markermend.filling.constraints import constrain_time
-from markermend.filling.distance_likelihood import DistanceOptions, Distances
+from markermend.filling.distance_likelihood import Distances
 from markermend.filling.member_weights import (
     Trust,
     expected_errors,
@@ -26,45 +26,9 @@ from markermend.filling.member_weights import (
 )
 from markermend.filling.model_averaging import weighted_mean
 from markermend.filling.pseudo_gaps import pseudo_gaps
+from markermend.options.filling import DistanceOptions, EnsembleOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Predictor, Scene, Trainable
-
-WEIGHTS = ("error", "pma", "both", "equal")
-"""Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all alike."""
-
-
-@dataclass(frozen=True)
-class EnsembleOptions:
-    """Settings of the averaging (config section `fill`, key `ensemble`).
-
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. fallback:
-    members that are asked only where no other that looks at the body can tell. power: weights fall with this power of
-    the error. pseudo_gaps: so many are tried. hidden_share: share of a marker's samples that are hidden at once for
-    trials, which then share what is learned without them. similar_length, similar_neighbours: gaps of a marker share
-    their pseudo-gaps if their lengths differ by less than this factor and the same of so many nearest neighbours are
-    missing; of a marker at most `most_sorts` sorts of gaps have pseudo-gaps of their own. worst: members whose error exceeds the best member's by this factor are left out. distances: see
-    DistanceOptions. error_mm: least error of a member. prior: weight of the stated errors, in pseudo-gaps, against what
-    the pseudo-gaps of a gap tell. radius: see RadiusOptions.
-    """
-
-    weights: str
-    longest_s: Mapping[str, float]
-    fallback: Sequence[str]
-    power: float
-    pseudo_gaps: int
-    hidden_share: float
-    similar_length: float
-    similar_neighbours: int
-    most_sorts: int
-    worst: float
-    distances: Mapping[str, float]
-    error_mm: float
-    prior: float
-    radius: Mapping[str, float]
-
-    def __post_init__(self) -> None:
-        if self.weights not in WEIGHTS:
-            raise ValueError(f"unknown weights {self.weights!r}: one of {', '.join(WEIGHTS)}")
 
 
 @dataclass(frozen=True)

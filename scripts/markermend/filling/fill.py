@@ -11,10 +11,11 @@ import numpy as np
 
 from markermend.core.decisions import GAP, Decision, rule
 from markermend.core.recording import FILLED, MEASURED, MISSING, Restored
-from markermend.filling.coverage_radii import RadiusOptions, radii
-from markermend.filling.eligibility import FillOptions, Gap, gaps, why_not
+from markermend.filling.coverage_radii import radii
+from markermend.filling.eligibility import Gap, gaps, why_not
 from markermend.filling.ensemble import Ensemble, Filling, Sort
 from markermend.filling.member_weights import Trust
+from markermend.options.filling import FillOptions, RadiusOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 

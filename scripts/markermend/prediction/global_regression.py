@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.numerics.patterns import alike
+from markermend.options.prediction import GlobalRegressionOptions
 from markermend.prediction.marker_selection import references, thinned
 from markermend.prediction.scene import Prediction, Scene
 
@@ -15,29 +14,13 @@ CENTRINGS = ("complete", "available")
 none such), or, as the paper says, of those seen in that frame. Never of all markers: these may be on another person."""
 
 
-@dataclass(frozen=True)
-class LinearOptions:
-    """Settings of the global linear regression.
-
-    deviation_mm: references whose distance varies more are left out. frames: most training frames. minimum_frames:
-    fewer joint frames than this and no model is made. minimum_inputs: so many references are used even if they vary
-    more. centring: one of CENTRINGS.
-    """
-
-    deviation_mm: float
-    frames: int
-    minimum_frames: int
-    minimum_inputs: int
-    centring: str
-
-
 class GlobalRegression:
     """The global linear regression as a predictor; states no error."""
 
     name = "linear_regression"
     continuous = False
 
-    def __init__(self, options: LinearOptions) -> None:
+    def __init__(self, options: GlobalRegressionOptions) -> None:
         """Keep the settings."""
         if options.centring not in CENTRINGS:
             raise ValueError(f"unknown centring {options.centring!r}: one of {', '.join(CENTRINGS)}")

@@ -14,26 +14,9 @@ from itertools import combinations
 
 import numpy as np
 
+from markermend.options.prediction import ReferenceTriangleOptions
 from markermend.prediction.marker_selection import references, thinned
 from markermend.prediction.scene import Prediction, Scene
-
-
-@dataclass(frozen=True)
-class FrameOptions:
-    """Settings of the models in the frame of three references.
-
-    references: triples are drawn from so many of the best. frames: most training frames. minimum_frames: fewer joint
-    frames than this and a triple is passed over. height_mm: so is one whose third point is, at the median, nearer than
-    this to the line of the first two. smoothness: width s of the GRNN's kernel, in standard deviations. ridge: penalty
-    of the quadratic regression, as a share of the training frames (paper: 0).
-    """
-
-    references: int
-    frames: int
-    minimum_frames: int
-    height_mm: float
-    smoothness: float
-    ridge: float
 
 
 @dataclass(frozen=True)
@@ -72,7 +55,7 @@ class _FrameModel(ABC):
     name: str
     continuous: bool
 
-    def __init__(self, options: FrameOptions) -> None:
+    def __init__(self, options: ReferenceTriangleOptions) -> None:
         """Keep the settings."""
         self.options = options
 
@@ -142,7 +125,7 @@ class _FrameRegression(_FrameModel):
 
     continuous = False
 
-    def __init__(self, options: FrameOptions, model: Callable[..., np.ndarray]) -> None:
+    def __init__(self, options: ReferenceTriangleOptions, model: Callable[..., np.ndarray]) -> None:
         super().__init__(options)
         self._model = model
 
@@ -176,7 +159,7 @@ class LocalQuadratic(_FrameRegression):
 
     name = "local_quadratic"
 
-    def __init__(self, options: FrameOptions) -> None:
+    def __init__(self, options: ReferenceTriangleOptions) -> None:
         """Keep the settings."""
         super().__init__(options, lambda *given: quadratic(*given, ridge=options.ridge))
 
@@ -186,7 +169,7 @@ class LocalGRNN(_FrameRegression):
 
     name = "local_grnn"
 
-    def __init__(self, options: FrameOptions) -> None:
+    def __init__(self, options: ReferenceTriangleOptions) -> None:
         """Keep the settings."""
         super().__init__(options, lambda *given: grnn(*given, smoothness=options.smoothness))
 

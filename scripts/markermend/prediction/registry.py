@@ -5,23 +5,34 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from markermend.prediction.global_regression import GlobalRegression, LinearOptions
+from markermend.options.prediction import (
+    BoleroOptions,
+    GaussianProcessOptions,
+    GlobalRegressionOptions,
+    IteratedSvdOptions,
+    KalmanSmootherOptions,
+    LaggedRegressionOptions,
+    LocalRidgeOptions,
+    NeuralNetworkOptions,
+    ReferenceTriangleOptions,
+    ReplicatedNetworkOptions,
+    WeightedPcaOptions,
+)
+from markermend.prediction.global_regression import GlobalRegression
 from markermend.prediction.interpolation import KINDS, Interpolation
 from markermend.prediction.lagged_regression.polynomial import Polynomial
-from markermend.prediction.lagged_regression.predictor import LOOSE, LooseOptions
-from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork, ReplicatedOptions
-from markermend.prediction.local_ridge.gaussian_process import GaussianOptions, LocalGaussian
-from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
+from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.low_rank.iterated_svd import IteratedSvd, SvdOptions
-from markermend.prediction.low_rank.weighted_pca import PcaOptions, WeightedPca
-from markermend.prediction.neural_network.options import NetworkOptions
+from markermend.prediction.low_rank.iterated_svd import IteratedSvd
+from markermend.prediction.low_rank.weighted_pca import WeightedPca
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.neural_network.predictor import Network
-from markermend.prediction.reference_triangle import FrameOptions, LocalGRNN, LocalInterpolation, LocalQuadratic
+from markermend.prediction.reference_triangle import LocalGRNN, LocalInterpolation, LocalQuadratic
 from markermend.prediction.scene import Predictor
-from markermend.prediction.state_space.bolero import Bolero, BoleroOptions
-from markermend.prediction.state_space.kalman_smoother import KalmanOptions, KalmanSmoother
+from markermend.prediction.state_space.bolero import Bolero
+from markermend.prediction.state_space.kalman_smoother import KalmanSmoother
 
 FAMILIES = {
     "local_ridge": "the predictor local_ridge",
@@ -52,26 +63,28 @@ def _interpolation(kind: str) -> Callable[[Settings], Predictor]:
 
 
 def _network(name: str) -> Callable[[Settings], Predictor]:
-    return lambda settings: Network(name, NetworkOptions(**settings["networks"]))
+    return lambda settings: Network(name, NeuralNetworkOptions(**settings["networks"]))
 
 
 REGISTRY: dict[str, Callable[[Settings], Predictor]] = {
     **{kind: _interpolation(kind) for kind in KINDS},
     **{name: _network(name) for name in NETWORKS},
-    "polynomial": lambda settings: Polynomial(LooseOptions(**settings["polynomial"])),
-    "replicated_network": lambda settings: ReplicatedNetwork(ReplicatedOptions(**settings["replicated_network"])),
-    "linear_regression": lambda settings: GlobalRegression(LinearOptions(**settings["linear_regression"])),
-    "local_interpolation": lambda settings: LocalInterpolation(FrameOptions(**settings["reference_frame"])),
-    "local_quadratic": lambda settings: LocalQuadratic(FrameOptions(**settings["reference_frame"])),
-    "local_grnn": lambda settings: LocalGRNN(FrameOptions(**settings["reference_frame"])),
-    "msvd": lambda settings: IteratedSvd(SvdOptions(**settings["msvd"])),
-    "weighted_pca": lambda settings: WeightedPca(PcaOptions(**settings["weighted_pca"])),
-    "kalman": lambda settings: KalmanSmoother(KalmanOptions(**settings["kalman"])),
+    "polynomial": lambda settings: Polynomial(LaggedRegressionOptions(**settings["polynomial"])),
+    "replicated_network": lambda settings: ReplicatedNetwork(
+        ReplicatedNetworkOptions(**settings["replicated_network"])
+    ),
+    "linear_regression": lambda settings: GlobalRegression(GlobalRegressionOptions(**settings["linear_regression"])),
+    "local_interpolation": lambda settings: LocalInterpolation(ReferenceTriangleOptions(**settings["reference_frame"])),
+    "local_quadratic": lambda settings: LocalQuadratic(ReferenceTriangleOptions(**settings["reference_frame"])),
+    "local_grnn": lambda settings: LocalGRNN(ReferenceTriangleOptions(**settings["reference_frame"])),
+    "msvd": lambda settings: IteratedSvd(IteratedSvdOptions(**settings["msvd"])),
+    "weighted_pca": lambda settings: WeightedPca(WeightedPcaOptions(**settings["weighted_pca"])),
+    "kalman": lambda settings: KalmanSmoother(KalmanSmootherOptions(**settings["kalman"])),
     "bolero": lambda settings: Bolero(BoleroOptions(**settings["bolero"])),
     "local_gp": lambda settings: LocalGaussian(
-        RidgeOptions(**settings["local_ridge"]), GaussianOptions(**settings["local_gp"])
+        LocalRidgeOptions(**settings["local_ridge"]), GaussianProcessOptions(**settings["local_gp"])
     ),
-    "local_ridge": lambda settings: LocalRidge(RidgeOptions(**settings["local_ridge"])),
+    "local_ridge": lambda settings: LocalRidge(LocalRidgeOptions(**settings["local_ridge"])),
 }
 """How to make each predictor from the settings."""
 
@@ -99,7 +112,7 @@ def members(names: Sequence[str], settings: Settings, *, most_frames: int | None
     made: list[Predictor] = []
     for name in names:
         if name in variants:
-            variant = LocalRidge(RidgeOptions(**{**settings["local_ridge"], **variants[name]}))
+            variant = LocalRidge(LocalRidgeOptions(**{**settings["local_ridge"], **variants[name]}))
             variant.name = name
             made.append(variant)
         else:

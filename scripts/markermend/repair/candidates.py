@@ -5,44 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from markermend.numerics.intervals import samples
+from markermend.options.repair import RepairOptions, SeparationOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Prediction, Predictor, Scene
 from markermend.repair.methods import Proposal, predicted, separated, smoothed
-from markermend.repair.separation import COURSES, SeparationOptions
-
-
-@dataclass(frozen=True)
-class RepairOptions:
-    """Settings of the repair (config section `repair`).
-
-    methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`,
-    `separate_noise`, `separate_step`, `separate_slow` (part the marker's course from the artifact), `swap` (swap back
-    with the partner, before all other repairs) or `blank`. prefer: of two methods
-    whose expected errors (68 %) differ by less than this factor the preferred one is taken, else the one that errs less.
-    protect: marker name patterns never touched. max_altered_share: with more than this share of the seen samples found,
-    nothing is repaired. max_repair_s: longer findings become missing. max_error_mm: likewise where the expected error
-    exceeds it.
-    savitzky_golay_order, savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the
-    error of a method is told that does not state one. separation: see SeparationOptions. radius: radii
-    of the balls that hold the true position with 68 (`inner`) and 95 % (`outer`), in standard deviations of one axis.
-    """
-
-    methods: Mapping[str, Sequence[str]]
-    prefer: float
-    protect: Sequence[str]
-    max_altered_share: float
-    max_repair_s: float
-    max_error_mm: float
-    savitzky_golay_order: int
-    savitzky_golay_s: float
-    trials: int
-    separation: Mapping[str, Any]
-    radius: Mapping[str, float]
+from markermend.repair.separation import COURSES
 
 
 @dataclass(frozen=True)

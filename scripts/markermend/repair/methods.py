@@ -11,11 +11,12 @@ import numpy as np
 from markermend.numerics.filters import high_pass
 from markermend.numerics.intervals import runs
 from markermend.numerics.kriging import Covariance, fit_covariance
+from markermend.options.repair import SeparationOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.lagged_regression.predictor import LOOSE
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Predictor, Scene
-from markermend.repair.separation import COURSES, SeparationOptions, artifacts, averaged, pinned, separate
+from markermend.repair.separation import COURSES, artifacts, averaged, pinned, separate
 
 METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
 """The ways of repair by the names that a config may use."""

@@ -17,9 +17,10 @@ from markermend.core import events as finding
 from markermend.core.decisions import Decision, Ruling, kind_of, names, protecting, rule
 from markermend.core.events import Event
 from markermend.core.recording import Recording, Restored
+from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.apply_decisions import judge
-from markermend.repair.candidates import Offers, RepairOptions, choose
+from markermend.repair.candidates import Offers, choose
 from markermend.repair.methods import METHODS
 from markermend.repair.result import Restoration
 

@@ -12,11 +12,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from markermend.numerics.kriging import Covariance
+from markermend.options.repair import SeparationOptions
 
 
 def bridge(n: int) -> np.ndarray:
@@ -38,27 +38,6 @@ COURSES: Mapping[str, Sequence[Callable[[int], np.ndarray]]] = {
     "separate_slow": [bridge, tent],
 }
 """Covariances (n, n) that an artifact of amplitude 1 may have over its frames, by the method that takes it away."""
-
-
-@dataclass(frozen=True)
-class SeparationOptions:
-    """What is believed of artifacts (config section `repair`, key `separation`).
-
-    ridges: settings in which each local ridge that predicts differs from the shared one. amplitudes_mm: amplitudes that
-    are tried. roughness_mm: standard deviations of white noise besides, by which an artifact may depart from the course
-    of its class; all are tried with all amplitudes. border_s: how far into the observed samples either border reaches.
-    margins: by these shares of its length a slow change may begin earlier and end later than was found: nobody can tell
-    that to the sample. trust: the power to which likelihoods count, at most 1: courses and covariances are known only
-    roughly. most_frames: longer artifacts are not parted: memory grows with the square of the length, time with the cube.
-    """
-
-    ridges: Sequence[Mapping[str, Any]]
-    amplitudes_mm: Sequence[float]
-    roughness_mm: Sequence[float]
-    border_s: float
-    margins: Sequence[float]
-    trust: float
-    most_frames: int
 
 
 def artifacts(

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from markermend.core import events
-from markermend.detection.frozen import FrozenSettings, detect_frozen
+from markermend.detection.frozen import detect_frozen
+from markermend.options.detection import FrozenOptions
 from markermend.prediction.scene import Scene
 from support.signals import CONFIG, RIDGE, neighbours
 
@@ -19,7 +20,7 @@ def detect(recording, near=None, earlier=None):
         scene,
         markers=recording.markers,
         earlier=np.zeros(recording.positions.shape, bool) if earlier is None else earlier,
-        settings=FrozenSettings(**CONFIG["frozen"]),
+        settings=FrozenOptions(**CONFIG["frozen"]),
         predictor=RIDGE,
     )
 

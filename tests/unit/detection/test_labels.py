@@ -7,16 +7,16 @@ import pytest
 
 from markermend.core.events import Event
 from markermend.detection import labels
-from markermend.detection.labels import SwapSettings
 from markermend.formats import files
+from markermend.options.detection import LabelsOptions
+from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Scene
-from markermend.repair.candidates import RepairOptions
 from markermend.repair.repair import repair
 from markermend.simulation.artifact_models import integers
 from markermend.simulation.contamination import Contamination
 from support.signals import CONFIG, neighbours
 
-SETTINGS = SwapSettings(**CONFIG["swaps"])
+SETTINGS = LabelsOptions(**CONFIG["swaps"])
 
 
 def find(recording):

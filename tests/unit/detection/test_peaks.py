@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour import pulses
 from markermend.detection.published import peaks
+from markermend.options.detection import PeaksOptions
+from markermend.options.published import PublishedPeaksOptions
 from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
 
 # At the start, in the middle, before and after a gap, at the end.
@@ -110,7 +111,7 @@ def test_coordinates_are_merged_with_the_axes_that_fired(walker):
 
 
 def test_settings_are_those_of_the_preset():
-    assert isinstance(settings("peaks", "default"), pulses.ExcursionSettings)
-    assert isinstance(settings("peaks", "paper"), peaks.CoordinatePeaks)
+    assert isinstance(settings("peaks", "default"), PeaksOptions)
+    assert isinstance(settings("peaks", "paper"), PublishedPeaksOptions)
     with pytest.raises(ValueError, match="preset"):
         settings("peaks", "other")

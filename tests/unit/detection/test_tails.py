@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from markermend.core import events
-from markermend.detection.tails import TailSettings, detect_tails
+from markermend.detection.tails import detect_tails
+from markermend.options.detection import TailsOptions
 from markermend.prediction.scene import Scene
 from support.signals import CONFIG, RIDGE, neighbours
 
@@ -18,7 +19,7 @@ def detect(recording, near, earlier=()):
         Scene(recording.positions, recording.rate, near),
         markers=recording.markers,
         earlier=events.coordinates(earlier, recording.frames, recording.markers),
-        settings=TailSettings(**CONFIG["tails"]),
+        settings=TailsOptions(**CONFIG["tails"]),
         predictor=RIDGE,
     )
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from markermend.filling.coverage_radii import RadiusOptions, radii
+from markermend.filling.coverage_radii import radii
 from markermend.filling.fill import fill_gaps
+from markermend.options.filling import RadiusOptions
 from support.fillings import ensemble, fill_options, neighbours, restored
 
 BELIEVED = RadiusOptions(inner=1.4, outer=3.0, trials=10)

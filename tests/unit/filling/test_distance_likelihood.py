@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from markermend.filling.distance_likelihood import DistanceOptions, Distances
+from markermend.filling.distance_likelihood import Distances
+from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import references
 from support.fillings import CONFIG, scene
 

@@ -6,17 +6,8 @@ from scipy.stats import multivariate_normal
 
 from markermend.core.events import Event
 from markermend.numerics.kriging import Covariance
-from markermend.repair.separation import (
-    COURSES,
-    Parted,
-    SeparationOptions,
-    artifacts,
-    averaged,
-    bridge,
-    pinned,
-    separate,
-    tent,
-)
+from markermend.options.repair import SeparationOptions
+from markermend.repair.separation import COURSES, Parted, artifacts, averaged, bridge, pinned, separate, tent
 from markermend.simulation.artifact_models import shape
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_candidates import Matches, NeighbourSlow, bar
+from markermend.detection.neighbour.drift_candidates import Matches, bar
 from markermend.numerics import intervals, robust
+from markermend.options.detection import SlowOptions
 from markermend.prediction.scene import ScaledResidualSource, Scene
 
 RIGID_MM = 0.1
@@ -29,7 +30,7 @@ class Company:
 
     scene: Scene
     matches: Matches
-    settings: NeighbourSlow
+    settings: SlowOptions
     predictor: ScaledResidualSource
 
     def near(self, marker: int) -> np.ndarray:

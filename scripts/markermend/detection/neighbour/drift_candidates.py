@@ -2,58 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import interpolation, intervals, matched_filter
 from markermend.numerics.intervals import runs
+from markermend.options.detection import SlowOptions
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class NeighbourSlow:
-    """Settings of the detector on all coordinates together (config slow.default).
-
-    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much
-    of their length is looked at on either side. taps: finest detail, in parts of the length. scales_s, longest_s:
-    correlation lengths and longest lag of the residual's covariance. clip_sigmas: residuals beyond so many robust
-    sigmas do not count in it. blocks: parts of the recording left out in turn to learn how novelty widens residuals.
-    neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units of that. floor_mm: least
-    height. noise_mm, sure: where the expected level amounts to more than this, a bump must be so many times as clear as
-    the threshold asks. least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by
-    this factor than the second clearest elsewhere on the marker, unless it is so many times as clear as the threshold
-    asks. rest: just before and after, the residual is no further from its usual level than this part of the height.
-    shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
-    missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
-    height are left out in turn; without them, this part of the threshold must still be reached.
-    """
-
-    ridge: Mapping[str, Any]
-    lengths_s: tuple[float, ...]
-    flank: float
-    taps: int
-    scales_s: tuple[float, ...]
-    longest_s: float
-    clip_sigmas: float
-    blocks: int
-    neighbours: int
-    sigmas: float
-    floor_mm: float
-    noise_mm: float
-    sure: float
-    least: float
-    apart: float
-    plain: float
-    rest: float
-    shortest_s: float
-    brief_s: float
-    rivals: int
-    suspect: float
-    kept: float
 
 
 @dataclass(frozen=True)
@@ -73,7 +31,7 @@ class Matches:
     level: np.ndarray
 
     def judge_anew(
-        self, residual: np.ndarray, wider: np.ndarray, *, marker: int, rate: float, settings: NeighbourSlow
+        self, residual: np.ndarray, wider: np.ndarray, *, marker: int, rate: float, settings: SlowOptions
     ) -> np.ndarray:
         """Score (frames,) of a marker with another residual (frames, 3), mm: see `match`; what is expected, grown with its level."""
         own, _ = match(residual, wider, frames(settings, rate), rate=rate, settings=settings)
@@ -82,7 +40,7 @@ class Matches:
 
 
 def match(
-    residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, settings: NeighbourSlow
+    residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, settings: SlowOptions
 ) -> tuple[np.ndarray, np.ndarray]:
     """Strength of bumps of each length (lengths, frames) in one marker's residual, and the deviation of their height, mm.
 
@@ -109,7 +67,7 @@ def match(
     return strength, deviation
 
 
-def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: NeighbourSlow) -> Matches:
+def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: SlowOptions) -> Matches:
     """Measure how clearly bumps stand out in the residuals of all markers; wider: see `match`."""
     rate, lengths = scene.rate, frames(settings, scene.rate)
     brief = briefly_gone(scene, settings)
@@ -133,7 +91,7 @@ def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, settings: 
     return Matches(residual, score, length, noise, expected, np.stack([level(own) for own, _ in each], axis=1))
 
 
-def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: NeighbourSlow) -> float:
+def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: SlowOptions) -> float:
     """How clear a bump in [start, stop) must be, given the scores (frames,) of its marker, in units of the threshold.
 
     What the marker does at other times as well is motion.
@@ -145,7 +103,7 @@ def bar(score: np.ndarray, start: int, stop: int, *, rate: float, settings: Neig
     return float(np.clip(settings.apart * elsewhere.max(), 1, settings.plain))
 
 
-def briefly_gone(scene: Scene, settings: NeighbourSlow) -> np.ndarray:
+def briefly_gone(scene: Scene, settings: SlowOptions) -> np.ndarray:
     """Bool (frames, markers): True where one of a marker's nearest neighbours is gone, but not for long.
 
     The others predict otherwise: a bump that is none.
@@ -164,7 +122,7 @@ def level(strength: np.ndarray) -> np.ndarray:
     return np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in strength)])
 
 
-def frames(settings: NeighbourSlow, rate: float) -> list[int]:
+def frames(settings: SlowOptions, rate: float) -> list[int]:
     """The lengths of the bumps to look for, in frames: long enough to have a shape."""
     return [max(5, intervals.samples(length, rate)) for length in settings.lengths_s]
 
@@ -175,7 +133,7 @@ def best(
     expected: np.ndarray,
     lengths: Sequence[int],
     *,
-    settings: NeighbourSlow,
+    settings: SlowOptions,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Score, length and expected height (frames,) of the bump that stands out most from that; given (lengths, frames)."""
     score = np.nan_to_num(strength / (settings.sigmas * expected))

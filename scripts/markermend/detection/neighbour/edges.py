@@ -9,9 +9,10 @@ from functools import lru_cache, partial
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
-from markermend.detection.neighbour.residual_windows import Contrasts, Courses, CourseSettings
+from markermend.detection.neighbour.residual_windows import Contrasts, Courses
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import Regularity
+from markermend.options.detection import ResidualWindowOptions
 
 FEWEST = 5
 """Samples of context on either side, at least: they tell the misfit."""
@@ -41,13 +42,15 @@ def contrasts(regularity: Regularity, size: int, places: tuple[int, ...]) -> Con
     return Contrasts(np.array(places), across / strength[:, None], strength**-0.5, misfit)
 
 
-def central(rate: float, settings: CourseSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
+def central(rate: float, settings: ResidualWindowOptions) -> tuple[Callable[[Regularity], Contrasts], int]:
     """The maps for a jump amid its context, and the length of their windows."""
     context = residual_windows.context(rate, settings, fewest=FEWEST)
     return partial(contrasts, size=2 * context, places=(context,)), 2 * context
 
 
-def find(course: Courses, marker: int, *, rate: float, settings: CourseSettings, least: float = 1.0) -> list[Edge]:
+def find(
+    course: Courses, marker: int, *, rate: float, settings: ResidualWindowOptions, least: float = 1.0
+) -> list[Edge]:
     """Find the edges of one marker, in time; of those that are nearer than half the context, the best.
 
     least: a part of the threshold is enough.

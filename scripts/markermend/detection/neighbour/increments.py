@@ -20,32 +20,9 @@ from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, residual_scale
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+from markermend.options.detection import IncrementOptions
 from markermend.prediction import scene as prediction_scene
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class SuddenSettings:
-    """What counts as a sudden change (part of config noise.default).
-
-    window_s: of the moving median that is taken off the differences, as short as an edge is sharp. activity_s: over
-    which the usual size of changes is taken. activity_ratio: a marker may be livelier than its nearest neighbours by
-    this factor, beyond it the liveliness is itself suspect. activity_neighbours: how many of them. sigmas: threshold in units of
-    that usual size. floor_mm: and at least so much. tails, tail_quantile: and at least so many times the size that this
-    share of the recording's samples does not exceed: some systems jitter all the time. rounds: how often neighbours found together are judged again. rivals: how many neighbours
-    may be meant by that.
-    """
-
-    window_s: float
-    activity_s: float
-    activity_ratio: float
-    activity_neighbours: int
-    sigmas: float
-    floor_mm: float
-    tails: float
-    tail_quantile: float
-    rounds: int
-    rivals: int
 
 
 @dataclass(frozen=True)
@@ -74,7 +51,7 @@ def sharp(values: np.ndarray, window: int) -> np.ndarray:
     return out
 
 
-def _window(rate: float, settings: SuddenSettings) -> int:
+def _window(rate: float, settings: IncrementOptions) -> int:
     """Samples in the window of the moving median: fewer than three have no trend."""
     return max(3, intervals.samples(settings.window_s, rate, odd=True))
 
@@ -85,7 +62,7 @@ def measure(
     only: Sequence[int] | None = None,
     was: Changes | None = None,
     *,
-    settings: SuddenSettings,
+    settings: IncrementOptions,
 ) -> Changes:
     """Measure the sudden changes of a scene from its residuals; with `was`, anew for the markers `only`."""
     window = _window(scene.rate, settings)
@@ -116,7 +93,7 @@ def detect(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: SuddenSettings,
+    settings: IncrementOptions,
     predictor: prediction_scene.ResidualSource,
     judge: Callable[[Changes, int], list[Event]],
 ) -> tuple[list[Event], Changes]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,39 +10,12 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection.neighbour import edges
 from markermend.detection.neighbour.edges import Edge
-from markermend.detection.neighbour.residual_windows import Courses, CourseSettings
+from markermend.detection.neighbour.residual_windows import Courses
 from markermend.numerics import intervals
+from markermend.options.detection import StepsOptions
 
 REST = 3
 """At an end of the recording, what is off lasts at most a part in so many of what is not."""
-
-
-@dataclass(frozen=True)
-class NeighbourSteps(CourseSettings):
-    """Settings of the detector against the neighbours (config steps.default), beside those of courses.
-
-    shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. weak, joint: each jump reaches this
-    part of the threshold, and both together (root mean square) that part. held: the median of all samples in between
-    differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for this
-    part of them: motion may hide that the marker is displaced. whole: jumps that together stay below the threshold are
-    held to this part at least. level_s, cut: where a gap is in the place of one jump, medians over this time beside the
-    other and beside the gap differ by at least this part of the other. sure: where it is an end of the recording, the
-    other is at least so many times the threshold.
-    """
-
-    shortest_s: float
-    longest_s: float
-    ratio: float
-    cosine: float
-    held: float
-    alike: float
-    weak: float
-    joint: float
-    whole: float
-    level_s: float
-    cut: float
-    sure: float
 
 
 def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
@@ -58,7 +30,7 @@ def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) 
 
 
 def judge_steps(
-    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, settings: NeighbourSteps
+    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, settings: StepsOptions
 ) -> list[Event]:
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between.
 
@@ -91,7 +63,7 @@ def together(first: Edge, second: Edge) -> float:
     return float(np.hypot(first.score, second.score) / np.sqrt(2))
 
 
-def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float, settings: NeighbourSteps) -> bool:
+def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float, settings: StepsOptions) -> bool:
     """Whether two jumps are opposite and of a size, and the residual (frames, 3) is displaced in between."""
     sizes = float(np.linalg.norm(first.jump)), float(np.linalg.norm(second.jump))
     opposite = -first.jump @ second.jump >= settings.cosine * sizes[0] * sizes[1]
@@ -115,7 +87,7 @@ def cut_short(
     missing: np.ndarray,
     name: str,
     rate: float,
-    settings: NeighbourSteps,
+    settings: StepsOptions,
 ) -> list[Event]:
     """Find the steps of one marker of which one jump is not seen: a gap or an end of the recording is in its place.
 
@@ -142,7 +114,7 @@ def cut_short(
 
 
 def _is_off(
-    residual: np.ndarray, start: int, stop: int, edge: Edge, missing: np.ndarray, rate: float, settings: NeighbourSteps
+    residual: np.ndarray, start: int, stop: int, edge: Edge, missing: np.ndarray, rate: float, settings: StepsOptions
 ) -> bool:
     """Whether [start, stop), with a jump at one border, lies off what is beyond the jump and what is beyond the gap.
 

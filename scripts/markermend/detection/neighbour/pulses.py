@@ -9,26 +9,14 @@ from functools import lru_cache, partial
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
-from markermend.detection.neighbour.residual_windows import Contrasts, Courses, CourseSettings
+from markermend.detection.neighbour.residual_windows import Contrasts, Courses
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import Regularity
+from markermend.options.detection import PeaksOptions
 
 FEWEST = 6
 """Samples of context on either side, at least: they tell the misfit."""
-
-
-@dataclass(frozen=True)
-class ExcursionSettings(CourseSettings):
-    """Settings of excursions (config peaks.default), beside those of courses.
-
-    longest_s: longest excursion. weak: samples that are off by this part of the largest belong to it. edge: nothing is
-    one where the usual course with a jump leaves up to so many times the misfit that it has without those in question.
-    """
-
-    longest_s: float
-    weak: float
-    edge: float
 
 
 @dataclass(frozen=True)
@@ -74,7 +62,7 @@ def jumps(regularity: Regularity, size: int) -> np.ndarray:
     return across / np.sqrt(np.maximum((across * jump).sum(axis=1), 1e-12))[:, None]
 
 
-def of_longest(rate: float, settings: ExcursionSettings) -> tuple[Callable[[Regularity], Contrasts], int]:
+def of_longest(rate: float, settings: PeaksOptions) -> tuple[Callable[[Regularity], Contrasts], int]:
     """The maps for the longest excursion amid its context, and the length of their windows."""
     length, context = (
         intervals.samples(settings.longest_s, rate),
@@ -84,7 +72,7 @@ def of_longest(rate: float, settings: ExcursionSettings) -> tuple[Callable[[Regu
     return partial(contrasts, length=length, size=size, places=(context,)), size
 
 
-def find(course: Courses, marker: int, *, rate: float, settings: ExcursionSettings) -> list[Excursion]:
+def find(course: Courses, marker: int, *, rate: float, settings: PeaksOptions) -> list[Excursion]:
     """Find the excursions of one marker, the surest first; none is nearer to a surer one than what that is judged by."""
     context = residual_windows.context(rate, settings, fewest=FEWEST)
     candidates: list[Excursion] = []
@@ -103,7 +91,7 @@ def find(course: Courses, marker: int, *, rate: float, settings: ExcursionSettin
 
 
 def _in(
-    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, settings: ExcursionSettings
+    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, settings: PeaksOptions
 ) -> list[Excursion]:
     """The excursions of a span, each cut to the samples that are off."""
     over = residual_windows.exceeding(course, marker, span, maps, settings)

@@ -22,32 +22,9 @@ from markermend.detection.neighbour import attribution, residual_scale
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import Regularity, learn, windows
+from markermend.options.detection import ResidualWindowOptions
 from markermend.prediction import scene as prediction_scene
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class CourseSettings:
-    """What counts as off the usual course (part of config peaks.default and steps.default).
-
-    context_s: judged by so much on either side; beside a gap, by the more on the other side. order: polynomials that are
-    usual whatever their size. shrinkage, windows: see regularity.learn. activity_s, activity_ratio,
-    activity_neighbours: how the usual misfit follows what the body is doing, see robust.usual_size. sigmas: threshold in
-    units of the misfit here and the usual one together. floor_mm: and at least so much. rounds: how often neighbours
-    found together are judged again. rivals: how many neighbours may be meant by that.
-    """
-
-    context_s: float
-    order: int
-    shrinkage: float
-    windows: int
-    activity_s: float
-    activity_ratio: float
-    activity_neighbours: int
-    sigmas: float
-    floor_mm: float
-    rounds: int
-    rivals: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +76,7 @@ class Exceeding:
     misfit: np.ndarray
 
 
-def context(rate: float, settings: CourseSettings, *, fewest: int) -> int:
+def context(rate: float, settings: ResidualWindowOptions, *, fewest: int) -> int:
     """Samples on either side: as long as asked for, and enough to tell the misfit."""
     return max(intervals.samples(settings.context_s, rate), fewest)
 
@@ -131,7 +108,7 @@ def measure(
     *,
     maps: Callable[[Regularity], Contrasts],
     length: int,
-    settings: CourseSettings,
+    settings: ResidualWindowOptions,
 ) -> Courses:
     """Learn how regular residuals are, and measure their misfits under the first of the maps of windows of a length.
 
@@ -167,7 +144,7 @@ def _misfit(window: np.ndarray, form: np.ndarray) -> np.ndarray:
 
 
 def exceeding(
-    courses: Courses, marker: int, span: slice, maps: Contrasts, settings: CourseSettings, *, least: float = 1.0
+    courses: Courses, marker: int, span: slice, maps: Contrasts, settings: ResidualWindowOptions, *, least: float = 1.0
 ) -> Exceeding:
     """The windows of a span of one marker's frames, without gaps, that exceed the threshold, or this part of it."""
     residual, positions = (windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
@@ -188,7 +165,7 @@ def detect(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: CourseSettings,
+    settings: ResidualWindowOptions,
     maps: Callable[[Regularity], Contrasts],
     length: int,
     predictor: prediction_scene.ResidualSource,

@@ -2,38 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.detection.published import increments
 from markermend.detection.published.increments import difference_high_pass
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
+from markermend.options.published import PublishedNoiseOptions
 
 
-@dataclass(frozen=True)
-class CoordinateNoise:
-    """Settings of the detector of one coordinate (config noise.coordinates and noise.paper).
-
-    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
-    robust.threshold. shortest_s: shortest stretch. density: share of its samples that exceed the threshold.
-    minimum_changes: and how many of them at least. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
-
-    window_s: float
-    order: int
-    scale: str
-    sigmas: float
-    floor_mm: float
-    shortest_s: float
-    density: float
-    minimum_changes: int
-    bridge_s: float
-
-
-def find_noise(signal: np.ndarray, *, rate: float, settings: CoordinateNoise) -> tuple[np.ndarray, np.ndarray]:
+def find_noise(signal: np.ndarray, *, rate: float, settings: PublishedNoiseOptions) -> tuple[np.ndarray, np.ndarray]:
     """Find the stretches of heavy noise of one coordinate (skurowski2022 eq 26-30).
 
     signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,). A stretch

@@ -2,36 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.detection.published import increments
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
-
-
-@dataclass(frozen=True)
-class CoordinatePeaks:
-    """Settings of the detector of one coordinate (config peaks.coordinates and peaks.paper).
-
-    trend: `median_of_difference` subtracts the moving median from the differences, `difference_of_median` takes
-    differences after subtracting it from the signal (the paper's order, which leaks trend). window_s: of that median.
-    longest_s: longest peak. margin_s: sums and morphology reach over
-    twice the longest peak and this. scale, sigmas, floor_mm: threshold of a sudden change, see robust.threshold. balance: the
-    changes of a peak sum to less than one in so many of their absolute sum. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
-
-    trend: str
-    window_s: float
-    longest_s: float
-    margin_s: float
-    scale: str
-    sigmas: float
-    floor_mm: float
-    balance: float
-    bridge_s: float
+from markermend.options.published import PublishedPeaksOptions
 
 
 def without_trend(signal: np.ndarray, *, trend: str, window: int) -> np.ndarray:
@@ -44,7 +20,7 @@ def without_trend(signal: np.ndarray, *, trend: str, window: int) -> np.ndarray:
     raise ValueError(f"trend {trend!r} is neither median_of_difference nor difference_of_median")
 
 
-def find_peaks(signal: np.ndarray, *, rate: float, settings: CoordinatePeaks) -> tuple[np.ndarray, np.ndarray]:
+def find_peaks(signal: np.ndarray, *, rate: float, settings: PublishedPeaksOptions) -> tuple[np.ndarray, np.ndarray]:
     """Find the isolated peaks of one coordinate (skurowski2022 eq 18-25).
 
     signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).

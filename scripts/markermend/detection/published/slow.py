@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,55 +12,33 @@ from markermend.core.events import Event
 from markermend.detection.published import coordinatewise, increments
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+from markermend.options.prediction import LaggedRegressionOptions, LocalRidgeOptions, ReplicatedNetworkOptions
+from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.lagged_regression.polynomial import Polynomial
-from markermend.prediction.lagged_regression.predictor import LooseOptions
-from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork, ReplicatedOptions
-from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import ResidualSource, Scene
 from markermend.prediction.time_smoothers import MovingMedian, SavitzkyGolay
-
-
-@dataclass(frozen=True)
-class CoordinateSlow:
-    """Settings of the detector of one coordinate of the residual (config slow.paper).
-
-    predictor: whose residual, one of PREDICTORS. smooth_s, order: window and order of a predictor that smooths. scale:
-    `mad` or `std`, of the residual. sigmas: upper threshold, in its standard deviations. lower: lower threshold,
-    likewise. top_s: shortest stretch beyond the upper threshold. shortest_s: shortest stretch beyond the lower one.
-    bridge_s: slopes on either side of what earlier detectors claimed are taken over this time.
-    """
-
-    predictor: str
-    smooth_s: float
-    order: int
-    scale: str
-    sigmas: float
-    lower: float
-    top_s: float
-    shortest_s: float
-    bridge_s: float
-
 
 PREDICTORS = ("replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge")
 """Whose residual may be judged: the four of the paper, and the local ridge."""
 
 
-def predictor(settings: CoordinateSlow, families: Mapping[str, Mapping[str, Any]]) -> ResidualSource:
+def predictor(settings: PublishedSlowOptions, families: Mapping[str, Mapping[str, Any]]) -> ResidualSource:
     """Make the predictor that the settings name; families: settings of the predictors that other stages share, by name.
 
     Raises ValueError for a name that is not in PREDICTORS.
     """
     if settings.predictor == "replicated_network":
-        return ReplicatedNetwork(ReplicatedOptions(**families["replicated_network"]))
+        return ReplicatedNetwork(ReplicatedNetworkOptions(**families["replicated_network"]))
     if settings.predictor == "polynomial":
-        return Polynomial(LooseOptions(**families["polynomial"]))
+        return Polynomial(LaggedRegressionOptions(**families["polynomial"]))
     if settings.predictor == "savitzky_golay":
         return SavitzkyGolay(window_s=settings.smooth_s, order=settings.order)
     if settings.predictor == "moving_median":
         return MovingMedian(window_s=settings.smooth_s)
     if settings.predictor == "local_ridge":
-        return LocalRidge(RidgeOptions(**families["local_ridge"]))
+        return LocalRidge(LocalRidgeOptions(**families["local_ridge"]))
     raise ValueError(f"predictor {settings.predictor!r} is none of {', '.join(PREDICTORS)}")
 
 
@@ -74,7 +52,7 @@ def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]
     return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
 
 
-def find_slow(residual: np.ndarray, *, rate: float, settings: CoordinateSlow) -> tuple[np.ndarray, np.ndarray]:
+def find_slow(residual: np.ndarray, *, rate: float, settings: PublishedSlowOptions) -> tuple[np.ndarray, np.ndarray]:
     """Find the hills and valleys of one coordinate of the residual (skurowski2022 3.5, steps 1-4).
 
     residual: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
@@ -94,7 +72,12 @@ def find_slow(residual: np.ndarray, *, rate: float, settings: CoordinateSlow) ->
 
 
 def detect(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: CoordinateSlow, predictor: ResidualSource
+    scene: Scene,
+    *,
+    markers: Sequence[str],
+    earlier: np.ndarray,
+    settings: PublishedSlowOptions,
+    predictor: ResidualSource,
 ) -> list[Event]:
     """Find the slow changes of a recording in the residuals of its coordinates.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,32 +11,12 @@ from markermend.core.events import Event, OpenStep
 from markermend.detection.published import coordinatewise, increments
 from markermend.detection.published.increments import difference_high_pass
 from markermend.numerics import filters, intervals
+from markermend.options.published import PublishedStepsOptions
 from markermend.prediction.scene import Scene
 
 
-@dataclass(frozen=True)
-class CoordinateSteps:
-    """Settings of the detector of one coordinate (config steps.coordinates and steps.paper).
-
-    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
-    robust.threshold. shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part
-    of the other. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
-
-    window_s: float
-    order: int
-    scale: str
-    sigmas: float
-    floor_mm: float
-    shortest_s: float
-    longest_s: float
-    ratio: float
-    bridge_s: float
-
-
 def find_steps(
-    signal: np.ndarray, *, rate: float, settings: CoordinateSteps
+    signal: np.ndarray, *, rate: float, settings: PublishedStepsOptions
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the steps of one coordinate (skurowski2022 3.4.4): intervals between opposite jumps.
 
@@ -63,7 +42,7 @@ def find_steps(
 
 
 def _detect_in_coordinates(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: CoordinateSteps
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: PublishedStepsOptions
 ) -> tuple[list[Event], list[OpenStep]]:
     """See detect_steps: coordinate by coordinate."""
     alone: dict[tuple[str, int], float] = {}

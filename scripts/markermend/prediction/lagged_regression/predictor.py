@@ -13,30 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics.patterns import alike
+from markermend.options.prediction import LaggedRegressionOptions
 from markermend.prediction.marker_selection import companions, thinned
 from markermend.prediction.scene import Prediction, Scene
 
 LOOSE = ("polynomial", "replicated_network")
 """The loose predictors by name; their settings have sections of the config of the same names."""
-
-
-@dataclass(frozen=True)
-class LooseOptions:
-    """Settings that the loose predictors share.
-
-    nearest: so many nearest neighbours stand in for siblings and parent marker where the scene does not name them.
-    lags, lag_s: samples before that are looked at, and how far apart they are. powers: highest power of a coordinate.
-    frames: training frames, evenly spaced. minimum_frames: fewer joint frames than this and nothing is learned. share:
-    an input that would leave less than this share of the marker's frames gives way to the next nearest neighbour.
-    """
-
-    nearest: int
-    lags: int
-    lag_s: float
-    powers: int
-    frames: int
-    minimum_frames: int
-    share: float
 
 
 @dataclass(frozen=True)
@@ -64,7 +46,7 @@ class LoosePredictor(ABC):
     name: str
     continuous = False
 
-    def __init__(self, options: LooseOptions) -> None:
+    def __init__(self, options: LaggedRegressionOptions) -> None:
         """Keep the settings; nothing is learned before a marker is asked for."""
         self.options = options
 

@@ -7,45 +7,25 @@ the replicas err in different ways. The networks of many markers are trained tog
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from markermend.numerics import intervals
 from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimise
+from markermend.options.prediction import ReplicatedNetworkOptions
 from markermend.prediction.lagged_regression.feed_forward import Stack, initial, mean_output
 from markermend.prediction.lagged_regression.polynomial import raised
-from markermend.prediction.lagged_regression.predictor import Learned, LooseOptions, LoosePredictor, Task
+from markermend.prediction.lagged_regression.predictor import Learned, LoosePredictor, Task
 from markermend.prediction.scene import Scene
-
-
-@dataclass(frozen=True)
-class ReplicatedOptions(LooseOptions):
-    """Settings of the replicated network (config section `replicated_network`), beside those of LooseOptions.
-
-    average_s: window of the marker's own moving average, notably longer than artifacts. hidden: units of the hidden
-    layers. replicas: of the output. held_out: share of the frames that are not trained on but tell when to stop.
-    iterations, rest, probe, patience: of the training, see DescentOptions. seed: of the random beginning.
-    """
-
-    average_s: float
-    hidden: tuple[int, ...]
-    replicas: int
-    held_out: float
-    iterations: int
-    rest: float
-    probe: float
-    patience: int
-    seed: int
 
 
 class ReplicatedNetwork(LoosePredictor):
     """The replicated network as a predictor; states no error, as the held-out frames lie too near to those trained on."""
 
     name = "replicated_network"
-    options: ReplicatedOptions
+    options: ReplicatedNetworkOptions
 
-    def __init__(self, options: ReplicatedOptions) -> None:
+    def __init__(self, options: ReplicatedNetworkOptions) -> None:
         """Keep the settings; nothing is trained before a marker is asked for."""
         super().__init__(options)
 

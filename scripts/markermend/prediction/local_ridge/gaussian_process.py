@@ -10,25 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.prediction.local_ridge.inputs import RidgeOptions
+from markermend.options.prediction import GaussianProcessOptions, LocalRidgeOptions
 from markermend.prediction.local_ridge.model import RidgeModel
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.marker_selection import thinned
-
-
-@dataclass(frozen=True)
-class GaussianOptions:
-    """Settings of the Gaussian process beyond those of the local ridge.
-
-    points: most training frames. lengths: reaches of the radial kernel that are tried, in units of the typical distance
-    between training inputs. amplitudes: variances of the radial part that are tried, in units of the noise. blocks: the
-    best is chosen by its error on so many stretches, each left out of its own training.
-    """
-
-    points: int
-    lengths: tuple[float, ...]
-    amplitudes: tuple[float, ...]
-    blocks: int
 
 
 @dataclass(frozen=True)
@@ -88,7 +73,7 @@ class GaussianProcess:
 
 
 def train(
-    inputs: np.ndarray, target: np.ndarray, weights: np.ndarray, *, ridge: float, options: GaussianOptions
+    inputs: np.ndarray, target: np.ndarray, weights: np.ndarray, *, ridge: float, options: GaussianProcessOptions
 ) -> GaussianProcess:
     """Train on inputs (n, k) and target (n, 3), both centred, mm, in order of time, of given weights (n,).
 
@@ -118,7 +103,7 @@ class LocalGaussian(LocalRidge):
 
     name = "local_gp"
 
-    def __init__(self, options: RidgeOptions, gaussian: GaussianOptions) -> None:
+    def __init__(self, options: LocalRidgeOptions, gaussian: GaussianProcessOptions) -> None:
         """options: frame, inputs, penalty of the linear part, and kriging, as in the local ridge."""
         super().__init__(options)
         self.gaussian = gaussian

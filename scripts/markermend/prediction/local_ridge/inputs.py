@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from markermend.numerics.rigid_alignment import align, mean_shape, width
+from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import RidgeModel, robust_weights
 from markermend.prediction.marker_selection import scattered
 from markermend.prediction.scene import Scene
@@ -17,34 +17,10 @@ SHAPE_FRAMES = 200
 """From so many frames the mean shape of the anchors is found: more tell the same."""
 
 
-@dataclass(frozen=True)
-class RidgeOptions:
-    """Settings of the local ridge (config section `local_ridge`).
-
-    anchors: markers in the frame. inputs: neighbours regressed on. width_mm: anchors thinner than this get company.
-    ridge_mm2: penalty, the variance of the noise on an input. frames: training frames at most. minimum_frames:
-    fewer joint frames than this and no model is made. robust_sigmas: training residuals beyond this many robust sigmas
-    lose weight. scales_s, longest_s, border_s: correlation lengths, longest lag, and reach of kriging, s. novelty:
-    see Novelty.most.
-    """
-
-    anchors: int
-    inputs: int
-    width_mm: float
-    ridge_mm2: float
-    frames: int
-    minimum_frames: int
-    robust_sigmas: float
-    scales_s: tuple[float, ...]
-    longest_s: float
-    border_s: float
-    novelty: float
-
-
 class RidgeChoice:
     """Makes the models that a local ridge needs for some frames; a scene remembers them."""
 
-    def __init__(self, options: RidgeOptions) -> None:
+    def __init__(self, options: LocalRidgeOptions) -> None:
         self.options = options
 
     def models(

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
-from markermend.prediction.local_ridge.inputs import RidgeChoice, RidgeOptions
+from markermend.options.prediction import LocalRidgeOptions
+from markermend.prediction.local_ridge.inputs import RidgeChoice
 from markermend.prediction.local_ridge.leverage import Novelty, learn_novelty
 from markermend.prediction.local_ridge.model import RidgeModel, inputs_at, response
 from markermend.prediction.scene import Prediction, Scene
@@ -26,7 +27,7 @@ class LocalRidge:
     name = "local_ridge"
     continuous = True
 
-    def __init__(self, options: RidgeOptions) -> None:
+    def __init__(self, options: LocalRidgeOptions) -> None:
         """Keep the settings; nothing is trained before a marker is asked for."""
         self.options = options
         self._choice = RidgeChoice(options)

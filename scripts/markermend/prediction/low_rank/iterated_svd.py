@@ -2,36 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.numerics.low_rank import complete
+from markermend.options.prediction import IteratedSvdOptions
 from markermend.prediction.marker_selection import companions, thinned
 from markermend.prediction.scene import Prediction, Scene
-
-
-@dataclass(frozen=True)
-class SvdOptions:
-    """Settings of the iterated truncated SVD.
-
-    neighbours: most markers beside the one with the gap. frames: most frames outside the gap. minimum_frames: a marker
-    seen in fewer is left out. share: a neighbour that leaves less than this share of them centres nothing. centred:
-    subtract from each frame the mean of the neighbours that are there throughout.
-    shrinkage: damp the singular values by the noise, or only truncate them. explained: share of the variance that sets
-    the rank. tolerance_mm: iterate until no missing sample moves more.
-    iterations: at most so many.
-    """
-
-    neighbours: int
-    frames: int
-    minimum_frames: int
-    share: float
-    centred: bool
-    shrinkage: bool
-    explained: float
-    tolerance_mm: float
-    iterations: int
 
 
 class IteratedSvd:
@@ -40,7 +16,7 @@ class IteratedSvd:
     name = "msvd"
     continuous = False
 
-    def __init__(self, options: SvdOptions) -> None:
+    def __init__(self, options: IteratedSvdOptions) -> None:
         """Keep the settings."""
         self.options = options
 

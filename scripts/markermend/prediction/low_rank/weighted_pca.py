@@ -2,40 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.numerics.low_rank import enough
 from markermend.numerics.patterns import alike
+from markermend.options.prediction import WeightedPcaOptions
 from markermend.prediction.marker_selection import companions, thinned
 from markermend.prediction.scene import Prediction, Scene
 
 STRATEGIES = ("together", "single")
 """Reconstruct all markers that miss the same frames at once (strategy R1 of the paper), or one at a time (R2)."""
-
-
-@dataclass(frozen=True)
-class PcaOptions:
-    """Settings of the weighted principal components.
-
-    strategy: one of STRATEGIES. frames: most training frames. minimum_frames: fewer joint frames than this and nothing
-    is predicted. minimum_inputs: if so many markers are seen throughout the gap, only these are used. share: a marker
-    is left out if with it fewer than this share of the training frames would remain. scale_mm: markers' weights fall
-    with their distance as a Gaussian of this width. missing_weight: weight of markers with the gap. distal: markers
-    with gaps of their own are left out beyond this multiple of the mean distance. explained: share of the sum of
-    singular values that sets the number of components.
-    """
-
-    strategy: str
-    frames: int
-    minimum_frames: int
-    minimum_inputs: int
-    share: float
-    scale_mm: float
-    missing_weight: float
-    distal: float
-    explained: float
 
 
 class WeightedPca:
@@ -44,7 +20,7 @@ class WeightedPca:
     name = "weighted_pca"
     continuous = False
 
-    def __init__(self, options: PcaOptions) -> None:
+    def __init__(self, options: WeightedPcaOptions) -> None:
         """Keep the settings."""
         if options.strategy not in STRATEGIES:
             raise ValueError(f"unknown strategy {options.strategy!r}: one of {', '.join(STRATEGIES)}")

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from markermend.numerics.intervals import runs
+from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.marker_selection import thinned
 from markermend.prediction.neural_network.inputs import Scale, chosen, completed, features, stretches
-from markermend.prediction.neural_network.options import NetworkOptions
 from markermend.prediction.scene import Prediction, Scene
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class Network:
 
     continuous = False
 
-    def __init__(self, name: str, options: NetworkOptions) -> None:
+    def __init__(self, name: str, options: NeuralNetworkOptions) -> None:
         """Keep the settings. Raises ValueError where torch is not installed."""
         if reason := cannot_train([name]):
             raise ValueError(reason)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from markermend.prediction.neural_network.options import NetworkOptions
+from markermend.options.prediction import NeuralNetworkOptions
 
 GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
 """The recurrent kinds and how many weighted sums a recurrent unit has."""
@@ -32,7 +32,7 @@ class Lesson:
     targets: Sequence[np.ndarray]
 
 
-def train(kind: str, lessons: Sequence[Lesson], options: NetworkOptions) -> list[Weights]:
+def train(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOptions) -> list[Weights]:
     """Train one network per lesson, at most `batch` at once; source: skurowski2021 section 3.1.4.
 
     Gradient descent with momentum on all frames at once. The loss is half the squared error, summed over the outputs
@@ -52,7 +52,7 @@ def evaluate(kind: str, weights: Weights, inputs: np.ndarray) -> np.ndarray:
         return _forward(kind, [torch.from_numpy(part[None]) for part in weights], x, backwards)[0, 0].numpy()
 
 
-def initial(kind: str, inputs: int, outputs: int, options: NetworkOptions) -> Weights:
+def initial(kind: str, inputs: int, outputs: int, options: NeuralNetworkOptions) -> Weights:
     """First weights: Glorot's uniform ones, orthogonal ones of former outputs, constants 0 but 1 at the forget gates."""
     rng = np.random.default_rng(options.seed)
     weights: Weights = []
@@ -80,7 +80,7 @@ def _glorot(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
     return rng.uniform(-1, 1, (rows, columns)) * np.sqrt(6 / (rows + columns))
 
 
-def _train_batch(kind: str, lessons: Sequence[Lesson], options: NetworkOptions) -> list[Weights]:
+def _train_batch(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOptions) -> list[Weights]:
     """See train."""
     device = "cuda" if torch.cuda.is_available() else "cpu"
     begun = [initial(kind, lesson.inputs[0].shape[1], lesson.targets[0].shape[1], options) for lesson in lessons]
@@ -113,7 +113,7 @@ def _descend(
     velocities: Sequence[torch.Tensor],
     gradients: Sequence[torch.Tensor],
     rate: float,
-    options: NetworkOptions,
+    options: NeuralNetworkOptions,
 ) -> None:
     """One step downhill with momentum, in place."""
     length = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()

@@ -11,39 +11,11 @@ from functools import partial
 
 import numpy as np
 
+from markermend.options.prediction import BoleroOptions
 from markermend.prediction.marker_selection import references
 from markermend.prediction.scene import Prediction, Scene
 from markermend.prediction.state_space.bone_lengths import BoneLengths, steady_bones
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics, learn
-
-
-@dataclass(frozen=True)
-class BoleroOptions:
-    """Settings of the linear dynamical system with bone lengths.
-
-    hidden: dimensions of its state, at most. neighbours: most markers beside the one with the gap, those seen in it
-    first; the bones' other ends come on top. centred: whether the mean of the neighbours that are there throughout the
-    window is subtracted from each frame. context_s: the window reaches beyond the gap by one to two times this, s.
-    minimum_frames: markers seen on fewer frames of the window are left out. lag_s: the first guess of the states sees
-    this far ahead, s; 0 leaves velocities out of it. iterations: of the learning, at most. tolerance: learning ends
-    when the log-likelihood rises by less than this per observed number. floor_share: least deviation of noise, drive
-    and bone lengths, and what ends the steps towards the bones, as a share of the markers' spread. bones: for each
-    missing marker, how many lengths hold; 0 leaves the linear dynamical system alone (DynaMMo). frames: most frames
-    that lengths are learned from. steps: most steps towards the bones.
-    """
-
-    hidden: int
-    neighbours: int
-    centred: bool
-    context_s: float
-    minimum_frames: int
-    lag_s: float
-    iterations: int
-    tolerance: float
-    floor_share: float
-    bones: int
-    frames: int
-    steps: int
 
 
 @dataclass(frozen=True)

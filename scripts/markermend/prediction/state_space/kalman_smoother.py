@@ -5,37 +5,13 @@ The state is where the body is and which pose it has, principal components of th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from markermend.numerics.low_rank import expected
+from markermend.options.prediction import KalmanSmootherOptions
 from markermend.prediction.marker_selection import companions, thinned
 from markermend.prediction.scene import Prediction, Scene
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics
-
-
-@dataclass(frozen=True)
-class KalmanOptions:
-    """Settings of the low-dimensional Kalman smoother.
-
-    neighbours: most markers beside the one with the gap. frames: most training frames. minimum_frames: fewer joint
-    frames than this and nothing is predicted. share: a marker is left out if with it fewer than this share of the
-    training frames would remain. explained: share of the shape's variance that sets the number of components.
-    components: at most so many. noise_mm: least deviation of a marker from the pose. context_s: how far the window
-    reaches beyond the gap, s. folds: of stretches as long as the gap, one in so many is left out in turn to see how
-    well the pose tells the marker.
-    """
-
-    neighbours: int
-    frames: int
-    minimum_frames: int
-    share: float
-    explained: float
-    components: int
-    noise_mm: float
-    context_s: float
-    folds: int
 
 
 def steady_motion(
@@ -70,7 +46,7 @@ class KalmanSmoother:
     name = "kalman"
     continuous = False
 
-    def __init__(self, options: KalmanOptions) -> None:
+    def __init__(self, options: KalmanSmootherOptions) -> None:
         """Keep the settings."""
         self.options = options
 

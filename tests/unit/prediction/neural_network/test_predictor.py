@@ -11,11 +11,11 @@ import pytest
 
 import fill
 from markermend.command.stage import flag
+from markermend.options.prediction import NeuralNetworkOptions
 from markermend.planning import config as workflow_settings
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network import predictor
 from markermend.prediction.neural_network.inputs import chosen, completed, features, stretches
-from markermend.prediction.neural_network.options import NetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene, Trainable
@@ -23,7 +23,7 @@ from markermend.storage import mesh_file, stage_files
 from support.fillings import CONFIG, neighbours, restored, rigid_body, settings
 from support.paths import PROJECT
 
-OPTIONS = NetworkOptions(**settings()["networks"])
+OPTIONS = NeuralNetworkOptions(**settings()["networks"])
 
 
 def network(name="network_linear", **changed):
