@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import yaml
 
-import detection
-from detection_outcome import CLASSES, Outcome, correlation, print_outcome, root
+from benchmarks.accuracy import detection
+from benchmarks.support.detection_outcome import CLASSES, Outcome, correlation, print_outcome, root
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.simulation.artifact_models import Recipe, integers, uniform
@@ -72,7 +71,7 @@ def test_forms_count_what_was_found_and_found_right():
 
 
 def test_damage_is_found_counted_and_told(walker, capsys):
-    config = yaml.safe_load((detection.PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+    config = detection.CONFIG
     clean = replace(walker.recording, positions=walker.recording.positions[:500])
     condition = {"procedure": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
     total = Outcome()

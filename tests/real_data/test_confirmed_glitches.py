@@ -9,7 +9,7 @@ from markermend.formats import files
 from support.paths import PROJECT
 from support.signals import CONFIG
 
-TABLE = PROJECT / "benchmarks" / "confirmed_glitches.tsv"
+TABLE = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 
 
 @pytest.mark.data

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import detection
+from benchmarks.accuracy import detection
 from markermend.formats import files
 from support.signals import CONFIG
 

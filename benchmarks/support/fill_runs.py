@@ -10,11 +10,10 @@ from functools import cache
 from pathlib import Path
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
-import yaml
 
+from benchmarks.support.defaults import CONFIG, MESH, PROJECT
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
@@ -24,8 +23,6 @@ from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 from markermend.storage import mesh_file, stage_files
 
-PROJECT = Path(__file__).resolve().parents[1]
-CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
 SHARED = ("protect", *(family for family in FAMILIES if family not in CONFIG["fill"]))
 """Sections of the config that the fill stage reads beside its own."""
 
@@ -58,8 +55,7 @@ class Run:
 
 def mesh_of(recording):
     """The mesh inferred from one recording."""
-    own = {key: value for key, value in CONFIG["mesh"].items() if key != "files"}
-    (inferred,) = infer_meshes([thin(recording, frames=own["frames"])], supplied=[], **own)
+    (inferred,) = infer_meshes([thin(recording, frames=MESH["frames"])], supplied=[], **MESH)
     return inferred
 
 

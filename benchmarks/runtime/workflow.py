@@ -3,7 +3,7 @@
 Reads: the recordings named on the command line, as snakemake takes them.
 Writes: results in the folder given (a temporary one without --results); three tables to stdout.
 
-    .venv/bin/python benchmarks/workflow.py ../shared/data/clean --cores 1
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.workflow ../shared/data/clean --cores 1
 
 Times are those of Snakemake's own benchmark files: seconds from start to end of a stage's process, imports included,
 and the share of a core that it used. `overhead` is the wall time of the whole run without those seconds.
@@ -19,7 +19,7 @@ import time
 from collections import defaultdict
 from pathlib import Path
 
-PROJECT = Path(__file__).resolve().parents[1]
+from benchmarks.support.defaults import PROJECT
 
 
 def run(recordings: str, results: Path, cores: int) -> float:

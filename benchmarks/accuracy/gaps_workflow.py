@@ -1,12 +1,12 @@
 """Fill gaps whose truth is known through the whole workflow, C3D in and C3D out, and compare with the predictors alone.
 
-Reads: as benchmarks/gaps.py.
+Reads: as benchmarks/accuracy/gaps.py.
 Writes: C3D files with gaps and results below a temporary folder (or --folder); a table to stdout.
 
-    .venv/bin/python benchmarks/gaps_workflow.py --iterations 1 --cores 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.gaps_workflow --iterations 1 --cores 2
 
 Each case becomes a subject of its own: a copy of the recording whose samples in the gaps are marked as missing. What
-the workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/gaps.py fills. Detection is
+the workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/accuracy/gaps.py fills. Detection is
 off, and the rules of what may be filled are lifted, as there.
 """
 
@@ -18,12 +18,11 @@ import tempfile
 from collections import defaultdict
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
 import numpy as np
 import yaml
 
-from gaps import CONFIG, LIFTED, PROJECT, fill_case, load, score
+from benchmarks.support.defaults import CONFIG, DATA, PROJECT
+from benchmarks.support.gap_cases import LIFTED, fill_case, load, score
 from markermend.formats import files
 
 UNLABELLED = CONFIG["ingest"]["unlabelled"]
@@ -71,7 +70,7 @@ def compare(folder, case, results):
 def main():
     """Parse the command line, write the cases, run, compare, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json (default: next to --data)")
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, help="only the first so many of each condition")

@@ -5,31 +5,26 @@ Writes: tables to stdout: by kind of swap and distance of the markers, and for p
 the right partners over the right frames, and undone bit for bit; and how many were found that are none, there and in the
 recordings as they are.
 
-    .venv/bin/python benchmarks/swaps.py ../shared/data/clean/*
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.swaps ../shared/data/clean/*
 
 Kinds: a pair; a pair that never swaps back; a pair of which the other marker is missing meanwhile; three markers in a
 ring. Distances are medians over the recording, of a ring that of its first two.
 """
 
 import argparse
-import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
-from markermend.options.detection import LabelsOptions
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
-
 import numpy as np
-import yaml
 
+from benchmarks.support.defaults import CONFIG
 from markermend.detection.labels import detect_swaps, undone
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
+from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
 
-PROJECT = Path(__file__).resolve().parents[1]
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
 BANDS = (60.0, 150.0, 400.0, np.inf)
 """Upper ends of the distances that are told apart, mm."""
@@ -79,7 +74,7 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=12, help="swaps of each kind and length in each recording")
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
     arguments = parser.parse_args()
-    config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+    config = CONFIG
     settings = LabelsOptions(**config["swaps"])
     tried: Counter[tuple[str, int, int]] = Counter()
     right: Counter[tuple[str, int, int]] = Counter()

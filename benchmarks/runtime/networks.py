@@ -2,7 +2,7 @@
 
 Writes: a table to stdout.
 
-    OMP_NUM_THREADS=1 .venv/bin/python benchmarks/networks.py --epochs 30
+    OMP_NUM_THREADS=1 PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.networks --epochs 30
 
 Settings are those of config/config.yaml but for the epochs: time is proportional to them, and the ratio does not depend
 on them. Each number of networks is trained both ways in turn, on the same gaps; the last column is the largest distance
@@ -10,25 +10,19 @@ between what the two tell, mm.
 """
 
 import argparse
-import sys
 import time
-from pathlib import Path
-
-from markermend.options.prediction import NeuralNetworkOptions
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import torch
-import yaml
 
+from benchmarks.support.defaults import CONFIG
+from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 
-PROJECT = Path(__file__).resolve().parents[1]
-OPTIONS = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))["fill"]["networks"]
+OPTIONS = CONFIG["fill"]["networks"]
 GAP = (500, 600)
 
 

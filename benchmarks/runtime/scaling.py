@@ -2,7 +2,7 @@
 
 Writes: three tables to stdout; in each one number varies and the others are those of the base case.
 
-    .venv/bin/python benchmarks/scaling.py
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.scaling
 
 Each row is scripts/fill.py with the default settings in a process of its own: seconds of a core and peak memory include
 its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at a random place on a random marker.
@@ -12,7 +12,7 @@ import argparse
 
 import numpy as np
 
-from fill_runs import fill, walker, with_gaps
+from benchmarks.support.fill_runs import fill, walker, with_gaps
 
 BASE = {"frames": 4_000, "markers": 41, "gaps": 10}
 VARIED = {"frames": (1_000, 4_000, 16_000, 64_000), "markers": (20, 41, 80, 160), "gaps": (3, 10, 30, 100)}

@@ -4,7 +4,7 @@ Reads: the recordings in DATA/clean.
 Writes: a table to stdout: per recording and gap length, the share of samples within `error` and `error95`, and their
 number.
 
-    .venv/bin/python benchmarks/calibration.py --runs 8 --jobs 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.calibration --runs 8 --jobs 2
 
 In each run some markers, chosen at random, miss the same stretch at a random place. The stated shares are 68 and 95 %.
 Samples of one gap go together, so a cell knows little more than it has runs: the standard error is printed beside it,
@@ -12,17 +12,15 @@ from the spread between runs.
 """
 
 import argparse
-import sys
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
 import numpy as np
 
-from gaps import CONFIG, MESH, PROJECT, fill_gapped, load
+from benchmarks.support.defaults import CONFIG, DATA, MESH
+from benchmarks.support.gap_cases import fill_gapped, load
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
 
@@ -71,7 +69,7 @@ def cell(runs):
 def main():
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--recordings", nargs="+", help="only these, such as Qualisys")
     parser.add_argument("--lengths", nargs="+", type=float, default=LENGTHS_S, help="of the gaps, s")
     parser.add_argument("--markers", nargs="+", type=int, default=[1, 3], help="that miss the stretch at once")

@@ -1,14 +1,14 @@
 """Damage clean recordings in known ways, find and repair the damage, and print how well that went.
 
-Reads: the clean recordings named on the command line, the workflow's config, confirmed_glitches.tsv beside this file.
+Reads: the clean recordings named on the command line, the workflow's config, benchmarks/support/confirmed_glitches.tsv.
 Writes: tables to stdout, one set for each condition (amplitude, share, preset) and group of recordings, over all seeds.
 
-    .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --amplitudes 10 --shares 0.1 --jobs 2
-    .venv/bin/python benchmarks/detection.py ../shared/data/clean/* --procedure practice --presets default --seeds 10 11 12
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --amplitudes 10 --shares 0.1 --jobs 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --procedure practice --presets default --seeds 10 11 12
 
 Damage is the procedure of skurowski2022 (section 4.1.3): a share of the time distorted, one marker at a time, in equal
 shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--procedure practice`, what that
-leaves out (markermend.procedures.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
+leaves out (markermend.simulation.protocols.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
 
 Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
 What frozen and tails find is a class like the others, though the published damage has neither: a sample of a peak that
@@ -37,12 +37,11 @@ from markermend.options.published import PublishedSlowOptions
 from markermend.options.repair import RepairOptions
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
-import yaml
 
-from detection_outcome import CLASSES, Outcome, print_outcome
+from benchmarks.support.defaults import CONFIG, PROJECT
+from benchmarks.support.detection_outcome import CLASSES, Outcome, print_outcome
 from markermend.core import events
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
@@ -57,13 +56,12 @@ from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.protocols import PROCEDURES
 
-PROJECT = Path(__file__).resolve().parents[1]
 UNMEASURED = {
     "frozen": (frozen.detect_frozen, FrozenOptions),
     "tails": (tails.detect_tails, TailsOptions),
 }
 DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": detection_slow}
-GLITCHES = Path(__file__).with_name("confirmed_glitches.tsv")
+GLITCHES = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 BORDER = 2
 """Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
 GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02", "85_12")}
@@ -190,7 +188,7 @@ def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list,
 
 def run(path: Path, presets: list, condition: dict) -> dict[str, Outcome]:
     """Judge one recording under one condition."""
-    config = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
+    config = CONFIG
     clean = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
     return judge(clean, config, ignored=glitches(path, clean), presets=presets, **condition)
 

@@ -2,7 +2,7 @@
 
 Reads: clean/ in the data folder. Writes: a table to stdout.
 
-    .venv/bin/python benchmarks/hard_cases.py --only blackout ends
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.hard_cases --only blackout ends
 
 Each row is one run of scripts/fill.py in a process of its own, with the default settings and the options that the row
 names; seconds (of a core) and peak memory are those of the process, start and files included. The mesh is inferred from
@@ -18,8 +18,9 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-import gaps
-from fill_runs import CONFIG, PROJECT, fill, mesh_of, walker, with_gaps
+from benchmarks.support import gap_cases
+from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.fill_runs import fill, mesh_of, walker, with_gaps
 from markermend.core.recording import Recording
 
 
@@ -268,7 +269,7 @@ def row(case):
 def main():
     """Parse the command line, run the cases, print a row for each."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--only", nargs="+", choices=CASES, default=list(CASES), metavar="NAME", help=", ".join(CASES))
     arguments = parser.parse_args()
     print(
@@ -276,7 +277,7 @@ def main():
         f"{'seconds':>7} {'MB':>6}  why left"
     )
     for name in arguments.only:
-        for case in CASES[name](lambda recording: gaps.load(str(arguments.data), recording)):
+        for case in CASES[name](lambda recording: gap_cases.load(str(arguments.data), recording)):
             print(row(case), flush=True)
 
 

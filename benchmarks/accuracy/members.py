@@ -1,11 +1,11 @@
 """What each member is worth: fill known gaps with the default members, with one more, with one fewer, and with one alone.
 
-Reads: as benchmarks/gaps.py.
+Reads: as benchmarks/accuracy/gaps.py.
 Writes: a table to stdout: mean over the conditions of the error with other members, in units of that with the default
 ones.
 
-    .venv/bin/python benchmarks/members.py --iterations 2 --jobs 2
-    .venv/bin/python benchmarks/members.py --members network_linear bolero --iterations 1 --jobs 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.members --iterations 2 --jobs 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.members --members network_linear bolero --iterations 1 --jobs 2
 
 A member that is added should never make the mean error larger by more than 2 %. The seconds are those that a gap costs
 with the member alone, pseudo-gaps included, for weighing what it costs against what it brings.
@@ -13,16 +13,14 @@ with the member alone, pseudo-gaps included, for weighing what it costs against 
 
 import argparse
 import json
-import sys
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
 import numpy as np
 
-from gaps import CONFIG, PROJECT, fill_case, score
+from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.gap_cases import fill_case, score
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import REGISTRY
 
@@ -54,7 +52,7 @@ def compared(errors, usual):
 def main():
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json (default: next to --data)")
     parser.add_argument("--members", nargs="+", help="only these (default: all but the slowest)")
     parser.add_argument("--conditions", nargs="+", default=CONDITIONS, help="such as g3_L1 sp2_50")

@@ -3,7 +3,7 @@
 Reads: cases.json and programs.json (made gaps, and what programs made of them), the recordings that they name.
 Writes: tables to stdout.
 
-    .venv/bin/python benchmarks/gaps.py --jobs 2
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.gaps --jobs 2
 
 Settings are those of config/config.yaml, the mesh is inferred from each recording with its gaps. Only the rules of what
 may be filled are lifted: every gap counts. Protocol A (conditions g3_L1: 3 concurrent gaps of 1 s) is judged by the
@@ -11,108 +11,20 @@ mean distance, mm; protocol B (sp2_50: 2 gaps of mean length 50 frames anywhere)
 mm.
 """
 
+from __future__ import annotations
+
 import argparse
-import copy
 import json
-import os
-import sys
-import time
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
-from functools import cache, partial, reduce
+from functools import partial
 from pathlib import Path
-
-from markermend.options.filling import EnsembleOptions, FillOptions
-
-os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
 
 import numpy as np
 import yaml
 
-from markermend.core.recording import MEASURED, MISSING, Restored
-from markermend.filling.ensemble import Ensemble
-from markermend.filling.fill import fill_gaps
-from markermend.formats import files
-from markermend.formats.ingest import ingest
-from markermend.mesh.inference import infer_meshes
-from markermend.mesh.pair_statistics import thin
-from markermend.prediction.registry import FAMILIES, members
-
-PROJECT = Path(__file__).resolve().parents[1]
-CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
-MESH = {key: value for key, value in CONFIG["mesh"].items() if key != "files"}
-LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "ends": True, "protect": [], "seen_share": 0.0, "border_s": 0.0}
-LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
-FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
-"""Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
-
-
-@cache
-def load(folder, name):
-    """The recording of a case as the workflow ingests it."""
-    (path,) = Path(folder, "clean").glob(f"{name}*")
-    options = dict(CONFIG["ingest"])
-    reading = files.read(path, unlabelled=options.pop("unlabelled"), rate=None)
-    return ingest(reading, source=path.name, recording=name, subject="benchmark", kind="dynamic", **options)
-
-
-@cache
-def ensemble(names, changes=()):
-    """The averaging of the config over the named members, with changed settings (dotted name, value) of the ensemble."""
-    fill = copy.deepcopy(CONFIG["fill"])
-    for name, value in changes:
-        *path, last = name.split(".")
-        reduce(dict.__getitem__, path, fill["ensemble"])[last] = value
-    settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
-    brief = members(names, settings, most_frames=fill["trial_frames"])
-    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
-
-
-def fill_gapped(whole, gaps, neighbours, names, changes=()):
-    """Hide gaps (marker, start, stop) of a recording and fill them with the named members."""
-    positions = whole.positions.copy()
-    for marker, start, stop in gaps:
-        positions[start:stop, marker] = np.nan
-    gapped = replace(whole, positions=positions)
-    none = np.where(gapped.missing, np.nan, 0.0)
-    origin = np.where(gapped.missing, MISSING, MEASURED).astype(np.uint8)
-    restored = Restored(
-        whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
-    )
-    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
-    return fill_gaps(restored, neighbours, ensemble=ensemble(names, changes), options=options)
-
-
-def fill_case(folder, case, names, changes=()):
-    """Fill the gaps of one case; returns seconds (mesh, fill) and for each gap offsets (n, 3), error and error95 (n,)."""
-    whole = load(folder, case["seq"])
-    positions = whole.positions.copy()
-    for marker, start, stop in case["gaps"]:
-        positions[start:stop, marker] = np.nan
-    started = time.process_time()
-    gapped = replace(whole, positions=positions)
-    (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
-    inferred = time.process_time()
-    filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
-    seconds = inferred - started, time.process_time() - inferred
-    gaps = []
-    for marker, start, stop in case["gaps"]:
-        place = slice(start, stop), marker
-        known = ~whole.missing[place]
-        offsets = (filled.positions - whole.positions)[place][known]
-        fitted = case["seq"].startswith("HDM") and whole.markers[marker].split(":")[-1] in FITTED
-        gaps.append((offsets, filled.error[place][known], filled.error95[place][known], fitted))
-    return case, seconds, gaps
-
-
-def score(condition, gaps):
-    """The error of a case, mm, by the measure of its protocol; NaN where a sample stayed open."""
-    offsets = np.concatenate([gap[0] for gap in gaps])
-    if condition.startswith("sp"):
-        return float(np.sqrt((offsets**2).mean()))
-    return float(np.linalg.norm(offsets, axis=1).mean())
+from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.gap_cases import fill_case, score
 
 
 def print_errors(ours, programs, title):
@@ -179,7 +91,7 @@ def print_seconds(cases, programs):
 def main():
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=PROJECT.parent / "shared/data", type=Path, help="folder that holds clean/")
+    parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
     parser.add_argument("--members", nargs="+", default=CONFIG["fill"]["members"], help="in place of the config's")
     parser.add_argument(

@@ -1,0 +1,1 @@
+"""How close filling, detection and repair come to a known truth."""

@@ -1,0 +1,1 @@
+"""How long stages and workflow take, and how much memory they need."""

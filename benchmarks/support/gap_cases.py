@@ -1,0 +1,96 @@
+"""Gaps with a known truth: hidden in real recordings, filled, and scored by the measure of their protocol."""
+
+from __future__ import annotations
+
+import copy
+import os
+import time
+from dataclasses import replace
+from functools import cache, reduce
+from pathlib import Path
+
+os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np
+
+from benchmarks.support.defaults import CONFIG, MESH
+from markermend.core.recording import MEASURED, MISSING, Restored
+from markermend.filling.ensemble import Ensemble
+from markermend.filling.fill import fill_gaps
+from markermend.formats import files
+from markermend.formats.ingest import ingest
+from markermend.mesh.inference import infer_meshes
+from markermend.mesh.pair_statistics import thin
+from markermend.options.filling import EnsembleOptions, FillOptions
+from markermend.prediction.registry import FAMILIES, members
+
+LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "ends": True, "protect": [], "seen_share": 0.0, "border_s": 0.0}
+LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
+FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
+"""Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
+
+
+@cache
+def load(folder, name):
+    """The recording of a case as the workflow ingests it."""
+    (path,) = Path(folder, "clean").glob(f"{name}*")
+    options = dict(CONFIG["ingest"])
+    reading = files.read(path, unlabelled=options.pop("unlabelled"), rate=None)
+    return ingest(reading, source=path.name, recording=name, subject="benchmark", kind="dynamic", **options)
+
+
+@cache
+def ensemble(names, changes=()):
+    """The averaging of the config over the named members, with changed settings (dotted name, value) of the ensemble."""
+    fill = copy.deepcopy(CONFIG["fill"])
+    for name, value in changes:
+        *path, last = name.split(".")
+        reduce(dict.__getitem__, path, fill["ensemble"])[last] = value
+    settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
+    brief = members(names, settings, most_frames=fill["trial_frames"])
+    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
+
+
+def fill_gapped(whole, gaps, neighbours, names, changes=()):
+    """Hide gaps (marker, start, stop) of a recording and fill them with the named members."""
+    positions = whole.positions.copy()
+    for marker, start, stop in gaps:
+        positions[start:stop, marker] = np.nan
+    gapped = replace(whole, positions=positions)
+    none = np.where(gapped.missing, np.nan, 0.0)
+    origin = np.where(gapped.missing, MISSING, MEASURED).astype(np.uint8)
+    restored = Restored(
+        whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
+    )
+    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
+    return fill_gaps(restored, neighbours, ensemble=ensemble(names, changes), options=options)
+
+
+def fill_case(folder, case, names, changes=()):
+    """Fill the gaps of one case; returns seconds (mesh, fill) and for each gap offsets (n, 3), error and error95 (n,)."""
+    whole = load(folder, case["seq"])
+    positions = whole.positions.copy()
+    for marker, start, stop in case["gaps"]:
+        positions[start:stop, marker] = np.nan
+    started = time.process_time()
+    gapped = replace(whole, positions=positions)
+    (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
+    inferred = time.process_time()
+    filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
+    seconds = inferred - started, time.process_time() - inferred
+    gaps = []
+    for marker, start, stop in case["gaps"]:
+        place = slice(start, stop), marker
+        known = ~whole.missing[place]
+        offsets = (filled.positions - whole.positions)[place][known]
+        fitted = case["seq"].startswith("HDM") and whole.markers[marker].split(":")[-1] in FITTED
+        gaps.append((offsets, filled.error[place][known], filled.error95[place][known], fitted))
+    return case, seconds, gaps
+
+
+def score(condition, gaps):
+    """The error of a case, mm, by the measure of its protocol; NaN where a sample stayed open."""
+    offsets = np.concatenate([gap[0] for gap in gaps])
+    if condition.startswith("sp"):
+        return float(np.sqrt((offsets**2).mean()))
+    return float(np.linalg.norm(offsets, axis=1).mean())
