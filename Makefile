@@ -21,13 +21,16 @@ lint: .venv/ready
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
+	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
+	$(BIN)/codespell
 
-# The newest versions of what requirements.in names; then bring envs/*.yaml in step.
+# The newest versions of what pyproject.toml names; then bring envs/*.yaml in step.
 lock: .venv/ready
 	$(PYTHON) -m venv .venv-lock
 	.venv-lock/bin/pip install --quiet uv
 	.venv-lock/bin/uv pip compile --quiet --universal --fork-strategy fewest --generate-hashes --no-emit-index-url --no-emit-find-links \
-		--python-version 3.11 --upgrade --custom-compile-command "make lock" requirements.in --output-file requirements.lock
+		--python-version 3.11 --upgrade --custom-compile-command "make lock" --extra slurm --group dev pyproject.toml \
+		--output-file requirements.lock
 	rm -r .venv-lock
 
 .venv/ready: requirements.lock envs/torch.yaml

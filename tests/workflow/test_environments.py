@@ -4,6 +4,8 @@ import ast
 import re
 import subprocess
 import sys
+import tomllib
+from modulefinder import ModuleFinder
 
 import pytest
 import yaml
@@ -12,8 +14,11 @@ from support.workflow_runs import PROJECT
 
 LOCK = (PROJECT / "requirements.lock").read_text()
 LOCKED = dict(re.findall(r"^([A-Za-z0-9._-]+)==([^ ;\\]+)", LOCK, re.MULTILINE))
-WANTED = [line for line in (PROJECT / "requirements.in").read_text().split("\n") if line and not line.startswith("#")]
-RUNTIME = WANTED[: WANTED.index("snakemake")]
+DECLARED = tomllib.loads((PROJECT / "pyproject.toml").read_text())
+RUNTIME = {re.split("[<>=]", name)[0] for name in DECLARED["project"]["dependencies"]}
+WANTED = {*RUNTIME, *DECLARED["dependency-groups"]["dev"], *DECLARED["project"]["optional-dependencies"]["slurm"]}
+MODULES = {"yaml": "pyyaml"}
+"""Packages by the module that is imported, where the names differ."""
 
 
 def test_every_locked_package_has_hashes_and_no_home():
@@ -21,7 +26,7 @@ def test_every_locked_package_has_hashes_and_no_home():
     assert len(entries) == len(LOCKED) > len(WANTED)
     assert all("--hash=sha256:" in entry for entry in entries)
     assert not re.search(r"https?:|file:|index-url|find-links|^-|/opt/|/home/", LOCK, re.MULTILINE)
-    assert set(WANTED) <= set(LOCKED)
+    assert set(LOCKED) >= WANTED
 
 
 @pytest.mark.parametrize("name", ["base", "torch"])
@@ -30,7 +35,21 @@ def test_conda_environments_have_the_locked_versions(name):
     pinned = dict(re.split("=+", package) for package in packages[:-1] + packages[-1]["pip"])
     apart = {"python": "3.11", "pip": pinned["pip"], "torch": "2.13.0"}
     assert {package: LOCKED.get(package, apart.get(package)) for package in pinned} == pinned
-    assert name != "base" or set(RUNTIME) <= set(pinned)
+
+
+@pytest.mark.parametrize("script", sorted((PROJECT / "scripts").glob("*.py")), ids=lambda path: path.stem)
+def test_conda_environments_have_what_the_stages_import(script):
+    needed = set().union(*map(imports, code_files(script))) - sys.stdlib_module_names - {"markermend", "torch"}
+    for name in ("base", "torch") if script.stem == "fill" else ("base",):
+        dependencies = yaml.safe_load((PROJECT / f"envs/{name}.yaml").read_text())["dependencies"]
+        assert needed <= {package.split("=")[0] for package in dependencies[:-1] + dependencies[-1]["pip"]}
+
+
+def code_files(script):
+    """The script and the project's modules that it imports, directly or not."""
+    finder = ModuleFinder(path=[str(script.parent)])
+    finder.run_script(str(script))
+    return [PROJECT / module.__file__ for module in finder.modules.values() if module.__file__]
 
 
 def imports(path):
@@ -44,7 +63,8 @@ def imports(path):
 
 def test_the_code_imports_nothing_else_and_torch_where_networks_train():
     imported = {path.name: set(imports(path)) for path in (PROJECT / "scripts").rglob("*.py")}
-    assert set().union(*imported.values()) - sys.stdlib_module_names - {"markermend", "torch"} <= set(RUNTIME)
+    third = set().union(*imported.values()) - sys.stdlib_module_names - {"markermend", "torch"}
+    assert {MODULES.get(name, name) for name in third} <= RUNTIME
     assert [name for name, packages in imported.items() if "torch" in packages] == ["training.py"]
 
 

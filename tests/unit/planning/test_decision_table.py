@@ -74,8 +74,8 @@ def test_places_can_be_copied_from_the_table_of_changes():
 @pytest.mark.parametrize(
     ("line", "problem"),
     [
-        ("run|LANK|7|9|acept", "line 2, column decision: 'acept' is none of accept, reject,"),
-        ("run|LANK|7|9|acept", "did you mean 'accept'?"),
+        ("run|LANK|7|9|acept", "line 2, column decision: 'acept' is none of accept, reject,"),  # codespell:ignore
+        ("run|LANK|7|9|acept", "did you mean 'accept'?"),  # codespell:ignore
         ("run|LANK|7|9|", "line 2, column decision: is empty"),
         ("|LANK|7|9|accept", "line 2, column recording: is empty"),
         ("run||7|9|accept", "line 2, column marker: is empty"),
@@ -134,7 +134,10 @@ def test_all_problems_are_told_at_once(tmp_path):
 @pytest.mark.parametrize(
     ("line", "warning"),
     [
-        ("runn|LANK|7|9|accept", "line 2: no recording 'runn' among the recordings; did you mean 'run'?"),
+        (
+            "runn|LANK|7|9|accept",  # codespell:ignore
+            "line 2: no recording 'runn' among the recordings; did you mean 'run'?",
+        ),  # codespell:ignore
         ("zzz|LANK|7|9|accept", "line 2: no recording 'zzz' among the recordings"),
         ("walk|A|7|9|accept|||S9", "line 2: subject 'S9' has no recording 'walk', but S01, S02 has"),
     ],

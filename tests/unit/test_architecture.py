@@ -1,0 +1,73 @@
+"""The house rules that a program can check: who imports whom, what lies in `__init__.py`, what things are called."""
+
+import ast
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from support.paths import PROJECT
+
+LIBRARY = PROJECT / "scripts" / "markermend"
+MODULES = sorted(LIBRARY.rglob("*.py"))
+
+
+def check_imports(project: Path) -> subprocess.CompletedProcess[str]:
+    """Run import-linter on a project."""
+    return subprocess.run(
+        [Path(sys.executable).with_name("lint-imports"), "--no-cache"],
+        cwd=project,
+        env={**os.environ, "PYTHONPATH": "scripts", "COLUMNS": "200"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_every_import_contract_is_kept():
+    done = check_imports(PROJECT)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("module", "imported", "contract"),
+    [
+        ("core/events.py", "markermend.storage.atomic", "A package imports from lower floors only"),
+        ("storage/atomic.py", "markermend.report.summary", "A package imports from lower floors only"),
+        ("repair/repair.py", "markermend.filling.fill", "packages on one floor do not know each other"),
+        ("numerics/robust.py", "pyarrow", "Science knows no file, command or workflow"),
+        ("detection/peaks.py", "markermend.detection.steps", "Detectors do not know each other"),
+        ("detection/neighbour/edges.py", "markermend.detection.published.steps", "Published and neighbour detectors"),
+        ("prediction/scene.py", "torch", "Torch is imported where networks are trained"),
+    ],
+)
+def test_an_import_against_the_contracts_is_found(tmp_path, module, imported, contract):
+    shutil.copytree(LIBRARY, tmp_path / "scripts/markermend", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(PROJECT / "pyproject.toml", tmp_path)
+    with open(tmp_path / "scripts/markermend" / module, "a", encoding="utf-8") as file:
+        file.write(f"\nimport {imported}\n")
+    done = check_imports(tmp_path)
+    assert done.returncode != 0
+    broken = [line for line in done.stdout.splitlines() if line.endswith("BROKEN")]
+    assert any(contract in line for line in broken), done.stdout
+
+
+@pytest.mark.parametrize("path", [path for path in MODULES if path.name == "__init__.py" and path.parent != LIBRARY])
+def test_a_package_file_holds_a_docstring_only(path):
+    """Every stage's hash of its code contains these files: an edit in one reruns nearly everything."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    assert ast.get_docstring(tree)
+    assert len(tree.body) == 1
+
+
+def test_no_class_is_called_settings():
+    named = [
+        (path.relative_to(PROJECT).as_posix(), node.name)
+        for path in MODULES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef) and node.name.endswith("Settings")
+    ]
+    assert named == []
