@@ -19,7 +19,7 @@ PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
 sys.path.insert(0, SCRIPTS)
 
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import ARTIFACTS, CLASSES
 from markermend.planning import code_hashes, decision_table, run_facts, run_summary
 from markermend.planning import config as settings
 from markermend.planning import recordings as dataset
@@ -96,9 +96,7 @@ HERE = f"{SUBJECT}/{{recording}}"
 LOGS = f"{HERE}/logs"
 MESH = f"{SUBJECT}/mesh.json"
 MARKERS = f"{HERE}/01_markers.parquet"
-# Names are an interface: the two detectors of samples that nobody measured came later, and share a number.
-NUMBERS = {"frozen": 2, "tails": 2, "peaks": 2, "noise": 3, "steps": 4, "slow": 5}
-EVENTS = {stage: f"{HERE}/{NUMBERS[stage]:02d}_{stage}.parquet" for stage in CLASSES}
+EVENTS = {artifact.stage: f"{HERE}/{artifact.events_file}" for artifact in ARTIFACTS}
 REPAIRED = f"{HERE}/06_repaired.parquet"
 FILLED = f"{HERE}/07_filled.parquet"
 CHANGES = f"{HERE}/changes.tsv"

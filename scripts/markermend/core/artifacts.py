@@ -1,6 +1,88 @@
-"""The classes of artifacts, one detector each, in their strict order."""
+"""The classes of artifacts: one table for all stages, in the strict order of their detectors."""
 
 from __future__ import annotations
 
-CLASSES = ("frozen", "tails", "peaks", "noise", "steps", "slow")
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+MISSING = "missing"
+"""The origin of samples that count as missing."""
+
+
+@dataclass(frozen=True)
+class ArtifactClass:
+    """One class of artifacts and its detector.
+
+    Attributes
+    ----------
+    stage
+        Name of the detector: of its rule, its script, its config section and its log.
+    name
+        The class as people name it, in tables and decisions.
+    plural
+        The class in running text.
+    text
+        What one looks like, for people.
+    number
+        Number at the start of the name of its events file.
+    unmeasured
+        Why nobody measured such samples, so that they are never repaired and count as missing; empty where
+        a repair may start from what was measured.
+    """
+
+    stage: str
+    name: str
+    plural: str
+    text: str
+    number: int
+    unmeasured: str = ""
+
+    @property
+    def events_file(self) -> str:
+        """Name of the file of its events; an interface for users' scripts."""
+        return f"{self.number:02d}_{self.stage}.parquet"
+
+    @property
+    def origin(self) -> str:
+        """The origin of samples after their repair, one of `markermend.core.recording.ORIGINS`."""
+        return MISSING if self.unmeasured else self.name
+
+
+ARTIFACTS = (
+    ArtifactClass(
+        "frozen",
+        "frozen",
+        "frozen markers",
+        "a stretch repeats one position while the neighbours move on",
+        2,
+        unmeasured="the position repeats while the neighbours move on",
+    ),
+    ArtifactClass(
+        "tails",
+        "tail",
+        "noisy tails",
+        "the samples beside a gap wander off",
+        2,
+        unmeasured="the samples beside a gap wander off",
+    ),
+    ArtifactClass("peaks", "peak", "isolated peaks", "a few frames jump away and back", 2),
+    ArtifactClass("noise", "noise", "heavy noise", "a stretch that trembles far beyond the ordinary", 3),
+    ArtifactClass("steps", "step", "steps and label swaps", "a stretch stands aside from where it belongs", 4),
+    ArtifactClass(
+        "slow", "slow", "slow drifts", "a stretch leaves its place against the neighbours, and comes back", 5
+    ),
+)
+"""All classes, in the strict order of the detectors: each looks at what those before it left."""
+
+CLASSES = tuple(artifact.stage for artifact in ARTIFACTS)
 """The detectors in their strict order; each is a stage, and its file holds the class."""
+
+BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact in ARTIFACTS}
+"""The classes by their detectors."""
+
+STAGE_OF: Mapping[str, str] = {
+    name: stage
+    for artifact in ARTIFACTS
+    for name, stage in ((artifact.name, artifact.stage), *([("swap", "steps")] if artifact.stage == "steps" else []))
+}
+"""The detector of each class by the class's name; exchanged labels are found with the steps."""

@@ -11,17 +11,12 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
+from markermend.core.artifacts import BY_STAGE, STAGE_OF
 from markermend.core.events import Event
 
 VERBS = ("accept", "reject", "protect", "class", "method", "missing")
 """What a person can decide: that a finding is one, that it is none, that samples stay as they are, that a stretch is an
 artifact of a class, how to mend or fill, and that samples count as missing."""
-
-STAGE_OF = {
-    "frozen": "frozen", "tail": "tails",
-    "peak": "peaks", "noise": "noise", "step": "steps", "swap": "steps", "slow": "slow",
-}  # fmt: skip
-"""The classes of artifacts, and the detector of each."""
 
 GAP, LEAVE = "gap", "leave"
 """A gap among the classes, and the method that leaves everything as it is."""
@@ -120,7 +115,7 @@ def protecting(patterns: Iterable[str]) -> list[Decision]:
 
 def kind_of(stage: str, event: Event) -> str:
     """The class of a finding as people name it."""
-    return "swap" if event.partner else next(kind for kind, detector in STAGE_OF.items() if detector == stage)
+    return "swap" if event.partner else BY_STAGE[stage].name
 
 
 def names(event: Event) -> tuple[str, ...]:

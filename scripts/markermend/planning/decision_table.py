@@ -13,13 +13,14 @@ from functools import cache
 from itertools import combinations
 from typing import Any
 
-from markermend.core.decisions import GAP, LEAVE, STAGE_OF, VERBS, Decision, read
+from markermend.core.artifacts import ARTIFACTS, STAGE_OF
+from markermend.core.decisions import GAP, LEAVE, VERBS, Decision, read
 from markermend.planning.recordings import BadDataSet, Entry, read_table
 
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
 
-NAMES = {"peaks": "peak", "steps": "step", "tails": "tail", "filled": GAP}
+NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS}, "filled": GAP}
 """Classes by the names of their detectors, and what changes.tsv calls a gap that was filled."""
 
 LARGEST = 100_000

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from markermend.core.artifacts import CLASSES
-from markermend.core.decisions import STAGE_OF, Decision, Ruling, kind_of, names, rule, told
+from markermend.core.artifacts import BY_STAGE, CLASSES, STAGE_OF
+from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, told
 from markermend.core.events import Event, tidy
 from markermend.core.recording import Recording
 from markermend.numerics.intervals import runs
@@ -128,6 +128,5 @@ def _mask(recording: Recording, decisions: Iterable[Decision]) -> np.ndarray:
 
 def _entry(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> dict[str, Any]:
     """A finding, or a part of one, that is left as it is, as facts state it."""
-    kind = next(kind for kind, detector in STAGE_OF.items() if detector == stage)
-    place = {"marker": event.marker, "start": start, "stop": stop, "class": kind, "score": event.score}
+    place = {"marker": event.marker, "start": start, "stop": stop, "class": BY_STAGE[stage].name, "score": event.score}
     return {**place, "reason": ruling.left, "blanked": False, **ruling.note}

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from markermend.core import events as finding
+from markermend.core.artifacts import ARTIFACTS
 from markermend.core.decisions import Decision, Ruling, kind_of, names, protecting, rule
 from markermend.core.events import Event
 from markermend.core.recording import Recording, Restored
@@ -48,12 +49,6 @@ def repair(
         work.treat(marker, start, stop, members)
     return work.result.finished()
 
-
-UNMEASURED = {
-    "frozen": "not measured: the position repeats while the neighbours move on",
-    "tails": "not measured: the samples beside a gap wander off",
-}
-"""Findings that are missing samples in disguise and never repaired, by detector, and why."""
 
 Member = tuple[str, Event]
 """A finding with the detector that found it."""
@@ -171,7 +166,7 @@ class _Repairer:
         stages = [stage for stage, _ in members]
         if self.refusal and not ruling.confirmed:
             self.result.leave(event, stages, self.refusal, ruling, blank=False)
-        elif why := [UNMEASURED[name] for name in UNMEASURED if name in stages]:
+        elif why := [f"not measured: {a.unmeasured}" for a in ARTIFACTS if a.unmeasured and a.stage in stages]:
             self.result.leave(event, stages, "; ".join(why), ruling, blank=True)
         elif ruling.method and ruling.method not in METHODS:
             self.result.leave(event, stages, f"to be filled by {ruling.method}", ruling, blank=True)

@@ -7,13 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from markermend.core.decisions import STAGE_OF, Ruling
+from markermend.core.artifacts import ARTIFACTS, BY_STAGE
+from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
 from markermend.repair.candidates import Offer
-
-KIND_OF = {stage: kind for kind, stage in STAGE_OF.items() if kind != "swap"}
-"""What is found, and a sample that is repaired, is called, by its detector; labels that are swapped back are a swap."""
 
 
 class Restoration:
@@ -36,9 +34,9 @@ class Restoration:
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
-        self._origin[rows, m] = ORIGINS.index(KIND_OF[stage])
+        self._origin[rows, m] = ORIGINS.index(BY_STAGE[stage].name)
         self._error[rows, m] = proposal.error[seen]
-        self._note(event, KIND_OF[stage], proposal.method, ruling, alternatives(offers))
+        self._note(event, BY_STAGE[stage].name, proposal.method, ruling, alternatives(offers))
 
     def exchange(self, ring: Sequence[Event], ruling: Ruling) -> None:
         """Give each marker of a ring the original samples of its partner; all over the same interval."""
@@ -69,7 +67,7 @@ class Restoration:
             self.positions[span, m] = np.nan
             self._origin[span, m] = MISSING
             self._error[span, m] = np.nan
-        kinds = "+".join(kind for stage, kind in KIND_OF.items() if stage in stages)
+        kinds = "+".join(artifact.name for artifact in ARTIFACTS if artifact.stage in stages)
         note = {"marker": event.marker, "start": event.start, "stop": event.stop, "class": kinds, "score": event.score}
         self._left.append({**note, "reason": reason, "blanked": blank, **alternatives(offers), **ruling.note})
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from markermend.core.artifacts import ARTIFACTS
+
 REFERENCES = {
     "artifacts": "Skurowski P, Pawlyta M. Detection and classification of artifact distortions in optical motion "
     "capture sequences. Sensors 2022; 22(11): 4076. https://doi.org/10.3390/s22114076",
@@ -14,16 +16,6 @@ REFERENCES = {
     "constraints and model averaging. PLoS ONE 2018; 13(7): e0199744. https://doi.org/10.1371/journal.pone.0199744",
 }
 """What is cited, by the key that a sentence uses."""
-
-DETECTORS = {"peaks": "isolated peaks", "noise": "heavy noise", "steps": "steps and label swaps", "slow": "slow drifts"}
-"""What each detector of artifacts looks for."""
-
-UNMEASURED = {
-    "frozen": "positions that repeat exactly while the neighbours tell that the marker moved",
-    "tails": "samples next to gaps that wander off",
-}
-"""What each detector of samples that nobody measured looks for."""
-
 
 PRESETS = {
     "default": "in the residual of each marker against a prediction from its neighbours on the body",
@@ -73,17 +65,18 @@ def paragraph(stages: Mapping[str, Mapping[str, Any]], kind: str | None, version
             "A functional body mesh, rigid segments of markers in a tree, was inferred from each subject's recordings "
             f"{cite('mesh')}."
         )
-    if detectors := [name for name in DETECTORS if name in stages]:
-        sought = ", ".join(DETECTORS[name] for name in detectors)
-        places = dict.fromkeys(PRESETS.get(stages[name].get("preset", ""), "") for name in detectors)
+    if sought := [artifact for artifact in ARTIFACTS if artifact.stage in stages and not artifact.unmeasured]:
+        classes = ", ".join(artifact.plural for artifact in sought)
+        places = dict.fromkeys(PRESETS.get(stages[artifact.stage].get("preset", ""), "") for artifact in sought)
         where = " or ".join(place for place in places if place)
-        told.append(f"Artifacts were sought in the order {sought} {cite('artifacts')}{', ' if where else ''}{where}.")
+        told.append(f"Artifacts were sought in the order {classes} {cite('artifacts')}{', ' if where else ''}{where}.")
         if "repair" in stages:
             told.append(
                 f"They were repaired by class{limits(stages['repair'])}; samples for which no repair could be trusted "
                 "were set to missing."
             )
-    if unmeasured := [what for name, what in UNMEASURED.items() if name in stages]:
+    unmeasured = [f"{a.plural} ({a.unmeasured})" for a in ARTIFACTS if a.unmeasured and a.stage in stages]
+    if unmeasured:
         told.append(f"Taken as missing, too, were {' and '.join(unmeasured)}.")
     if "fill" in stages:
         told.append(_filling(stages["fill"], cite("averaging")))

@@ -11,10 +11,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from markermend.core.artifacts import ARTIFACTS
 from markermend.core.events import Event
 from markermend.core.recording import Recording, gaps
 
-KINDS = {"peaks": "peak", "steps": "step", "tails": "tail", "filled": "gap", "fill": "gap"}
+KINDS = {**{artifact.stage: artifact.name for artifact in ARTIFACTS}, "filled": "gap"}
 """What a finding is called where it differs from the name of its stage or origin."""
 
 BLANKED = "blanked"

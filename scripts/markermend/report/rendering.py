@@ -19,20 +19,11 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from markermend import __version__
+from markermend.core.artifacts import ARTIFACTS
 from markermend.planning.run_summary import STATUSES
 from markermend.report.methods_text import REFERENCES
 
 TEMPLATES = Path(__file__).with_name("templates")
-
-DETECTORS = {
-    "frozen": "frozen markers: a stretch repeats one position while the neighbours move on",
-    "tails": "noisy tails: the samples beside a gap wander off",
-    "peaks": "isolated peaks: a few frames jump away and back",
-    "noise": "heavy noise: a stretch that trembles far beyond the ordinary",
-    "steps": "steps and label swaps: a stretch stands aside from where it belongs",
-    "slow": "slow drifts: a stretch leaves its place against the neighbours, and comes back",
-}
-"""What a person is told that each detector finds."""
 
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
@@ -50,8 +41,9 @@ COUNTED = ("repaired", "blanked", "findings_open", "filled", "gaps_open")
 def page(**parts: Any) -> str:
     """Write the page of a recording; parts: what page.html.j2 names."""
     summary = parts["summary"]
+    detectors = {artifact.stage: f"{artifact.plural}: {artifact.text}" for artifact in ARTIFACTS}
     shown = {"rate": summary["rate"], "first_frame": summary["first_frame"]}
-    return render("page.html.j2", detectors=DETECTORS, references=REFERENCES, shown=shown, **parts)
+    return render("page.html.j2", detectors=detectors, references=REFERENCES, shown=shown, **parts)
 
 
 def page_aside(summary: Mapping[str, Any]) -> str:

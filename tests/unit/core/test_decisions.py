@@ -2,8 +2,8 @@
 
 import pytest
 
-from markermend.core.artifacts import CLASSES
-from markermend.core.decisions import EVER, GAP, STAGE_OF, Decision, Ruling, kind_of, protecting, read, rule
+from markermend.core.artifacts import CLASSES, STAGE_OF
+from markermend.core.decisions import EVER, GAP, Decision, Ruling, kind_of, protecting, read, rule
 from markermend.core.events import Event
 
 STRETCH = (["LANK"], 10, 20)

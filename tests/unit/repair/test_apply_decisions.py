@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from markermend.core.artifacts import CLASSES
-from markermend.core.decisions import EVER, STAGE_OF, Decision
+from markermend.core.artifacts import CLASSES, STAGE_OF
+from markermend.core.decisions import EVER, Decision
 from markermend.core.events import Event
 from markermend.core.recording import Recording, changed
 from markermend.repair.apply_decisions import judge
