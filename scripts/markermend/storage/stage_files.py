@@ -87,7 +87,7 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
     write_table(path, pa.Table.from_arrays(list(columns.values()), list(columns)), {**recording.facts, **facts, **own})
 
 
-def _read_table(path: Path) -> pa.Table:
+def read_table(path: Path) -> pa.Table:
     """The table in a Parquet file; by ParquetFile, because pq.read_table imports pandas."""
     with pq.ParquetFile(path) as file:
         return file.read(use_threads=False)
@@ -111,7 +111,7 @@ def read_recording(path: Path) -> Recording:
     Raises SetAside where an earlier stage set the recording aside.
     """
     facts = read_facts(path)
-    table = _read_table(path)
+    table = read_table(path)
     markers = tuple(facts["markers"])
     frames = facts["frames"]
     positions = np.full((frames, len(markers), 3), np.nan)
@@ -142,4 +142,4 @@ def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> 
 def read_events(path: Path) -> list[Event]:
     """Read events; raises SetAside where an earlier stage set the recording aside."""
     read_facts(path)
-    return [Event(**row) for row in _read_table(path).to_pylist()]
+    return [Event(**row) for row in read_table(path).to_pylist()]

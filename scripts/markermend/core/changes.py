@@ -1,0 +1,136 @@
+"""What was done to each stretch of a marker, or why nothing was: the one record of repair and filling.
+
+Frames are rows counted from 0, half-open; only the table for people uses the capture program's numbering.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from markermend.core.reasons import Reason
+
+GAP, DECLARED_MISSING = "gap", "missing"
+"""Beside the classes of artifacts: a gap, and samples that a person declared missing."""
+
+
+class Outcome(StrEnum):
+    """What became of a stretch."""
+
+    REPAIRED = "repaired"
+    """Measured samples were replaced, starting from what was measured."""
+    EXCHANGED = "exchanged"
+    """The marker was given the samples of its partner."""
+    FILLED = "filled"
+    """A gap was filled."""
+    BLANKED = "blanked"
+    """Measured samples were taken away: they count as missing, and may be filled as a part of a gap."""
+    LEFT = "left"
+    """Nothing was changed."""
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A method that could be used on a stretch.
+
+    Attributes
+    ----------
+    method
+        Name of the method.
+    expected_error_mm
+        The largest expected error (68 %) over the stretch, mm, to 0.001.
+    """
+
+    method: str
+    expected_error_mm: float
+
+
+@dataclass(frozen=True)
+class MemberWeight:
+    """The share of one predictor in a filled gap.
+
+    Attributes
+    ----------
+    member
+        Name of the predictor.
+    weight
+        Its weight, from 0 to 1, to 0.001; those of a gap add up to 1.
+    """
+
+    member: str
+    weight: float
+
+
+@dataclass(frozen=True)
+class Change:
+    """What was done to one stretch of a marker, or why nothing was.
+
+    Attributes
+    ----------
+    marker
+        Name of the marker.
+    start, stop
+        First frame, and the frame after the last, as rows counted from 0.
+    classes
+        What the stretch was found to be: names of the classes of artifacts in detector order, or GAP alone, or
+        DECLARED_MISSING alone.
+    outcome
+        What became of it.
+    score
+        The evidence for an artifact, in units of the detector's threshold; None for gaps and declared samples.
+    axes
+        The axes on which the detector fired, such as "xz"; empty where there is no evidence.
+    partner
+        The other marker of exchanged labels.
+    method
+        What replaced the samples; None where nothing did.
+    alternatives
+        All methods that could be used, with the error to be expected of each.
+    member_weights
+        The predictors that filled a gap, largest weight first.
+    samples
+        How many samples were changed; for a stretch that was left, its length.
+    largest_change_mm
+        The largest distance between a measured sample and what stands there now, mm; None where no measured sample
+        was replaced, or where the stage did not know what was measured.
+    expected_error_mm, expected_error95_mm
+        The largest radii of the balls that hold the true position with probability 0.68 and 0.95, mm; None where
+        nothing was written.
+    decisions
+        The decisions of a person that bear on it, in the words of the table.
+    reason
+        Why the stretch was left or blanked; None where it was repaired, exchanged or filled.
+    """
+
+    marker: str
+    start: int
+    stop: int
+    classes: tuple[str, ...]
+    outcome: Outcome
+    score: float | None = None
+    axes: str = ""
+    partner: str | None = None
+    method: str | None = None
+    alternatives: tuple[Alternative, ...] = ()
+    member_weights: tuple[MemberWeight, ...] = ()
+    samples: int = 0
+    largest_change_mm: float | None = None
+    expected_error_mm: float | None = None
+    expected_error95_mm: float | None = None
+    decisions: tuple[str, ...] = ()
+    reason: Reason | None = None
+
+    @property
+    def kind(self) -> str:
+        """The classes in one word, for people."""
+        return "+".join(self.classes)
+
+    @property
+    def is_gap(self) -> bool:
+        """Whether the stretch was missing before anything was done."""
+        return self.classes == (GAP,)
+
+    @property
+    def concern_mm(self) -> float:
+        """How far the change may be from the truth or from what was measured, mm: what changes are ranked by."""
+        return max(self.largest_change_mm or 0.0, self.expected_error_mm or 0.0)
