@@ -9,11 +9,11 @@ from markermend.command.stage import mapping
 from markermend.detection import slow as detection_slow
 from markermend.detection.published import slow
 from markermend.options.published import PublishedSlowOptions
-from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.storage import stage_files
 
 STAGE = detector.stage("slow", __doc__, finds="slow changes", presets=["default", "paper"])
-for name in LOOSE:
+for name in LAGGED_REGRESSIONS:
     STAGE.option(name, mapping, f"settings of the predictor {name}, which the preset `paper` may use")
 
 

@@ -80,7 +80,7 @@ def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
     What frozen and tails find is missing for all that come later.
     """
     near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
-    scene, swapped = Scene(recording.positions, recording.rate, near, relatives=relatives), []
+    scene, swapped = Scene(recording.positions, recording.rate, near, segment_mates=relatives), []
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
     claimed, found = np.zeros(recording.positions.shape, bool), {}
     if preset != "paper":

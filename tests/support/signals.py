@@ -46,7 +46,7 @@ def detect_signal(signal, rate, preset="coordinates"):
     found, claimed = {}, np.zeros(len(signal), bool)
     reach = frames(5, rate)
     for stage, find in (("peaks", peaks.find_peaks), ("noise", noise.find_noise), ("steps", steps.find_steps)):
-        bridged = interpolation.bridge(signal, claimed, reach)
+        bridged = interpolation.bridge_cubic(signal, claimed, reach)
         mask, score, *rest = find(bridged, rate=rate, settings=settings(stage, preset))
         assert (score[mask] >= 1).all()
         found[stage] = list(runs(mask & ~claimed))

@@ -76,7 +76,7 @@ def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording
     recording = stage_files.read_recording(markers)
     network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
     near, relatives = network.neighbour_indices(recording.markers), network.relative_indices(recording.markers)
-    scene = Scene(recording.positions, recording.rate, near, relatives=relatives)
+    scene = Scene(recording.positions, recording.rate, near, segment_mates=relatives)
     claimed = np.zeros(recording.positions.shape, bool)
     for path in earlier:
         artifacts = [event for event in stage_files.read_events(path) if event.partner is None]

@@ -39,7 +39,7 @@ def _length(vectors: np.ndarray) -> np.ndarray:
 
 def _usual(change: np.ndarray, window: int) -> np.ndarray:
     """Median of a change (frames,) over a window about each frame, NaN ignored, 0 where there is none."""
-    return np.nan_to_num(robust.moving_median_across(change, window))
+    return np.nan_to_num(robust.moving_median_across_gaps(change, window))
 
 
 def jumping(positions: np.ndarray, *, window: int, settings: LabelsOptions) -> np.ndarray:
@@ -51,7 +51,7 @@ def jumping(positions: np.ndarray, *, window: int, settings: LabelsOptions) -> n
     step = np.diff(positions, axis=0, prepend=np.nan)
     out = np.zeros(positions.shape[:2], bool)
     for m in range(positions.shape[1]):
-        usual = np.stack([robust.moving_median_across(axis, window) for axis in step[:, m].T], axis=1)
+        usual = np.stack([robust.moving_median_across_gaps(axis, window) for axis in step[:, m].T], axis=1)
         change = _length(step[:, m] - usual)
         level = np.maximum(settings.jump * _usual(change, window), settings.floor_mm)
         out[:, m] = np.nan_to_num(change) > level

@@ -14,7 +14,7 @@ from markermend.filling.constraints import constrain_spacing
 from markermend.filling.model_averaging import pma_likelihood
 from markermend.numerics.kernel_density import Density, kernel_density
 from markermend.options.filling import DistanceOptions
-from markermend.prediction.marker_selection import references, thinned
+from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Scene
 
 
@@ -30,13 +30,13 @@ class Distances:
     @classmethod
     def learn(cls, scene: Scene, marker: int, options: DistanceOptions) -> Distances:
         """Learn from the frames that show both."""
-        ranked, _ = references(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         chosen = ranked[: max(options.references, options.spacing_references)]
         densities = []
         for reference in chosen:
-            rows = thinned(np.flatnonzero(scene.present[:, marker] & scene.present[:, reference]), options.frames)
+            rows = evenly_spaced(np.flatnonzero(scene.present[:, marker] & scene.present[:, reference]), options.frames)
             distance = np.linalg.norm(scene.positions[rows, marker] - scene.positions[rows, reference], axis=1)
-            densities.append(kernel_density(distance, most=options.frames))
+            densities.append(kernel_density(distance, max_samples=options.frames))
         return cls(options, scene.rate, chosen, densities)
 
     def likelihood(self, positions: np.ndarray, body: np.ndarray) -> np.ndarray:

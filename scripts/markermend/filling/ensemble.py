@@ -97,7 +97,7 @@ class Ensemble:
 
     def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
         """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         options = self.options
         trials = pseudo_gaps(
             hidden,
@@ -128,13 +128,13 @@ class Ensemble:
 
     def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
         """Fill one gap. The marker's samples in [start, stop) are not looked at."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         candidates = self._candidates(self.members, hidden, marker, start, stop)
         distances = self._distances(hidden, marker)
         positions, stated, means = self._average(hidden, distances, start, candidates, trust)
         deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
-        if scene.doubt is not None:
-            deviation = np.hypot(deviation, self._inherited(hidden, marker, start, stop, scene.doubt))
+        if scene.inherited_std is not None:
+            deviation = np.hypot(deviation, self._inherited(hidden, marker, start, stop, scene.inherited_std))
         named = {member.name: float(share) for member, share in zip(self.members, means, strict=True) if share > 0}
         return Filling(positions, deviation, named)
 
@@ -176,7 +176,7 @@ class Ensemble:
 
     def _distances(self, scene: Scene, marker: int) -> Distances:
         """What distances of the marker to others usually are."""
-        return scene.remember((self, "distances", marker), partial(Distances.learn, scene, marker, self._judging))
+        return scene.cached((self, "distances", marker), partial(Distances.learn, scene, marker, self._judging))
 
     def _average(
         self,

@@ -56,7 +56,7 @@ def fill_gaps(
         reason = f"nothing filled: {share:.0%} of the recording would be altered, the limit is {options.max_altered_share:.0%}"
         left |= dict.fromkeys(planned, reason)
         planned = []
-    scene = Scene(restored.positions, restored.rate, neighbours, relatives=relatives)
+    scene = Scene(restored.positions, restored.rate, neighbours, segment_mates=relatives)
     filler = _Filler(scene, ensemble, options)
     ensemble.train([(scene, marker) for marker in sorted({gap.marker for gap in planned})])
     for number, gap in enumerate(planned, start=1):
@@ -124,7 +124,7 @@ class _Filler:
         if gap.marker != self._marker:
             measured = self._scene.measured or self._scene
             self._accept()
-            self._scene = replace(self._scene, positions=self._references, measured=measured, doubt=self._doubt)
+            self._scene = replace(self._scene, positions=self._references, measured=measured, inherited_std=self._doubt)
             self._marker = gap.marker
         filling = self._ensemble.fill(self._scene, gap.marker, gap.start, gap.stop, self._trusted(gap))
         if np.isnan(filling.positions).any():

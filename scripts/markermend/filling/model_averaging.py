@@ -21,7 +21,7 @@ def pma_likelihood(
     logarithm = np.zeros(positions.shape[:2])
     for r, density in enumerate(densities):
         seen = ~np.isnan(references[:, r]).any(axis=1)
-        logarithm[:, seen] += density.logarithm(distance[:, seen, r])
+        logarithm[:, seen] += density.log_density(distance[:, seen, r])
     likelihood = np.maximum(np.exp(np.nan_to_num(logarithm, nan=-np.inf)), floor)
     return _moving_average(likelihood, window)
 

@@ -31,7 +31,7 @@ def pseudo_gaps(
 
     A gap at an end of the recording has but one border: on the other side its trials hide as much again, at least 1 s.
     What neighbours miss during the real gap they miss at the same offsets of the trial, and where they were filled they
-    are moved as far as the filling may be off (Scene.doubt). The real gap itself stays hidden in all.
+    are moved as far as the filling may be off (Scene.inherited_std). The real gap itself stays hidden in all.
 
     Trials share a scene, in which all of them are hidden, so that what is learned from it serves all: as many as hide
     at most `share` of the samples of the marker and are at least as far apart as each is long.
@@ -56,7 +56,7 @@ def pseudo_gaps(
     beyond = max(length, round(scene.rate))
     before, after = beyond * (start == 0), beyond * (stop == len(scene.positions))
     hidden = before + length + after
-    doubt = np.zeros((length, scene.positions.shape[1])) if scene.doubt is None else scene.doubt[rows]
+    doubt = np.zeros((length, scene.positions.shape[1])) if scene.inherited_std is None else scene.inherited_std[rows]
     # An error of filling lasts about as long as the gap.
     directions = rng.standard_normal((len(chosen), scene.positions.shape[1], 3))
     every = _scenes(chosen, room=2 * hidden, most=int(share * seen[-1] / hidden))
@@ -67,7 +67,7 @@ def pseudo_gaps(
             positions[begin : begin + length] += doubt[..., None] * direction
             positions[begin : begin + length][absent] = np.nan
             positions[max(begin - before, 0) : begin + length + after, marker] = np.nan
-        shared = replace(scene, positions=positions, measured=None, doubt=None)
+        shared = replace(scene, positions=positions, measured=None, inherited_std=None)
         for begin in chosen[first::every].tolist():
             trials[begin] = PseudoGap(shared, begin, begin + length, scene.positions[begin : begin + length, marker])
     return [trials[begin] for begin in chosen.tolist()]

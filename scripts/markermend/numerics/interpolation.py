@@ -7,7 +7,7 @@ import numpy as np
 from markermend.numerics.intervals import runs
 
 
-def bridge(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.ndarray:
+def bridge_cubic(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.ndarray:
     """Signal with its detected samples replaced by cubic curves between what stands beside them.
 
     The slope at either border is the mean over `reach` samples beyond it. Detected samples at the end of a valid run
@@ -35,7 +35,7 @@ def bridge(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.ndarray:
     return out
 
 
-def bridge_linearly(signal: np.ndarray, longest: int) -> np.ndarray:
+def bridge_linear(signal: np.ndarray, longest: int) -> np.ndarray:
     """A signal (frames, axes) with straight lines across gaps of at most so many samples."""
     out = signal.copy()
     missing = np.isnan(signal).any(axis=1)

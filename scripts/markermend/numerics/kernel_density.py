@@ -16,7 +16,7 @@ class Density:
     samples: np.ndarray
     bandwidth: float
 
-    def logarithm(self, points: np.ndarray) -> np.ndarray:
+    def log_density(self, points: np.ndarray) -> np.ndarray:
         """Natural logarithm of the density at points of any shape; finite however far off; NaN stays NaN."""
         deviation = -0.5 * ((points[..., None] - self.samples) / self.bandwidth) ** 2
         largest = deviation.max(axis=-1)
@@ -48,14 +48,14 @@ class Density:
         return (low + high) / 2
 
 
-def kernel_density(samples: np.ndarray, *, most: int) -> Density:
+def kernel_density(samples: np.ndarray, *, max_samples: int) -> Density:
     """Estimate a density; source: tits2018 eq 21, Silverman's rule of thumb.
 
-    samples: (n,), mm, at least two. At most `most` of them are used, evenly spaced in rank, so that the tails stay.
+    samples: (n,), mm, at least two. At max_samples `max_samples` of them are used, evenly spaced in rank, so that the tails stay.
     The bandwidth is at least a thousandth of a millimetre: distances within a rigid body do not vary at all.
     """
     ordered = np.sort(samples)
     bandwidth = ordered.std(ddof=1) * (len(ordered) * 3 / 4) ** -0.2
-    if len(ordered) > most:
-        ordered = ordered[np.linspace(0, len(ordered) - 1, most).astype(int)]
+    if len(ordered) > max_samples:
+        ordered = ordered[np.linspace(0, len(ordered) - 1, max_samples).astype(int)]
     return Density(ordered, max(float(bandwidth), 1e-3))

@@ -26,7 +26,7 @@ def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
     return np.where(pairs > 0, total / np.maximum(pairs, 1) / residual.shape[1], np.nan)
 
 
-def white_noise(residual: np.ndarray) -> float:
+def white_noise_variance(residual: np.ndarray) -> float:
     """Variance of the white noise on a residual (frames, axes), squared unit; NaN = missing.
 
     Of half the mean squared differences at one, two and three frames, what remains when the parts that grow with the
@@ -73,14 +73,14 @@ def kernels(lag_s: np.ndarray, scales_s: np.ndarray) -> np.ndarray:
     return np.concatenate([(1 + once) * np.exp(-once), (1 + twice + twice**2 / 3) * np.exp(-twice)], axis=-1)
 
 
-def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, longest_s: float) -> Covariance:
+def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, max_lag_s: float) -> Covariance:
     """Fit a covariance function to a residual's autocovariance by non-negative least squares.
 
-    residual: (frames, axes), mm, NaN = missing. rate: Hz. longest_s: lags beyond it are not looked at.
+    residual: (frames, axes), mm, NaN = missing. rate: Hz. max_lag_s: lags beyond it are not looked at.
     """
     from scipy.optimize import nnls  # 0.2 s to import, and most detectors never get here
 
-    lags = int(np.clip(round(longest_s * rate), 2, max(2, len(residual) // 2)))
+    lags = int(np.clip(round(max_lag_s * rate), 2, max(2, len(residual) // 2)))
     # Lags are thinned towards the long ones, so that the short ones, which matter at the borders, are not outvoted.
     chosen = np.unique(np.round(np.geomspace(1, lags, 40)).astype(int) - 1)
     empirical = autocovariance(residual, chosen)
@@ -94,24 +94,24 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, l
         weights[0] = max(empirical[0], 1e-12)
     # Next to the variance of the whole the noise is too small for the fit to see. Taken for noiseless, a residual is
     # carried on along the slope that its last samples happen to have.
-    weights[0] = max(weights[0], white_noise(residual))
+    weights[0] = max(weights[0], white_noise_variance(residual))
     return Covariance(weights, scales_s)
 
 
 def krige(
-    covariance: Covariance, *, known_s: np.ndarray, values: np.ndarray, wanted_s: np.ndarray
+    covariance: Covariance, *, observed_s: np.ndarray, values: np.ndarray, target_s: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Mean (n, axes) and variance (n,) of a zero-mean process at `wanted_s`, given `values` (k, axes) at `known_s`.
+    """Mean (n, axes) and variance (n,) of a zero-mean process at `target_s`, given `values` (k, axes) at `observed_s`.
 
     The mean is that of the smooth part; the variance adds the white noise, because a true sample has it too.
     """
     total = covariance(np.zeros(1))[0] + covariance.noise
-    if len(known_s) == 0:
-        return np.zeros((len(wanted_s), values.shape[1])), np.full(len(wanted_s), total)
+    if len(observed_s) == 0:
+        return np.zeros((len(target_s), values.shape[1])), np.full(len(target_s), total)
     # The fitted covariance is never exact: without some noise a near-singular system would amplify its misfit.
     jitter = 1e-5 * total + 1e-12
-    between = covariance(known_s[:, None] - known_s[None]) + np.eye(len(known_s)) * (covariance.noise + jitter)
-    across = covariance(wanted_s[:, None] - known_s[None])
+    between = covariance(observed_s[:, None] - observed_s[None]) + np.eye(len(observed_s)) * (covariance.noise + jitter)
+    across = covariance(target_s[:, None] - observed_s[None])
     gain = np.linalg.solve(between, across.T).T
     variance = total - np.einsum("nk,nk->n", gain, across)
     return gain @ values, np.maximum(variance, covariance.noise)

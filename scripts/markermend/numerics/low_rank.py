@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def complete(
+def complete_matrix(
     matrix: np.ndarray, *, explained: float, shrinkage: bool, tolerance: float, iterations: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fill the missing entries of a matrix by its own low-rank approximation, iterated to convergence.
@@ -26,7 +26,7 @@ def complete(
     trusted = len(whole) > matrix.shape[1]
     rank = _rank(whole if trusted else filled, explained)
     if trusted and holed.any():
-        filled[holed] = expected(whole, matrix[holed], rank)
+        filled[holed] = conditional_mean(whole, matrix[holed], rank)
     absent, some = missing[holed], filled[holed]
     # Only rows with holes change: the others enter by their sums, about a fixed point near the mean.
     origin = filled.mean(axis=0)
@@ -57,7 +57,7 @@ def _bridged(column: np.ndarray) -> np.ndarray:
     return np.interp(np.arange(len(column)), known, column[known])
 
 
-def expected(whole: np.ndarray, holed: np.ndarray, rank: int) -> np.ndarray:
+def conditional_mean(whole: np.ndarray, holed: np.ndarray, rank: int) -> np.ndarray:
     """Rows with missing entries, filled with their expectation under the complete rows' probabilistic components."""
     mean = whole.mean(axis=0)
     sizes, vectors = np.linalg.eigh(np.cov(whole, rowvar=False))
@@ -79,9 +79,9 @@ def _rank(matrix: np.ndarray, explained: float) -> int:
     """How many singular vectors of the centred matrix explain the share of its variance."""
     centred = matrix - matrix.mean(axis=0)
     variance = np.maximum(np.linalg.eigvalsh(centred.T @ centred)[::-1], 0.0)
-    return enough(variance, explained)
+    return components_for_share(variance, explained)
 
 
-def enough(sizes: np.ndarray, share: float) -> int:
+def components_for_share(sizes: np.ndarray, share: float) -> int:
     """How many of the sizes (descending) make up the share of their sum, at least one."""
     return min(int(np.searchsorted(np.cumsum(sizes), share * sizes.sum())) + 1, len(sizes))

@@ -16,7 +16,7 @@ from markermend.numerics.kriging import Covariance, fit_covariance
 
 
 @dataclass(frozen=True)
-class BumpFilter:
+class MatchedFilter:
     """Weights (taps,) on means over `step` samples each, which answer to noise with variance 1.
 
     deviation: standard deviation of the height of the bump that they find.
@@ -27,19 +27,19 @@ class BumpFilter:
     deviation: float
 
 
-def rise(at: np.ndarray) -> np.ndarray:
+def raised_cosine(at: np.ndarray) -> np.ndarray:
     """Course of a bump of height 1 from 0 to 1: at rest at either end, and 0 beyond."""
     return 0.5 - 0.5 * np.cos(2 * np.pi * np.clip(at, 0.0, 1.0))
 
 
-def make_filter(covariance: Covariance, *, length: int, flank: float, taps: int, rate: float) -> BumpFilter:
+def design_filter(covariance: Covariance, *, length: int, flank: float, taps: int, rate: float) -> MatchedFilter:
     """The filter for bumps of a length in samples; `flank` of the length is looked at on either side.
 
     taps: over the bump, at most about so many means are looked at.
     """
     step = max(1, length // taps)
     taps = length // step
-    bump = rise((np.arange(taps) + 0.5) / taps)
+    bump = raised_cosine((np.arange(taps) + 0.5) / taps)
     side = np.zeros(int(np.ceil(flank * len(bump))))
     bump = np.concatenate([side, bump, side])
     lags = np.arange(len(bump))
@@ -50,10 +50,10 @@ def make_filter(covariance: Covariance, *, length: int, flank: float, taps: int,
     for_bump, for_constant = np.linalg.solve(between, np.stack([bump, np.ones(len(bump))], axis=1)).T
     weights = for_bump - for_constant * for_bump.sum() / for_constant.sum()
     information = float(weights @ bump)
-    return BumpFilter(weights / np.sqrt(information), step, 1 / np.sqrt(information))
+    return MatchedFilter(weights / np.sqrt(information), step, 1 / np.sqrt(information))
 
 
-def strength(signal: np.ndarray, bump: BumpFilter) -> np.ndarray:
+def filter_response(signal: np.ndarray, bump: MatchedFilter) -> np.ndarray:
     """Answer (frames,) of a filter to a signal (frames, axes), all axes together; NaN where its window is not whole.
 
     NaN = missing: nothing is found across a gap.
@@ -71,11 +71,11 @@ def strength(signal: np.ndarray, bump: BumpFilter) -> np.ndarray:
     return out
 
 
-def usual_covariance(
-    signal: np.ndarray, *, sigmas: float, rate: float, scales_s: np.ndarray, longest_s: float
+def clipped_covariance(
+    signal: np.ndarray, *, sigmas: float, rate: float, scales_s: np.ndarray, max_lag_s: float
 ) -> Covariance:
     """Covariance in time of a signal (frames, axes) but for what is unusual: it is cut off at so many robust sigmas."""
     middle = np.nanmedian(signal, axis=0)
-    limit = sigmas * robust.deviation((signal - middle).ravel())
+    limit = sigmas * robust.mad_std((signal - middle).ravel())
     usual = np.clip(signal - middle, -limit, limit)
-    return fit_covariance(usual, rate=rate, scales_s=scales_s, longest_s=longest_s)
+    return fit_covariance(usual, rate=rate, scales_s=scales_s, max_lag_s=max_lag_s)

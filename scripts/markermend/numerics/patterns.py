@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 
-def alike(seen: np.ndarray, minimum: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def group_by_pattern(seen: np.ndarray, minimum: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Group frames by the markers that they show: yield a mask (markers,) and the frames (indices) that share it.
 
     seen: bool (frames, markers). Where at least `minimum` markers are seen in all frames, these alone count and there

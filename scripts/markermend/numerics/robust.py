@@ -13,13 +13,13 @@ NORMAL = 1.4826
 """Standard deviation of a normal distribution with median absolute deviation 1."""
 
 
-def deviation(values: np.ndarray) -> float:
+def mad_std(values: np.ndarray) -> float:
     """Robust standard deviation about the median (1.4826 times the median absolute deviation); NaN ignored, 0 if all are."""
     finite = values[np.isfinite(values)]
     return float(NORMAL * np.median(np.abs(finite - np.median(finite)))) if finite.size else 0.0
 
 
-def moving_median_across(signal: np.ndarray, window: int) -> np.ndarray:
+def moving_median_across_gaps(signal: np.ndarray, window: int) -> np.ndarray:
     """Moving median that joins valid runs as if there were no gaps between: for scales, not for detection.
 
     Within half a window of the ends it stays what it is where the window is whole.

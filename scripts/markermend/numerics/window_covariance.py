@@ -1,4 +1,4 @@
-"""Regularity: what do short windows of a recording's residuals look like where nothing happens?
+"""WindowCovariance: what do short windows of a recording's residuals look like where nothing happens?
 
 Some systems smooth their trajectories, some jitter; some bodies move fast. The covariance of short windows, but for
 polynomials of a low order, tells how well a sample follows from those about it, and what is off that.
@@ -18,7 +18,7 @@ ROUNDS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Regularity:
+class WindowCovariance:
     """Covariance of windows, but for polynomials of an order, and up to a factor that is another in each window.
 
     covariance: (n, n). order: polynomials up to it may take any size. Windows shorter than n have a part of it.
@@ -36,25 +36,27 @@ class Regularity:
         inverse = free @ np.linalg.inv(free.T @ self.covariance[:size, :size] @ free) @ free.T
         return inverse / inverse[size // 2, size // 2]
 
-    def freedom(self, size: int) -> int:
+    def degrees_of_freedom(self, size: int) -> int:
         """Degrees of freedom that polynomials leave to windows of `size` samples."""
         return size - self.order - 1
 
 
-def windows(values: np.ndarray, size: int) -> np.ndarray:
+def sliding_windows(values: np.ndarray, size: int) -> np.ndarray:
     """All windows of (frames, 3): (windows, 3, size)."""
     return np.lib.stride_tricks.sliding_window_view(values, size, axis=0)
 
 
-def learn(residual: np.ndarray, *, size: int, order: int, shrinkage: float, at_most: int) -> Regularity:
+def fit_window_covariance(
+    residual: np.ndarray, *, size: int, order: int, shrinkage: float, max_windows: int
+) -> WindowCovariance:
     """Learn the regularity of residuals (frames, markers, 3), mm; NaN = missing, windows with gaps are left out.
 
     Tyler's M-estimator (Tyler 1987), which gives each window the same weight however large it is: artifacts, fast motion
-    and lively markers do not dominate. shrinkage: part of the mean variance that is added to all. at_most: windows used.
+    and lively markers do not dominate. shrinkage: part of the mean variance that is added to all. max_windows: windows used.
     Where there are too few windows to learn from, samples count as independent.
     """
     free = _free(size, order)
-    step = max(1, 3 * residual.shape[0] * residual.shape[1] // at_most)
+    step = max(1, 3 * residual.shape[0] * residual.shape[1] // max_windows)
     parts = [own.reshape(-1, size)[::step] @ free for own in _whole(residual, size)]
     seen = np.concatenate(parts) if parts else np.zeros((0, free.shape[1]))
     seen = seen[(seen**2).sum(axis=1) > 0]
@@ -64,7 +66,7 @@ def learn(residual: np.ndarray, *, size: int, order: int, shrinkage: float, at_m
             weight = 1 / np.einsum("id,de,ie->i", seen, np.linalg.inv(inner), seen, optimize=True)
             inner = (seen * weight[:, None]).T @ seen
             inner = inner / (np.trace(inner) / len(inner)) + shrinkage * np.eye(len(inner))
-    return Regularity(free @ inner @ free.T, order)
+    return WindowCovariance(free @ inner @ free.T, order)
 
 
 def _whole(residual: np.ndarray, size: int) -> Iterator[np.ndarray]:
@@ -72,7 +74,7 @@ def _whole(residual: np.ndarray, size: int) -> Iterator[np.ndarray]:
     for m in range(residual.shape[1]):
         for start, stop in runs(~np.isnan(residual[:, m, 0])):
             if stop - start >= size:
-                yield windows(residual[start:stop, m], size)
+                yield sliding_windows(residual[start:stop, m], size)
 
 
 def _free(size: int, order: int) -> np.ndarray:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from markermend.numerics.patterns import alike
+from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import GlobalRegressionOptions
-from markermend.prediction.marker_selection import references, thinned
+from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Prediction, Scene
 
 CENTRINGS = ("complete", "available")
@@ -29,13 +29,15 @@ class GlobalRegression:
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Frames of the gap that see the same references share a model."""
         options = self.options
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
-        ranked, deviation = references(hidden, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, deviation = reference_markers(
+            hidden, marker, frames=options.frames, minimum_frames=options.minimum_frames
+        )
         near = ranked[(deviation < options.deviation_mm) | (np.arange(len(ranked)) < options.minimum_inputs)]
         seen = hidden.present[np.ix_(frames, near)]
-        for used, places in alike(seen, options.minimum_inputs):
+        for used, places in group_by_pattern(seen, options.minimum_inputs):
             rows = frames[places]
             if used.any():
                 positions[rows - (start - 1)] = self._regress(hidden, marker, near[used], rows)
@@ -46,7 +48,7 @@ class GlobalRegression:
         seen = scene.present[:, marker] & scene.present[:, inputs].all(axis=1)
         if np.count_nonzero(seen) < self.options.minimum_frames:
             return np.full((len(rows), 3), np.nan)
-        training = thinned(np.flatnonzero(seen), self.options.frames)
+        training = evenly_spaced(np.flatnonzero(seen), self.options.frames)
         both = np.concatenate([training, rows])
         centre = self._centre(scene, marker, inputs, both)
         design = (scene.positions[np.ix_(both, inputs)] - centre[:, None]).reshape(len(both), -1)

@@ -9,14 +9,14 @@ import numpy as np
 from markermend.prediction.scene import Scene
 
 
-def thinned(frames: np.ndarray, most: int) -> np.ndarray:
+def evenly_spaced(frames: np.ndarray, most: int) -> np.ndarray:
     """At most `most` of the frames, evenly spaced."""
     if len(frames) <= most:
         return frames
     return frames[np.unique(np.linspace(0, len(frames) - 1, most).astype(int))]
 
 
-def scattered(frames: np.ndarray, most: int) -> np.ndarray:
+def pseudo_random_subset(frames: np.ndarray, most: int) -> np.ndarray:
     """At most `most` of the frames, spread evenly but at irregular distances, so that some pairs are at every lag.
 
     Taken are the first by the fractional part of the golden ratio times the frame squared, which is as irregular as
@@ -28,14 +28,14 @@ def scattered(frames: np.ndarray, most: int) -> np.ndarray:
     return frames[np.sort(np.argpartition(drawn, most)[:most])]
 
 
-def references(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
+def reference_markers(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
     """Rank a marker's neighbours by the standard deviation of their distance to it; source: tits2018 eq 1.
 
     Returns indices (k,) and deviations (k,), mm, ascending. At most `frames` frames are looked at; neighbours seen
     together with the marker on fewer than `minimum_frames` of all are left out.
     """
     key = "references", marker, frames, minimum_frames
-    return scene.remember(key, partial(_ranked, scene, marker, frames, minimum_frames))
+    return scene.cached(key, partial(_ranked, scene, marker, frames, minimum_frames))
 
 
 def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
@@ -46,7 +46,7 @@ def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tupl
     near = near[joint >= minimum_frames]
     if len(near) == 0:
         return near, np.zeros(0)
-    rows = thinned(np.flatnonzero(seen), frames)
+    rows = evenly_spaced(np.flatnonzero(seen), frames)
     distance = np.linalg.norm(scene.positions[np.ix_(rows, near)] - scene.positions[rows, marker][:, None], axis=2)
     known = ~np.isnan(distance)
     count = np.maximum(known.sum(axis=0), 1)
@@ -58,7 +58,7 @@ def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tupl
     return near[order], deviation[order]
 
 
-def companions(
+def jointly_observed(
     scene: Scene, marker: int, ranked: np.ndarray, *, share: float, minimum_frames: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Of the ranked markers, in their order, those with which enough joint frames remain to learn from.

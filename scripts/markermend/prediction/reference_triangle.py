@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from markermend.options.prediction import ReferenceTriangleOptions
-from markermend.prediction.marker_selection import references, thinned
+from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Prediction, Scene
 
 
@@ -61,7 +61,7 @@ class _FrameModel(ABC):
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Frames that miss a reference are left to the next triple; states no error."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         positions = np.full((stop - start + 2, 3), np.nan)
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         for triple in self._triples(hidden, marker):
@@ -77,21 +77,21 @@ class _FrameModel(ABC):
     def _triples(self, scene: Scene, marker: int) -> Iterator[np.ndarray]:
         """Triples of references: the best three, then those that need the fourth, and so on."""
         options = self.options
-        ranked, _ = references(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         for places in sorted(combinations(range(min(len(ranked), options.references)), 3), key=lambda p: p[::-1]):
             yield ranked[list(places)]
 
     def _training(self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """Frames to train on; none where the triple is seen too rarely with the marker, or is nearly a line."""
         key = "training", self.options, marker, triple.tobytes()
-        return scene.remember(key, partial(self._choose, scene, marker, triple, seen))
+        return scene.cached(key, partial(self._choose, scene, marker, triple, seen))
 
     def _choose(self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """See _training."""
         joint = np.flatnonzero(seen & scene.present[:, marker])
         if len(joint) < self.options.minimum_frames:
             return joint[:0]
-        training = thinned(joint, self.options.frames)
+        training = evenly_spaced(joint, self.options.frames)
         height = np.abs(triangle(scene.positions[np.ix_(training, triple)]).shape[:, 2])
         return training if np.median(height) >= self.options.height_mm else training[:0]
 
@@ -136,7 +136,7 @@ class _FrameRegression(_FrameModel):
         if len(training) == 0:
             return np.full((len(rows), 3), np.nan)
         key = "regression", self.options, marker, triple.tobytes()
-        inputs, target, middle, scale = scene.remember(key, partial(_standardized, scene, marker, triple, training))
+        inputs, target, middle, scale = scene.cached(key, partial(_standardized, scene, marker, triple, training))
         asked = triangle(scene.positions[np.ix_(rows, triple)])
         return asked.laboratory(self._model(inputs, target, (asked.shape - middle) / scale))
 

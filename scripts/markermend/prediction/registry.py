@@ -21,7 +21,7 @@ from markermend.options.prediction import (
 from markermend.prediction.global_regression import GlobalRegression
 from markermend.prediction.interpolation import KINDS, Interpolation
 from markermend.prediction.lagged_regression.polynomial import Polynomial
-from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
 from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
 from markermend.prediction.local_ridge.predictor import LocalRidge
@@ -51,7 +51,7 @@ FAMILIES = {
 }
 """The families that have settings, and whose settings they are."""
 
-SHARED = ("local_ridge", "interpolation", *LOOSE)
+SHARED = ("local_ridge", "interpolation", *LAGGED_REGRESSIONS)
 """Families with a section of the config of their own, because several stages use them."""
 
 Settings = Mapping[str, Mapping[str, Any]]

@@ -9,7 +9,7 @@ from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-REMEMBERED = 60
+CACHE_SIZE = 60
 """Results that a scene keeps for its predictors: enough for the members and missing neighbours of one marker."""
 
 Result = TypeVar("Result")
@@ -33,8 +33,8 @@ class Scene:
 
     positions: float64 (frames, markers, 3), mm, NaN = missing or not to be believed. rate: Hz. neighbours: for each
     marker the indices of the others of its component, steadiest first (the mesh's ranking). measured: the scene before
-    any gap was filled, where this one holds filled samples; None where nothing was filled. doubt: (frames, markers),
-    mm, standard deviation per axis of filled samples, 0 elsewhere; None where nothing was filled. relatives: for each
+    any gap was filled, where this one holds filled samples; None where nothing was filled. inherited_std: (frames, markers),
+    mm, standard deviation per axis of filled samples, 0 elsewhere; None where nothing was filled. segment_mates: for each
     marker the indices of its siblings on the segment and of its parent marker; None where no mesh tells.
     """
 
@@ -42,8 +42,8 @@ class Scene:
     rate: float
     neighbours: Sequence[np.ndarray]
     measured: Scene | None = None
-    doubt: np.ndarray | None = None
-    relatives: Sequence[np.ndarray] | None = None
+    inherited_std: np.ndarray | None = None
+    segment_mates: Sequence[np.ndarray] | None = None
 
     @cached_property
     def present(self) -> np.ndarray:
@@ -56,19 +56,21 @@ class Scene:
         """What predictors learned from this scene, oldest first."""
         return {}
 
-    def remember(self, key: Hashable, learn: Callable[[], Result]) -> Result:
+    def cached(self, key: Hashable, learn: Callable[[], Result]) -> Result:
         """What `learn` returns; learned once for gaps that share a scene. The key must hold all that it depends on."""
         if key not in self._memory:
-            while len(self._memory) >= REMEMBERED:
+            while len(self._memory) >= CACHE_SIZE:
                 del self._memory[next(iter(self._memory))]
             self._memory[key] = learn()
         return self._memory[key]  # type: ignore[return-value]
 
-    def hiding(self, marker: int, start: int, stop: int) -> Scene:
-        """The same scene without one marker's samples over [start, stop)."""
+    def without(self, marker: int, start: int, stop: int) -> Scene:
+        """The scene without one marker's samples over [start, stop): itself where the marker is not observed there."""
+        if not self.present[start:stop, marker].any():
+            return self
         positions = self.positions.copy()
         positions[start:stop, marker] = np.nan
-        return replace(self, positions=positions, measured=None, doubt=None)
+        return replace(self, positions=positions, measured=None, inherited_std=None)
 
 
 class Predictor(Protocol):

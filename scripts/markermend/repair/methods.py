@@ -13,12 +13,12 @@ from markermend.numerics.intervals import runs
 from markermend.numerics.kriging import Covariance, fit_covariance
 from markermend.options.repair import SeparationOptions
 from markermend.prediction.interpolation import KINDS
-from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.separation import COURSES, artifacts, averaged, pinned, separate
 
-METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LOOSE, *KINDS)
+METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
 """The ways of repair by the names that a config may use."""
 
 
@@ -105,7 +105,7 @@ def _together(ridge: LocalRidge, scene: Scene, marker: int, first: int, last: in
     around = np.arange(first - border, last + border)
     around = around[(around >= 0) & (around < len(scene.present)) & ((around < first) | (around >= last))]
     around = around[scene.present[around, marker]]
-    covariance = scene.remember((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
+    covariance = scene.cached((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
     return pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate)
 
 
@@ -121,7 +121,7 @@ def residual_covariance(ridge: LocalRidge, scene: Scene, marker: int) -> Covaria
     """How the residual of a marker goes together over time, over the whole recording."""
     residual = ridge.residuals(scene, np.array([marker]))[:, marker]
     scales_s = np.array(ridge.options.scales_s)
-    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, longest_s=ridge.options.longest_s)
+    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, max_lag_s=ridge.options.longest_s)
 
 
 def smoothed(

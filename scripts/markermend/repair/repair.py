@@ -82,7 +82,7 @@ class _Repairer:
         self.found = {stage: list(events) for stage, events in found.items() if events}
         self.flagged = self._covered([event for events in self.found.values() for event in events])
         believed = np.where(self.flagged[..., None], np.nan, recording.positions)
-        scene = Scene(believed, recording.rate, self.neighbours, relatives=self.relatives)
+        scene = Scene(believed, recording.rate, self.neighbours, segment_mates=self.relatives)
         self.offers = Offers(recording.positions, self.flagged, scene, self.predictors, self.options)
 
     def _covered(self, events: Sequence[Event]) -> np.ndarray:

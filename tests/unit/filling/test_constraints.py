@@ -45,7 +45,7 @@ def test_at_an_end_of_the_recording_the_offset_is_constant():
 
 
 def test_spacing_equals_single_projections(distances):
-    densities = [kernel_density(sample, most=1000) for sample in distances]
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
     shells = [density.quantiles((0.01, 0.99)) for density in densities]
     references = RNG.normal(0, 5, (40, 3, 3)) + np.diag([100.0, 140.0, 180.0])
     positions = RNG.normal(0, 25, (40, 3))
@@ -57,7 +57,7 @@ def test_spacing_equals_single_projections(distances):
 
 
 def test_usual_positions_are_left_alone(distances):
-    densities = [kernel_density(distances[0], most=1000)]
+    densities = [kernel_density(distances[0], max_samples=1000)]
     references = np.zeros((5, 1, 3))
     positions = np.tile([100.0, 0, 0], (5, 1))
     positions[3] = [150.0, 0, 0]

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.filling.distance_likelihood import Distances
 from markermend.options.filling import DistanceOptions
-from markermend.prediction.marker_selection import references
+from markermend.prediction.marker_selection import reference_markers
 from support.fillings import CONFIG, scene
 
 DEFAULT = CONFIG["fill"]["ensemble"]["distances"]
@@ -22,7 +22,7 @@ def body(walker):
 
 def test_the_steadiest_markers_are_the_references(body):
     own = options(references=2, spacing_references=4)
-    ranked, _ = references(scene(body), 9, frames=own.frames, minimum_frames=own.minimum_frames)
+    ranked, _ = reference_markers(scene(body), 9, frames=own.frames, minimum_frames=own.minimum_frames)
     learned = Distances.learn(scene(body), 9, own)
     assert learned.references.tolist() == ranked[:4].tolist()
     for reference, density in zip(learned.references, learned.densities, strict=True):

@@ -31,7 +31,7 @@ def distances():
 
 
 def test_weights_and_mean_equal_the_formulas(distances):
-    densities = [kernel_density(sample, most=1000) for sample in distances]
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
     references = RNG.normal(0, 5, (30, 3, 3)) + np.diag([100.0, 140.0, 180.0])
     positions = RNG.normal(0, 6, (4, 30, 3))
     likelihood = pma_likelihood(positions, references, densities, window=1, floor=0.0)
@@ -43,7 +43,7 @@ def test_weights_and_mean_equal_the_formulas(distances):
 
 
 def test_smoothing_is_a_moving_average_and_the_floor_holds(distances):
-    densities = [kernel_density(sample, most=1000) for sample in distances]
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
     references = np.zeros((9, 3, 3)) + np.diag([100.0, 140.0, 180.0])
     positions = np.zeros((1, 9, 3))
     positions[0, 4] = 1e5
@@ -55,7 +55,7 @@ def test_smoothing_is_a_moving_average_and_the_floor_holds(distances):
 
 
 def test_a_reference_that_is_not_seen_does_not_count(distances):
-    densities = [kernel_density(sample, most=1000) for sample in distances]
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
     references = np.zeros((5, 3, 3)) + np.diag([100.0, 140.0, 180.0])
     references[2, 1] = np.nan
     positions = RNG.normal(0, 2, (2, 5, 3))

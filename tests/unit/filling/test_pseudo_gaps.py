@@ -42,7 +42,7 @@ def test_in_pseudo_gaps_filled_neighbours_are_as_wrong_as_they_may_be(walker):
     positions[200:240, 7] = np.nan
     doubt = np.zeros(positions.shape[:2])
     doubt[200:240, 8] = np.hanning(40) * 10
-    seen = replace(scene(positions), doubt=doubt, measured=scene(positions))
+    seen = replace(scene(positions), inherited_std=doubt, measured=scene(positions))
     trials = pseudo_gaps(seen, 7, 200, 240, count=40, share=0.2, company=3)
     moved = np.stack([(t.scene.positions - positions)[t.start : t.stop] for t in trials])
     others = np.delete(moved, [7, 8], axis=2)
@@ -52,7 +52,7 @@ def test_in_pseudo_gaps_filled_neighbours_are_as_wrong_as_they_may_be(walker):
     assert 0.8 < directions.std() < 1.2
     again = pseudo_gaps(seen, 7, 200, 240, count=40, share=0.2, company=3)
     assert np.array_equal(again[3].scene.positions, trials[3].scene.positions, equal_nan=True)
-    assert all(trial.scene.doubt is None and trial.scene.measured is None for trial in trials)
+    assert all(trial.scene.inherited_std is None and trial.scene.measured is None for trial in trials)
 
 
 def test_trials_share_a_scene_only_while_they_leave_enough_to_learn_from(walker):

@@ -14,19 +14,19 @@ def distances():
 
 
 def test_density_equals_scipy(distances):
-    found = kernel_density(distances[0], most=1000)
+    found = kernel_density(distances[0], max_samples=1000)
     expected = gaussian_kde(distances[0], bw_method="silverman")
     points = np.linspace(80, 120, 60)
-    assert np.allclose(np.exp(found.logarithm(points)), expected(points))
+    assert np.allclose(np.exp(found.log_density(points)), expected(points))
     quantiles = found.quantiles((0.01, 0.5, 0.99))
     for point, share in zip(quantiles, (0.01, 0.5, 0.99), strict=True):
         assert expected.integrate_box_1d(-np.inf, point) == pytest.approx(share, abs=1e-6)
-    assert quad(lambda x: np.exp(found.logarithm(np.array(x))), 60, 140)[0] == pytest.approx(1, abs=1e-6)
+    assert quad(lambda x: np.exp(found.log_density(np.array(x))), 60, 140)[0] == pytest.approx(1, abs=1e-6)
 
 
 def test_density_of_few_samples_stands_for_all_and_tails_do_not_vanish(distances):
-    whole, part = kernel_density(distances[0], most=1000), kernel_density(distances[0], most=100)
+    whole, part = kernel_density(distances[0], max_samples=1000), kernel_density(distances[0], max_samples=100)
     points = np.linspace(92, 108, 20)
-    assert np.allclose(np.exp(whole.logarithm(points)), np.exp(part.logarithm(points)), atol=0.01)
-    assert np.isfinite(whole.logarithm(np.array([1e4]))).all()
-    assert kernel_density(np.full(50, 70.0), most=100).bandwidth > 0
+    assert np.allclose(np.exp(whole.log_density(points)), np.exp(part.log_density(points)), atol=0.01)
+    assert np.isfinite(whole.log_density(np.array([1e4]))).all()
+    assert kernel_density(np.full(50, 70.0), max_samples=100).bandwidth > 0

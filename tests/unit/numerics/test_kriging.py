@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise
-from markermend.prediction.marker_selection import scattered
+from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise_variance
+from markermend.prediction.marker_selection import pseudo_random_subset
 from support.fillings import CONFIG
 
 SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
@@ -69,36 +69,36 @@ def test_the_fit_needs_no_sample_beside_another():
     rng = np.random.default_rng(4)
     smooth = np.convolve(rng.normal(size=40_000), np.hanning(41), mode="same")[:, None] + np.zeros(3)
     sparse = np.full_like(smooth, np.nan)
-    rows = scattered(np.arange(len(smooth)), 2000)
+    rows = pseudo_random_subset(np.arange(len(smooth)), 2000)
     sparse[rows] = smooth[rows]
-    whole = fit_covariance(smooth, rate=100.0, scales_s=SCALES, longest_s=2.0)
-    fitted = fit_covariance(sparse, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    whole = fit_covariance(smooth, rate=100.0, scales_s=SCALES, max_lag_s=2.0)
+    fitted = fit_covariance(sparse, rate=100.0, scales_s=SCALES, max_lag_s=2.0)
     lags = np.array([0.01, 0.05, 0.1, 0.2])
     assert np.allclose(fitted(lags), whole(lags), atol=0.2 * whole(np.zeros(1))[0])
     assert fitted.noise < 0.1 * whole(np.zeros(1))[0]
 
 
 def test_nothing_known_is_no_covariance():
-    fitted = fit_covariance(np.full((50, 3), np.nan), rate=100.0, scales_s=SCALES, longest_s=2.0)
+    fitted = fit_covariance(np.full((50, 3), np.nan), rate=100.0, scales_s=SCALES, max_lag_s=2.0)
     assert fitted(np.zeros(1))[0] == 0 and fitted.noise < 1e-6
 
 
 def test_scattered_frames_are_spread_evenly_and_at_every_distance():
     frames = np.arange(7, 50_007)
-    chosen = scattered(frames, 2500)
+    chosen = pseudo_random_subset(frames, 2500)
     assert len(chosen) == 2500 and (np.diff(chosen) > 0).all() and np.isin(chosen, frames).all()
     assert np.ptp(np.histogram(chosen, bins=25, range=(7, 50_007))[0]) < 60  # 100 each
     seen = np.isin(frames, chosen)
     pairs = np.array([np.count_nonzero(seen[lag:] & seen[:-lag]) for lag in range(1, 250)])
     assert pairs.min() > 60 and abs(pairs.mean() - 125) < 10
-    assert np.array_equal(scattered(frames[:9], 9), frames[:9])
+    assert np.array_equal(pseudo_random_subset(frames[:9], 9), frames[:9])
 
 
 def test_kriging_equals_the_gaussian_process(covariance):
     known = np.array([0.0, 0.01, 0.04, 0.5, 0.53])
     values = np.random.default_rng(2).normal(size=(5, 3))
     wanted = np.linspace(0.05, 0.45, 9)
-    mean, variance = krige(covariance, known_s=known, values=values, wanted_s=wanted)
+    mean, variance = krige(covariance, observed_s=known, values=values, target_s=wanted)
     expected, spread = naive_gaussian_process(covariance, known, values, wanted)
     # The jitter that keeps the system regular is a hundred-thousandth of the variance.
     assert np.allclose(mean, expected, atol=1e-3)
@@ -108,16 +108,16 @@ def test_kriging_equals_the_gaussian_process(covariance):
 def test_without_noise_the_known_are_met(covariance):
     exact = Covariance(np.concatenate([[0.0], covariance.weights[1:]]), SCALES)
     known, values = np.array([0.0, 0.3]), np.array([[1.0, -2, 3], [0.5, 0, -1]])
-    mean, variance = krige(exact, known_s=known, values=values, wanted_s=known)
+    mean, variance = krige(exact, observed_s=known, values=values, target_s=known)
     assert np.allclose(mean, values, atol=1e-3)
     assert (variance < 1e-3).all()
 
 
 def test_far_from_everything_known_the_mean_is_zero_and_the_variance_whole(covariance):
-    mean, variance = krige(covariance, known_s=np.zeros(1), values=np.ones((1, 3)), wanted_s=np.array([1e3]))
+    mean, variance = krige(covariance, observed_s=np.zeros(1), values=np.ones((1, 3)), target_s=np.array([1e3]))
     assert np.allclose(mean, 0)
     assert variance[0] == pytest.approx(covariance.weights.sum())
-    mean, variance = krige(covariance, known_s=np.zeros(0), values=np.zeros((0, 3)), wanted_s=np.zeros(2))
+    mean, variance = krige(covariance, observed_s=np.zeros(0), values=np.zeros((0, 3)), target_s=np.zeros(2))
     assert np.allclose(mean, 0) and np.allclose(variance, covariance.weights.sum())
 
 
@@ -128,7 +128,7 @@ def test_the_fit_finds_the_covariance_of_a_known_process():
     rng = np.random.default_rng(3)
     samples = np.linalg.cholesky(truth + 1e-6 * np.eye(1500)) @ rng.normal(size=(1500, 6))
     fitted = fit_covariance(
-        samples + rng.normal(0, np.sqrt(noise), samples.shape), rate=100.0, scales_s=SCALES, longest_s=2.0
+        samples + rng.normal(0, np.sqrt(noise), samples.shape), rate=100.0, scales_s=SCALES, max_lag_s=2.0
     )
     assert fitted.noise == pytest.approx(noise, abs=0.15)
     lags = np.array([0.02, 0.1, 0.2, 0.4])
@@ -141,8 +141,8 @@ def test_kernels_are_one_at_lag_zero():
 
 
 def test_an_exact_model_leaves_a_covariance_that_can_be_inverted():
-    fitted = fit_covariance(np.zeros((200, 3)), rate=100.0, scales_s=SCALES, longest_s=2.0)
-    mean, variance = krige(fitted, known_s=np.array([0.0, 0.1]), values=np.zeros((2, 3)), wanted_s=np.array([0.05]))
+    fitted = fit_covariance(np.zeros((200, 3)), rate=100.0, scales_s=SCALES, max_lag_s=2.0)
+    mean, variance = krige(fitted, observed_s=np.array([0.0, 0.1]), values=np.zeros((2, 3)), target_s=np.array([0.05]))
     assert np.isfinite(mean).all() and np.isfinite(variance).all()
 
 
@@ -155,28 +155,28 @@ def drift(seconds=40, rate=100.0):
 def test_the_white_noise_on_a_smooth_course_is_told():
     residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
     residual[np.random.default_rng(6).choice(4000, 30)] += 100
-    assert white_noise(drift()) < 1e-3
-    assert white_noise(residual) == pytest.approx(0.2**2, rel=0.3)
+    assert white_noise_variance(drift()) < 1e-3
+    assert white_noise_variance(residual) == pytest.approx(0.2**2, rel=0.3)
 
 
 def test_scattered_frames_tell_the_noise_while_enough_lie_side_by_side():
     residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
     sparse, sparser = np.full_like(residual, np.nan), np.full_like(residual, np.nan)
     for thinned, most in ((sparse, 1000), (sparser, 100)):
-        chosen = scattered(np.arange(4000), most)
+        chosen = pseudo_random_subset(np.arange(4000), most)
         thinned[chosen] = residual[chosen]
-    assert white_noise(sparse) == pytest.approx(0.2**2, rel=0.5)
-    assert white_noise(sparser) == 0
+    assert white_noise_variance(sparse) == pytest.approx(0.2**2, rel=0.5)
+    assert white_noise_variance(sparser) == 0
 
 
 def test_noise_does_not_send_a_smooth_residual_astray():
     residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
-    covariance = fit_covariance(residual, rate=100.0, scales_s=SCALES, longest_s=2.0)
+    covariance = fit_covariance(residual, rate=100.0, scales_s=SCALES, max_lag_s=2.0)
     noiseless = Covariance(np.append(0.0, covariance.weights[1:]), SCALES)
     errors = []
     for start in range(100, 3900, 100):
         wanted, known = np.arange(start, start + 40), np.r_[start - 12 : start, start + 40 : start + 52]
         for each in (covariance, noiseless):
-            mean, _ = krige(each, known_s=known / 100, values=residual[known], wanted_s=wanted / 100)
+            mean, _ = krige(each, observed_s=known / 100, values=residual[known], target_s=wanted / 100)
             errors.append(np.linalg.norm(mean - drift()[wanted], axis=1).mean())
     assert np.mean(errors[::2]) < 0.5 * np.mean(errors[1::2])

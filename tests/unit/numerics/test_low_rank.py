@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.numerics.low_rank import complete
+from markermend.numerics.low_rank import complete_matrix
 
 
 def low_rank(whole, rows=200, columns=12, rank=3, seed=4):
@@ -23,7 +23,7 @@ def test_a_matrix_of_low_rank_is_recovered(shrinkage, whole):
     before = holed.copy()
     # Without enough complete rows the rank comes from the straight lines: higher than it is.
     explained = 1 - 1e-9 if whole == 40 else 0.8
-    filled, misfit = complete(holed, explained=explained, shrinkage=shrinkage, tolerance=1e-7, iterations=3000)
+    filled, misfit = complete_matrix(holed, explained=explained, shrinkage=shrinkage, tolerance=1e-7, iterations=3000)
     assert np.array_equal(holed, before, equal_nan=True)
     assert np.abs(filled - matrix).max() < 1e-3
     assert len(misfit) < 3000 and (whole == 40 or len(misfit) > 5)
@@ -34,10 +34,10 @@ def test_a_matrix_of_low_rank_is_recovered(shrinkage, whole):
 def test_it_iterates_and_the_misfit_never_grows():
     matrix, holed = low_rank(10)
     noisy = holed + np.random.default_rng(5).normal(size=holed.shape)
-    filled, misfit = complete(noisy, explained=0.8, shrinkage=False, tolerance=1e-6, iterations=500)
+    filled, misfit = complete_matrix(noisy, explained=0.8, shrinkage=False, tolerance=1e-6, iterations=500)
     assert len(misfit) > 5 and (np.diff(misfit) <= 1e-9).all()
     assert misfit[-1] < 0.9 * misfit[0]
-    once, _ = complete(noisy, explained=0.8, shrinkage=False, tolerance=1e-6, iterations=1)
+    once, _ = complete_matrix(noisy, explained=0.8, shrinkage=False, tolerance=1e-6, iterations=1)
     hidden = np.isnan(holed)
     assert np.abs(filled - matrix)[hidden].mean() < 0.2 * np.abs(once - matrix)[hidden].mean()
 
@@ -45,14 +45,14 @@ def test_it_iterates_and_the_misfit_never_grows():
 def test_complete_rows_start_it_near_the_end():
     _, holed = low_rank(40)
     noisy = holed + np.random.default_rng(5).normal(size=holed.shape)
-    _, started = complete(noisy, explained=0.99, shrinkage=True, tolerance=1e-6, iterations=500)
-    _, lines = complete(noisy[30:], explained=0.8, shrinkage=True, tolerance=1e-6, iterations=500)
+    _, started = complete_matrix(noisy, explained=0.99, shrinkage=True, tolerance=1e-6, iterations=500)
+    _, lines = complete_matrix(noisy[30:], explained=0.8, shrinkage=True, tolerance=1e-6, iterations=500)
     assert len(started) < len(lines)
 
 
 def test_the_end_of_the_iteration_is_a_fixed_point():
     _, holed = low_rank(10)
-    filled, _ = complete(holed + 0.0, explained=0.9, shrinkage=False, tolerance=1e-9, iterations=5000)
+    filled, _ = complete_matrix(holed + 0.0, explained=0.9, shrinkage=False, tolerance=1e-9, iterations=5000)
     centred = filled - filled.mean(axis=0)
     left, sizes, right = np.linalg.svd(centred, full_matrices=False)
     errors = [

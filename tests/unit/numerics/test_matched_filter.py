@@ -12,7 +12,7 @@ COVARIANCE = Covariance(np.array([0.3, 0.0, 2.0, 1.0, 0.0]), np.array([0.1, 0.5]
 
 
 def bump(length, flank=0.5, taps=24):
-    return matched_filter.make_filter(COVARIANCE, length=length, flank=flank, taps=taps, rate=RATE)
+    return matched_filter.design_filter(COVARIANCE, length=length, flank=flank, taps=taps, rate=RATE)
 
 
 def process(frames, rng):
@@ -24,7 +24,9 @@ def process(frames, rng):
 def naive_strength(window, length, flank):
     """Height of the bump by generalised least squares with a constant, in standard deviations, over all axes."""
     side = int(np.ceil(flank * length))
-    course = np.concatenate([np.zeros(side), matched_filter.rise((np.arange(length) + 0.5) / length), np.zeros(side)])
+    course = np.concatenate(
+        [np.zeros(side), matched_filter.raised_cosine((np.arange(length) + 0.5) / length), np.zeros(side)]
+    )
     lags = np.abs(np.subtract.outer(np.arange(len(course)), np.arange(len(course)))) / RATE
     smooth = COVARIANCE(lags)
     between = smooth + (COVARIANCE.noise + 1e-5 * (smooth[0, 0] + COVARIANCE.noise)) * np.eye(len(course))
@@ -37,7 +39,7 @@ def naive_strength(window, length, flank):
 @pytest.mark.parametrize("length", [12, 20])
 def test_strength_is_that_of_generalised_least_squares(length):
     signal = process(120, np.random.default_rng(1))
-    found = matched_filter.strength(signal, bump(length))
+    found = matched_filter.filter_response(signal, bump(length))
     window = length + 2 * int(np.ceil(0.5 * length))
     for start in (0, 33, 119 - window):
         # The centre of an even window lies between two samples.
@@ -49,12 +51,12 @@ def test_noise_has_variance_one_and_a_bump_its_height():
     rng = np.random.default_rng(2)
     signal = np.concatenate([process(400, rng), np.full((1, 3), np.nan), process(400, rng)])
     one = bump(60)
-    noise = matched_filter.strength(signal, one)
+    noise = matched_filter.filter_response(signal, one)
     assert 0.5 < np.sqrt(np.nanmean(noise**2) / 3) < 1.5
     assert np.isnan(noise[341:460]).all()  # a window does not span a gap
     clear = np.zeros((400, 3))
-    clear[170:230, 1] = 10 * matched_filter.rise((np.arange(60) + 0.5) / 60)
-    found = matched_filter.strength(clear, one)
+    clear[170:230, 1] = 10 * matched_filter.raised_cosine((np.arange(60) + 0.5) / 60)
+    found = matched_filter.filter_response(clear, one)
     assert abs(int(np.nanargmax(found)) - 200) <= 2
     assert np.nanmax(found) * one.deviation == pytest.approx(10, rel=0.02)
 
@@ -63,7 +65,7 @@ def test_brief_gaps_are_bridged_and_longer_ones_are_not():
     signal = np.arange(30.0)[:, None] * [1, 2, 3]
     holed = signal.copy()
     holed[5:8], holed[12:16], holed[28:] = np.nan, np.nan, np.nan
-    out = interpolation.bridge_linearly(holed, 3)
+    out = interpolation.bridge_linear(holed, 3)
     np.testing.assert_allclose(out[:12], signal[:12])
     assert np.isnan(out[12:16]).all() and np.isnan(out[28:]).all()
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.prediction.global_regression import GlobalRegression
-from markermend.prediction.marker_selection import references
+from markermend.prediction.marker_selection import reference_markers
 from support.fillings import predictor, scene
 
 
@@ -28,8 +28,8 @@ def test_equals_least_squares(walker):
     positions = walker.recording.positions[:800].copy()
     seen = scene(positions)
     options = predictor("linear_regression").options
-    hidden = seen.hiding(9, 300, 350)
-    ranked, deviation = references(hidden, 9, frames=options.frames, minimum_frames=60)
+    hidden = seen.without(9, 300, 350)
+    ranked, deviation = reference_markers(hidden, 9, frames=options.frames, minimum_frames=60)
     found = GlobalRegression(options).predict(seen, 9, 300, 350).positions[1:-1]
     expected = twin(hidden.positions, 9, ranked[deviation < 50], 300, 350)
     assert np.abs(found - expected).max() < 0.1
@@ -37,7 +37,7 @@ def test_equals_least_squares(walker):
 
 def test_deviations_are_those_of_the_distance(walker):
     positions = walker.recording.positions[:400]
-    ranked, deviation = references(scene(positions), 9, frames=1000, minimum_frames=60)
+    ranked, deviation = reference_markers(scene(positions), 9, frames=1000, minimum_frames=60)
     for reference, value in zip(ranked[:5], deviation[:5], strict=True):
         assert value == pytest.approx(np.linalg.norm(positions[:, 9] - positions[:, reference], axis=1).std())
     assert (np.diff(deviation) >= 0).all()

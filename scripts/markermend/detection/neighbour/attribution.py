@@ -109,7 +109,9 @@ def _residuals(predictor: ResidualSource, scene: Scene, hidden: np.ndarray, mark
     # Each marker is there twice: first as the others see it, then as it was recorded, among the same neighbours.
     count, near = len(scene.neighbours), list(scene.neighbours)
     twice = np.concatenate([seen, scene.positions], axis=1)
-    both = replace(scene, positions=twice, neighbours=near + near, measured=None, doubt=None, relatives=None)
+    both = replace(
+        scene, positions=twice, neighbours=near + near, measured=None, inherited_std=None, segment_mates=None
+    )
     return predictor.residuals(both, count + np.array(markers))[:, count:]
 
 

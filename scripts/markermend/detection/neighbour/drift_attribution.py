@@ -106,6 +106,6 @@ class Company:
         """How much the distances of a marker to others change during an event: root of the sum of squares, in usual deviations."""
         positions = self.scene.positions
         distance = np.linalg.norm(positions[:, company] - positions[:, [marker]], axis=2)
-        usual = np.array([robust.deviation(own) for own in distance.T]) + RIGID_MM
+        usual = np.array([robust.mad_std(own) for own in distance.T]) + RIGID_MM
         change = drift_shape.risen(distance, event.start, event.stop, flank=self.settings.flank)
         return float(np.linalg.norm(change / usual))

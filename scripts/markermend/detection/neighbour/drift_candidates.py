@@ -50,19 +50,19 @@ def match(
     deviation = np.full(strength.shape, np.nan, np.float32)
     if np.isnan(residual).all():
         return strength, deviation
-    signal = interpolation.bridge_linearly(residual / wider[:, None], intervals.samples(settings.brief_s, rate))
-    covariance = matched_filter.usual_covariance(
+    signal = interpolation.bridge_linear(residual / wider[:, None], intervals.samples(settings.brief_s, rate))
+    covariance = matched_filter.clipped_covariance(
         signal,
         sigmas=settings.clip_sigmas,
         rate=rate,
         scales_s=np.array(settings.scales_s),
-        longest_s=settings.longest_s,
+        max_lag_s=settings.longest_s,
     )
     for number, length in enumerate(lengths):
-        bump = matched_filter.make_filter(
+        bump = matched_filter.design_filter(
             covariance, length=length, flank=settings.flank, taps=settings.taps, rate=rate
         )
-        strength[number] = matched_filter.strength(signal, bump)
+        strength[number] = matched_filter.filter_response(signal, bump)
         deviation[number] = bump.deviation * wider
     return strength, deviation
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from markermend.numerics.matched_filter import rise
+from markermend.numerics.matched_filter import raised_cosine
 
 STRETCHES = (0.6, 0.72, 0.85, 1.0, 1.2, 1.45, 1.75, 2.1)
 """What the length of a bump is multiplied by to find where it begins and ends."""
@@ -27,7 +27,7 @@ def extent(residual: np.ndarray, top: int, length: int, *, flank: float) -> tupl
             start = top + shift - own // 2
             if start <= 0 or start + own >= len(residual):
                 continue
-            course = rise((window - start + 0.5) / own)
+            course = raised_cosine((window - start + 0.5) / own)
             course = course - course.mean()
             fit = float(((course @ values) ** 2).sum() / (course @ course))
             best = max(best, (fit, start, start + own))

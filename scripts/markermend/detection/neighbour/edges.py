@@ -11,7 +11,7 @@ import numpy as np
 from markermend.detection.neighbour import residual_windows
 from markermend.detection.neighbour.residual_windows import Contrasts, Courses
 from markermend.numerics.intervals import runs
-from markermend.numerics.window_covariance import Regularity
+from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import ResidualWindowOptions
 
 FEWEST = 5
@@ -31,18 +31,18 @@ class Edge:
 
 
 @lru_cache(maxsize=64)
-def contrasts(regularity: Regularity, size: int, places: tuple[int, ...]) -> Contrasts:
+def contrasts(regularity: WindowCovariance, size: int, places: tuple[int, ...]) -> Contrasts:
     """The size of a jump at each of the places in a window, and what is usual of all beside it."""
     precision = regularity.precision(size)
     jump = (np.arange(size) >= np.array(places)[:, None]).astype(float)
     across = jump @ precision
     strength = (across * jump).sum(axis=1)
     rest = precision - across[:, :, None] * across[:, None, :] / strength[:, None, None]
-    misfit = rest / (regularity.freedom(size) - 1)
+    misfit = rest / (regularity.degrees_of_freedom(size) - 1)
     return Contrasts(np.array(places), across / strength[:, None], strength**-0.5, misfit)
 
 
-def central(rate: float, settings: ResidualWindowOptions) -> tuple[Callable[[Regularity], Contrasts], int]:
+def central(rate: float, settings: ResidualWindowOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
     """The maps for a jump amid its context, and the length of their windows."""
     context = residual_windows.context(rate, settings, fewest=FEWEST)
     return partial(contrasts, size=2 * context, places=(context,)), 2 * context

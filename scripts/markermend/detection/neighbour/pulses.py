@@ -12,7 +12,7 @@ from markermend.detection.neighbour import residual_windows
 from markermend.detection.neighbour.residual_windows import Contrasts, Courses
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.numerics.window_covariance import Regularity
+from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import PeaksOptions
 
 FEWEST = 6
@@ -30,7 +30,7 @@ class Excursion:
 
 
 @lru_cache(maxsize=512)
-def contrasts(regularity: Regularity, length: int, size: int, places: tuple[int, ...]) -> Contrasts:
+def contrasts(regularity: WindowCovariance, length: int, size: int, places: tuple[int, ...]) -> Contrasts:
     """The size of a half wave of `length` samples, from each of the places on, and what is usual of the other samples."""
     precision = regularity.precision(size)
     wave = np.sin(np.pi * (np.arange(length) + 0.5) / length)
@@ -42,19 +42,19 @@ def contrasts(regularity: Regularity, length: int, size: int, places: tuple[int,
         maps.append(across @ wave / strength)
         gains.append(strength**-0.5)
         rest = precision - across @ np.linalg.solve(across[inside], across.T)
-        forms.append(rest / (regularity.freedom(size) - length))
+        forms.append(rest / (regularity.degrees_of_freedom(size) - length))
     return Contrasts(np.array(places), np.array(maps), np.array(gains), np.array(forms))
 
 
 @lru_cache(maxsize=512)
-def apart(regularity: Regularity, length: int, size: int, place: int) -> np.ndarray:
+def apart(regularity: WindowCovariance, length: int, size: int, place: int) -> np.ndarray:
     """Maps a window to how far `length` samples from a place on are off what the others let expect, (length, size)."""
     across = regularity.precision(size)[place : place + length]
     return np.linalg.solve(across[:, place : place + length], across)
 
 
 @lru_cache(maxsize=512)
-def jumps(regularity: Regularity, size: int) -> np.ndarray:
+def jumps(regularity: WindowCovariance, size: int) -> np.ndarray:
     """Maps a window to the sizes of jumps at each place, in units of their standard deviation, (size - 1, size)."""
     precision = regularity.precision(size)
     jump = np.arange(size) >= np.arange(1, size)[:, None]
@@ -62,7 +62,7 @@ def jumps(regularity: Regularity, size: int) -> np.ndarray:
     return across / np.sqrt(np.maximum((across * jump).sum(axis=1), 1e-12))[:, None]
 
 
-def of_longest(rate: float, settings: PeaksOptions) -> tuple[Callable[[Regularity], Contrasts], int]:
+def of_longest(rate: float, settings: PeaksOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
     """The maps for the longest excursion amid its context, and the length of their windows."""
     length, context = (
         intervals.samples(settings.longest_s, rate),
@@ -111,9 +111,9 @@ def _in(
     return found
 
 
-def _jump_misfit(window: np.ndarray, regularity: Regularity) -> float:
+def _jump_misfit(window: np.ndarray, regularity: WindowCovariance) -> float:
     """Root mean square of what the usual course with a jump, where it fits best, leaves of a window (3, n), mm."""
     size = window.shape[1]
     whole = np.einsum("an,nm,am->", window, regularity.precision(size), window)
     explained = ((window @ jumps(regularity, size).T) ** 2).sum(axis=0).max()
-    return float(np.sqrt(max(whole - explained, 0) / (3 * (regularity.freedom(size) - 1))))
+    return float(np.sqrt(max(whole - explained, 0) / (3 * (regularity.degrees_of_freedom(size) - 1))))

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import ndimage
 
-from markermend.numerics.robust import moving_median_across
+from markermend.numerics.robust import moving_median_across_gaps
 
 
 def usual_size(
@@ -25,7 +25,7 @@ def usual_size(
     """
     overall = np.array([np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else 1.0 for own in size.T])
     overall = np.maximum(overall, 1e-3)
-    local = np.stack([moving_median_across(own, window) for own in size.T], axis=1) / overall
+    local = np.stack([moving_median_across_gaps(own, window) for own in size.T], axis=1) / overall
     livelier = np.maximum(local, 1.0)
     filled = np.nan_to_num(livelier, nan=1.0)
     for m, around in enumerate(neighbours):

@@ -21,7 +21,7 @@ from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, residual_scale
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.numerics.window_covariance import Regularity, learn, windows
+from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance, sliding_windows
 from markermend.options.detection import ResidualWindowOptions
 from markermend.prediction import scene as prediction_scene
 from markermend.prediction.scene import Scene
@@ -58,7 +58,7 @@ class Courses:
     positions: np.ndarray
     misfit: np.ndarray
     usual: np.ndarray
-    regularity: Regularity
+    regularity: WindowCovariance
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def measure(
     only: Sequence[int] | None = None,
     was: Courses | None = None,
     *,
-    maps: Callable[[Regularity], Contrasts],
+    maps: Callable[[WindowCovariance], Contrasts],
     length: int,
     settings: ResidualWindowOptions,
 ) -> Courses:
@@ -116,7 +116,7 @@ def measure(
     """
     if was is None:
         order, shrinkage, at_most = settings.order, settings.shrinkage, settings.windows
-        regularity = learn(residual, size=length, order=order, shrinkage=shrinkage, at_most=at_most)
+        regularity = fit_window_covariance(residual, size=length, order=order, shrinkage=shrinkage, max_windows=at_most)
     else:
         regularity = was.regularity
     form = maps(regularity).misfit[0]
@@ -125,7 +125,7 @@ def measure(
         misfit[:, m] = np.nan
         for start, stop in runs(~np.isnan(residual[:, m, 0])):
             if stop - start >= length:
-                own = _misfit(windows(residual[start:stop, m], length), form)
+                own = _misfit(sliding_windows(residual[start:stop, m], length), form)
                 misfit[start:stop, m] = own[np.clip(np.arange(stop - start) - length // 2, 0, len(own) - 1)]
     usual = residual_scale.usual_size(
         misfit,
@@ -147,7 +147,7 @@ def exceeding(
     courses: Courses, marker: int, span: slice, maps: Contrasts, settings: ResidualWindowOptions, *, least: float = 1.0
 ) -> Exceeding:
     """The windows of a span of one marker's frames, without gaps, that exceed the threshold, or this part of it."""
-    residual, positions = (windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
+    residual, positions = (sliding_windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
     size = (residual @ maps.size.T).transpose(0, 2, 1)
     at, which = np.nonzero((size**2).sum(axis=2) > (least * settings.floor_mm) ** 2)
     size = size[at, which]
@@ -166,7 +166,7 @@ def detect(
     markers: Sequence[str],
     earlier: np.ndarray,
     settings: ResidualWindowOptions,
-    maps: Callable[[Regularity], Contrasts],
+    maps: Callable[[WindowCovariance], Contrasts],
     length: int,
     predictor: prediction_scene.ResidualSource,
     judge: Callable[[Courses, int], list[Event]],

@@ -23,7 +23,7 @@ def bridged(positions: np.ndarray, earlier: np.ndarray, reach: int) -> np.ndarra
     """
     out = positions.copy()
     for marker, axis in np.argwhere(earlier.any(axis=0)):
-        out[:, marker, axis] = interpolation.bridge(positions[:, marker, axis], earlier[:, marker, axis], reach)
+        out[:, marker, axis] = interpolation.bridge_cubic(positions[:, marker, axis], earlier[:, marker, axis], reach)
     return out
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from markermend.numerics import filters, intervals
 from markermend.numerics.filters import per_run
 from markermend.numerics.morphology import dilation
-from markermend.numerics.robust import deviation
+from markermend.numerics.robust import mad_std
 
 
 def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float) -> float:
@@ -18,7 +18,7 @@ def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float)
     finite = change[np.isfinite(change)]
     if scale not in ("mad", "std"):
         raise ValueError(f"scale {scale!r} is neither mad nor std")
-    sigma = deviation(finite) if scale == "mad" or not finite.size else float(np.std(finite))
+    sigma = mad_std(finite) if scale == "mad" or not finite.size else float(np.std(finite))
     return max(sigmas * sigma, floor_mm)
 
 

@@ -6,19 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from markermend.prediction.lagged_regression.predictor import Learned, LoosePredictor, Task
+from markermend.prediction.lagged_regression.predictor import LaggedRegression, Learned, Task
 
 RANK = 1e-10
 """Directions of the design weaker than this part of the strongest are left out: lags and powers are nearly dependent."""
 
 
-class Polynomial(LoosePredictor):
+class Polynomial(LaggedRegression):
     """The predictor P of order `powers` and context `lags`, without the marker's own past; states no error."""
 
     name = "polynomial"
 
     def learn(self, tasks: Sequence[Task]) -> list[Learned]:
-        """See LoosePredictor."""
+        """See LaggedRegression."""
         return [self._fit(task) for task in tasks]
 
     def _fit(self, task: Task) -> Learned:

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.numerics.patterns import alike
+from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import LaggedRegressionOptions
-from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Prediction, Scene
 
-LOOSE = ("polynomial", "replicated_network")
+LAGGED_REGRESSIONS = ("polynomial", "replicated_network")
 """The loose predictors by name; their settings have sections of the config of the same names."""
 
 
@@ -40,7 +40,7 @@ class Learned:
     error: float
 
 
-class LoosePredictor(ABC):
+class LaggedRegression(ABC):
     """What the loose predictors share: choosing inputs, making rows of them, and remembering what was learned."""
 
     name: str
@@ -65,7 +65,7 @@ class LoosePredictor(ABC):
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Where a usual input is not seen, others that are seen take part, by a model of their own."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
         error = np.full(stop - start + 2, np.nan)
@@ -100,7 +100,7 @@ class LoosePredictor(ABC):
         """What is known of each scene, marker and inputs; what is not yet known is learned, all of it at once."""
         keys = [(self, marker, inputs.tobytes()) for _, marker, inputs in jobs]
         new: Callable[[], list[Learned]] = list
-        memory = [job[0].remember(key, new) for job, key in zip(jobs, keys, strict=True)]
+        memory = [job[0].cached(key, new) for job, key in zip(jobs, keys, strict=True)]
         blank = [number for number, known in enumerate(memory) if not known]
         fresh = self.learn([self._task(*jobs[number]) for number in blank])
         for number, learned in zip(blank, fresh, strict=True):
@@ -113,23 +113,23 @@ class LoosePredictor(ABC):
             joint = np.flatnonzero(source.present[:, marker] & source.present[:, inputs].all(axis=1))
             if len(joint) >= self.options.minimum_frames:
                 break
-        frames = thinned(joint, self.options.frames)
+        frames = evenly_spaced(joint, self.options.frames)
         rows = self.rows(source, marker, inputs, frames)
         return Task(rows, source.positions[frames, marker], frames, marker, scene.rate)
 
     def _ranked(self, scene: Scene, marker: int) -> tuple[np.ndarray, int]:
         """Siblings and parent marker, then the other neighbours, nearest first; and how many to use."""
         near = np.asarray(scene.neighbours[marker], int)
-        if scene.relatives is None:
+        if scene.segment_mates is None:
             return near, self.options.nearest
-        first = np.asarray(scene.relatives[marker], int)
+        first = np.asarray(scene.segment_mates[marker], int)
         return np.concatenate([first, near[~np.isin(near, first)]]), len(first)
 
     def _usual(self, scene: Scene, marker: int) -> np.ndarray:
         """The inputs of a marker, ascending; none where it is seen too rarely with others."""
         ranked, count = self._ranked(scene, marker)
         options = self.options
-        chosen, _ = companions(scene, marker, ranked, share=options.share, minimum_frames=options.minimum_frames)
+        chosen, _ = jointly_observed(scene, marker, ranked, share=options.share, minimum_frames=options.minimum_frames)
         return np.sort(chosen[:count])
 
     def _occasions(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -144,9 +144,11 @@ class LoosePredictor(ABC):
         if len(left) == 0:
             return
         ranked, count = self._ranked(scene, marker)
-        for used, places in alike(scene.present[np.ix_(left, ranked)], count):
+        for used, places in group_by_pattern(scene.present[np.ix_(left, ranked)], count):
             options = self.options
             seen = ranked[used]
-            inputs, _ = companions(scene, marker, seen, share=options.share, minimum_frames=options.minimum_frames)
+            inputs, _ = jointly_observed(
+                scene, marker, seen, share=options.share, minimum_frames=options.minimum_frames
+            )
             if len(inputs):
                 yield np.sort(inputs[:count]), left[places]

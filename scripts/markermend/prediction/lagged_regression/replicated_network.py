@@ -15,11 +15,11 @@ from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimi
 from markermend.options.prediction import ReplicatedNetworkOptions
 from markermend.prediction.lagged_regression.feed_forward import Stack, initial, mean_output
 from markermend.prediction.lagged_regression.polynomial import raised
-from markermend.prediction.lagged_regression.predictor import Learned, LoosePredictor, Task
+from markermend.prediction.lagged_regression.predictor import LaggedRegression, Learned, Task
 from markermend.prediction.scene import Scene
 
 
-class ReplicatedNetwork(LoosePredictor):
+class ReplicatedNetwork(LaggedRegression):
     """The replicated network as a predictor; states no error, as the held-out frames lie too near to those trained on."""
 
     name = "replicated_network"
@@ -32,13 +32,11 @@ class ReplicatedNetwork(LoosePredictor):
     def rows(self, scene: Scene, marker: int, inputs: np.ndarray, frames: np.ndarray) -> np.ndarray:
         """The relatives' coordinates and, last, the marker's own moving average (skurowski2022 eq 11), (n, k), mm."""
         window = intervals.samples(self.options.average_s, scene.rate)
-        average = scene.remember(
-            (self.name, window, marker), lambda: moving_average(scene.positions[:, marker], window)
-        )
+        average = scene.cached((self.name, window, marker), lambda: moving_average(scene.positions[:, marker], window))
         return np.concatenate([super().rows(scene, marker, inputs, frames), average[frames]], axis=1)
 
     def learn(self, tasks: Sequence[Task]) -> list[Learned]:
-        """See LoosePredictor. Networks with as many inputs advance together."""
+        """See LaggedRegression. Networks with as many inputs advance together."""
         scalings = [Scaling(task, self.options.powers) for task in tasks]
         learned: dict[int, Learned] = {}
         for width in {scaling.width for scaling in scalings}:

@@ -13,7 +13,7 @@ import numpy as np
 from markermend.options.prediction import GaussianProcessOptions, LocalRidgeOptions
 from markermend.prediction.local_ridge.model import RidgeModel
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.marker_selection import thinned
+from markermend.prediction.marker_selection import evenly_spaced
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class LocalGaussian(LocalRidge):
 
     def _learn(self, model: RidgeModel, used: np.ndarray) -> GaussianProcess:
         columns = np.flatnonzero(np.repeat(used, 3))
-        rows = thinned(np.arange(len(model.local)), self.gaussian.points)
+        rows = evenly_spaced(np.arange(len(model.local)), self.gaussian.points)
         return train(
             model.local[np.ix_(rows, columns)],
             model.local[rows, -3:],
@@ -124,5 +124,5 @@ class LocalGaussian(LocalRidge):
 
     def _left_out(self, model: RidgeModel, used: np.ndarray, learned: GaussianProcess, block: np.ndarray) -> np.ndarray:
         columns = np.flatnonzero(np.repeat(used, 3))
-        points = thinned(np.arange(len(model.local)), self.gaussian.points)
+        points = evenly_spaced(np.arange(len(model.local)), self.gaussian.points)
         return model.local[:, -3:] - learned.left_out(model.local[:, columns], block, block[points])

@@ -10,7 +10,7 @@ import numpy as np
 from markermend.numerics.rigid_alignment import align, mean_shape, width
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import RidgeModel, robust_weights
-from markermend.prediction.marker_selection import scattered
+from markermend.prediction.marker_selection import pseudo_random_subset
 from markermend.prediction.scene import Scene
 
 SHAPE_FRAMES = 200
@@ -79,7 +79,7 @@ class RidgeChoice:
                     chosen, together, shape = [*chosen, extra], wider, grown
         inputs = self._inputs(scene, together, candidates, chosen, ever)
         key = self, marker, candidates[chosen].tobytes(), inputs.tobytes()
-        return scene.remember(key, partial(self._train, scene, marker, candidates[chosen], inputs, together, shape))
+        return scene.cached(key, partial(self._train, scene, marker, candidates[chosen], inputs, together, shape))
 
     def _shape(self, scene: Scene, marker: int, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
         """Frames that show the marker and the anchors, and the anchors' mean shape there; None for too few frames."""
@@ -88,7 +88,7 @@ class RidgeChoice:
             together = scene.present[:, marker] & scene.present[:, anchors].all(axis=1)
             return together, _shape(scene, together, anchors, self.options.minimum_frames)
 
-        return scene.remember((self, "shape", marker, anchors.tobytes()), learn)
+        return scene.cached((self, "shape", marker, anchors.tobytes()), learn)
 
     def _train(
         self,
@@ -103,7 +103,7 @@ class RidgeChoice:
         options = self.options
         joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
         # Kriging needs to know how residuals go together at every lag: evenly spaced frames would tell of a few alone.
-        training = scattered(joint, options.frames)
+        training = pseudo_random_subset(joint, options.frames)
         rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
         points = scene.positions[np.ix_(training, np.append(inputs, marker))] - origin[:, None]
         local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)

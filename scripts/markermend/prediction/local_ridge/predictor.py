@@ -34,13 +34,13 @@ class LocalRidge:
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. The error is the kriging standard deviation, from residuals that were left out in training."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
         error = np.full(stop - start + 2, np.nan)
         first = start - 1
         for model, used, rows in self._choice.models(hidden, marker, frames):
-            learned = hidden.remember((model, used.tobytes()), partial(self._learn, model, used))
+            learned = hidden.cached((model, used.tobytes()), partial(self._learn, model, used))
             inputs, rotation, origin = inputs_at(model, hidden.positions, used, rows)
             mean, spread, novelty = self._krige(hidden, marker, model, used, learned, rows, stop - start)
             local = self._respond(model, learned, inputs) + mean
@@ -114,7 +114,7 @@ class LocalRidge:
         options = self.options
         span = len(scene.positions)
         blocks = int(np.clip(span // max(length, 1), 2, 12))
-        covariance, novelty = scene.remember(
+        covariance, novelty = scene.cached(
             (model, used.tobytes(), blocks), partial(self._covariance, scene, model, used, learned, blocks)
         )
         reach = np.unique(np.round(np.geomspace(1, max(2.0, options.border_s * scene.rate), 12)).astype(int))
@@ -127,7 +127,7 @@ class LocalRidge:
             inputs, rotation, origin = inputs_at(model, scene.positions, used, nearby)
             observed = np.einsum("ni,nij->nj", scene.positions[nearby, marker] - origin, rotation)
             values = observed - self._respond(model, learned, inputs)
-        mean, variance = krige(covariance, known_s=nearby / scene.rate, values=values, wanted_s=rows / scene.rate)
+        mean, variance = krige(covariance, observed_s=nearby / scene.rate, values=values, target_s=rows / scene.rate)
         return mean, np.sqrt(variance), novelty
 
     def _learn_novelty(
@@ -161,6 +161,6 @@ class LocalRidge:
             residual,
             rate=scene.rate,
             scales_s=np.array(self.options.scales_s),
-            longest_s=self.options.longest_s,
+            max_lag_s=self.options.longest_s,
         )
         return covariance, novelty

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from markermend.numerics.low_rank import complete
+from markermend.numerics.low_rank import complete_matrix
 from markermend.options.prediction import IteratedSvdOptions
-from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Prediction, Scene
 
 
@@ -23,7 +23,7 @@ class IteratedSvd:
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Frames that show no other marker are left open."""
         options = self.options
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         positions = np.full((stop - start + 2, 3), np.nan)
         nothing = Prediction(positions, np.full(len(positions), np.nan))
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
@@ -33,13 +33,13 @@ class IteratedSvd:
         if len(asked) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.minimum_frames:
             return nothing
         centres, training = self._centres(hidden, marker, near, asked)
-        rows = np.union1d(thinned(training, options.frames), asked)
+        rows = np.union1d(evenly_spaced(training, options.frames), asked)
         values = hidden.positions[np.ix_(rows, np.append(marker, near))]
         centre = values[:, 1:][:, centres].mean(axis=1) if centres.any() else np.zeros((len(rows), 3))
         place = np.searchsorted(rows, asked)
         # The model is asked about the borders too: what it says there tells by how much it is off.
         values[place, 0] = np.nan
-        filled, _ = complete(
+        filled, _ = complete_matrix(
             (values - centre[:, None]).reshape(len(rows), -1),
             explained=options.explained,
             shrinkage=options.shrinkage,
@@ -54,7 +54,7 @@ class IteratedSvd:
         if self.options.centred:
             throughout = near[scene.present[np.ix_(asked, near)].all(axis=0)]
             never_missing = throughout[scene.present[:, throughout].all(axis=0)]
-            chosen, joint = companions(
+            chosen, joint = jointly_observed(
                 scene,
                 marker,
                 never_missing if len(never_missing) else throughout,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from markermend.numerics.low_rank import enough
-from markermend.numerics.patterns import alike
+from markermend.numerics.low_rank import components_for_share
+from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import WeightedPcaOptions
-from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Prediction, Scene
 
 STRATEGIES = ("together", "single")
@@ -28,11 +28,11 @@ class WeightedPca:
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Frames of the gap that see the same markers share a model."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
         near = np.asarray(hidden.neighbours[marker], int)
-        for used, places in alike(hidden.present[np.ix_(frames, near)], self.options.minimum_inputs):
+        for used, places in group_by_pattern(hidden.present[np.ix_(frames, near)], self.options.minimum_inputs):
             rows = frames[places]
             if used.any():
                 positions[rows - (start - 1)] = self._recover(hidden, marker, near[used], near[~used], rows)
@@ -47,13 +47,13 @@ class WeightedPca:
         ranked = inputs[np.argsort(~scene.present[:, inputs].all(axis=0), kind="stable")]
         # Together: the others that miss these frames have their columns too, where enough training frames remain.
         others = unseen if options.strategy == "together" else unseen[:0]
-        chosen, joint = companions(
+        chosen, joint = jointly_observed(
             scene, marker, np.concatenate([ranked, others]), share=options.share, minimum_frames=options.minimum_frames
         )
         inputs, gaps = chosen[np.isin(chosen, ranked)], [marker, *chosen[np.isin(chosen, others)]]
         if len(inputs) == 0:
             return np.full((len(rows), 3), np.nan)
-        training = thinned(joint, options.frames)
+        training = evenly_spaced(joint, options.frames)
         complete_ones = inputs[scene.present[:, inputs].all(axis=0)]
         centres = complete_ones if len(complete_ones) else inputs
         nearest = np.min([_distances(scene, gap, inputs, options.frames) for gap in gaps], axis=0)
@@ -73,7 +73,7 @@ class WeightedPca:
 
 def _distances(scene: Scene, marker: int, others: np.ndarray, frames: int) -> np.ndarray:
     """Mean distance (k,) of a marker to others, over at most so many frames that show it; NaN if never together."""
-    rows = thinned(np.flatnonzero(scene.present[:, marker]), frames)
+    rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
     apart = np.linalg.norm(scene.positions[np.ix_(rows, others)] - scene.positions[rows, marker][:, None], axis=2)
     count = np.count_nonzero(~np.isnan(apart), axis=0)
     return np.where(count > 0, np.nansum(apart, axis=0) / np.maximum(count, 1), np.inf)
@@ -97,7 +97,7 @@ def reconstruct(
     count, bases = 1, []
     for matrix in (full, zeroed):
         sizes, vectors = np.linalg.eigh(matrix.T @ matrix)
-        count = max(count, enough(np.sqrt(np.maximum(sizes[::-1], 0.0)), explained))
+        count = max(count, components_for_share(np.sqrt(np.maximum(sizes[::-1], 0.0)), explained))
         bases.append(vectors[:, ::-1])
     complete_basis, zeroed_basis = bases[0][:, :count], bases[1][:, :count]
     scores = given @ zeroed_basis @ (zeroed_basis.T @ complete_basis)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene
 
 
@@ -43,12 +43,12 @@ def chosen(
     that are, if those are enough. share, minimum_frames: see companions.
     """
     near = np.asarray(scene.neighbours[marker], int)
-    if scene.relatives is not None:
-        related = np.asarray(scene.relatives[marker], int)
+    if scene.segment_mates is not None:
+        related = np.asarray(scene.segment_mates[marker], int)
         near = np.concatenate([related, near[~np.isin(near, related)]])
     choices = []
     for ranked in (near, near[seen[near]]):
-        together, _ = companions(scene, marker, ranked, share=share, minimum_frames=minimum_frames)
+        together, _ = jointly_observed(scene, marker, ranked, share=share, minimum_frames=minimum_frames)
         choices.append(together[:most])
         if np.count_nonzero(seen[choices[-1]]) >= minimum:
             return choices[-1]
@@ -100,4 +100,4 @@ def stretches(seen: np.ndarray, *, longest: int, frames: int) -> list[np.ndarray
     for start, stop in runs(seen):
         pieces += np.array_split(np.arange(start, stop), -(-(stop - start) // longest))
     wanted = int(np.ceil(len(pieces) * min(1.0, frames / np.count_nonzero(seen))))
-    return [pieces[number] for number in thinned(np.arange(len(pieces)), wanted)]
+    return [pieces[number] for number in evenly_spaced(np.arange(len(pieces)), wanted)]

@@ -15,7 +15,7 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 from markermend.options.prediction import NeuralNetworkOptions
-from markermend.prediction.marker_selection import thinned
+from markermend.prediction.marker_selection import evenly_spaced
 from markermend.prediction.neural_network.inputs import Scale, chosen, completed, features, stretches
 from markermend.prediction.scene import Prediction, Scene
 
@@ -89,7 +89,7 @@ class Network:
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Inputs that are missing are told from those that are there, where enough are."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         positions = np.full((stop - start + 2, 3), np.nan)
         source = hidden.measured or hidden
         inputs = self._inputs(source, hidden, marker, start, stop)
@@ -104,7 +104,7 @@ class Network:
 
     def _learned(self, source: Scene) -> _Learned:
         """What a scene taught so far; what is added stays."""
-        return source.remember((self, "learned"), _Learned)
+        return source.cached((self, "learned"), _Learned)
 
     def _inputs(self, source: Scene, scene: Scene, marker: int, start: int, stop: int) -> np.ndarray:
         """The markers to predict a marker from during a gap (k,): see chosen."""
@@ -131,7 +131,7 @@ class Network:
 
         options = self.options
         seen = source.present[:, marker] & source.present[:, inputs].all(axis=1)
-        parts = [thinned(np.flatnonzero(seen), options.frames)]
+        parts = [evenly_spaced(np.flatnonzero(seen), options.frames)]
         if self.kind in GATES:
             longest = len(seen) if options.stretch_s is None else max(2, round(options.stretch_s * source.rate))
             parts = stretches(seen, longest=longest, frames=options.frames)
@@ -149,7 +149,7 @@ class Network:
 
         options, reach = self.options, 1 + round(self.options.context_s * scene.rate)
         first, last = max(frames[0] - reach, 0), min(frames[-1] + 1 + reach, len(scene.positions))
-        examples = thinned(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.frames)
+        examples = evenly_spaced(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.frames)
         near = completed(
             scene.positions[first:last, inputs],
             source.positions[np.ix_(examples, inputs)],

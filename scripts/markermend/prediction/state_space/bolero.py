@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from markermend.options.prediction import BoleroOptions
-from markermend.prediction.marker_selection import references
+from markermend.prediction.marker_selection import reference_markers
 from markermend.prediction.scene import Prediction, Scene
 from markermend.prediction.state_space.bone_lengths import BoneLengths, steady_bones
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics, learn
@@ -46,7 +46,7 @@ class Bolero:
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Needs no marker during the gap, but some beside it. Gaps of one window share what is learned."""
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         positions, error = np.full((stop - start + 2, 3), np.nan), np.full(stop - start + 2, np.nan)
         context = max(2, round(self.options.context_s * scene.rate))
         # Windows end at multiples of the context, so that neighbouring gaps have the same one.
@@ -56,7 +56,7 @@ class Bolero:
         if len(body) < 2:
             return Prediction(positions, error)
         key = self.name, self.options, first, last, tuple(body.tolist())
-        window = hidden.remember(key, partial(self._learn, hidden, first, last, body))
+        window = hidden.cached(key, partial(self._learn, hidden, first, last, body))
         asked = np.arange(max(start - 1, 0), min(stop + 1, len(hidden.positions)))
         mean, covariance = self._smooth(hidden, window, asked - first)
         place = asked - (start - 1)
@@ -74,7 +74,7 @@ class Bolero:
         near = near[enough[near]]
         seldom = scene.present[slice(*gap), near].mean(axis=0) < 0.5
         near = near[np.argsort(seldom, kind="stable")][: options.neighbours]
-        ranked, _ = references(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         ends = ranked[enough[ranked]][: options.bones]
         return np.concatenate([[marker], near, ends[~np.isin(ends, near)]])
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics import block_tridiagonal
-from markermend.prediction.marker_selection import references, thinned
+from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Scene
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics
 
@@ -40,9 +40,9 @@ def steady_bones(
     pairs: dict[tuple[int, int], tuple[float, float]] = {}
     place = {int(marker): number for number, marker in enumerate(body)}
     for marker in markers.tolist():
-        ranked, deviation = references(scene, marker, frames=frames, minimum_frames=minimum_frames)
+        ranked, deviation = reference_markers(scene, marker, frames=frames, minimum_frames=minimum_frames)
         inside = np.flatnonzero(np.isin(ranked, body))[:count]
-        rows = thinned(np.flatnonzero(scene.present[:, marker]), frames)
+        rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
         for other, spread in zip(ranked[inside].tolist(), deviation[inside].tolist(), strict=True):
             apart = np.linalg.norm(scene.positions[rows, other] - scene.positions[rows, marker], axis=1)
             ends = sorted((place[marker], place[other]))

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from markermend.numerics.low_rank import expected
+from markermend.numerics.low_rank import conditional_mean
 from markermend.options.prediction import KalmanSmootherOptions
-from markermend.prediction.marker_selection import companions, thinned
+from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Prediction, Scene
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics
 
@@ -53,10 +53,12 @@ class KalmanSmoother:
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """See Predictor. Needs no marker during the gap, but some beside it."""
         options = self.options
-        hidden = scene if not scene.present[start:stop, marker].any() else scene.hiding(marker, start, stop)
+        hidden = scene.without(marker, start, stop)
         positions, error = np.full((stop - start + 2, 3), np.nan), np.full(stop - start + 2, np.nan)
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
-        chosen, joint = companions(hidden, marker, near, share=options.share, minimum_frames=options.minimum_frames)
+        chosen, joint = jointly_observed(
+            hidden, marker, near, share=options.share, minimum_frames=options.minimum_frames
+        )
         context = max(2, round(options.context_s * scene.rate))
         window = np.arange(max(start - 1 - context, 0), min(stop + 1 + context, len(scene.positions)))
         body = np.array([marker, *chosen])
@@ -75,7 +77,7 @@ class KalmanSmoother:
     def _learn(self, scene: Scene, body: np.ndarray, joint: np.ndarray, lag: int) -> LinearDynamics:
         """Components of the shape, and how fast they change over the lag (frames), from frames that show the body."""
         options = self.options
-        training = thinned(joint, options.frames)
+        training = evenly_spaced(joint, options.frames)
         poses = scene.positions[np.ix_(training, body)]
         place = poses.mean(axis=1)
         shapes = (poses - place[:, None]).reshape(len(poses), -1)
@@ -148,7 +150,7 @@ def _left_out(poses: np.ndarray, stretches: np.ndarray, *, rank: int, folds: int
         if left.any() and np.count_nonzero(~left) > rank:
             holed = shapes[left].copy()
             holed[:, :3] = np.nan
-            square.append((expected(shapes[~left], holed, rank)[:, :3] - shapes[left, :3]) ** 2)
+            square.append((conditional_mean(shapes[~left], holed, rank)[:, :3] - shapes[left, :3]) ** 2)
     return float(np.concatenate(square).mean()) if square else 0.0
 
 

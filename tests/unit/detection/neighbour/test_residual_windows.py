@@ -26,7 +26,7 @@ def rough(frames, seed):
 
 def independent(size, order):
     """The regularity of independent noise on a polynomial of an order."""
-    return window_covariance.Regularity(np.eye(size), order)
+    return window_covariance.WindowCovariance(np.eye(size), order)
 
 
 @pytest.mark.parametrize("place", [0, 3, 6, 12])
@@ -46,8 +46,8 @@ def test_without_regularity_excursions_are_off_a_fitted_polynomial(place):
 def test_a_wave_and_a_jump_have_the_size_that_they_were_given():
     size, at = 16, np.arange(16)
     course = 0.1 * at**2 - at + 3.0
-    usual = window_covariance.learn(
-        rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, at_most=5000
+    usual = window_covariance.fit_window_covariance(
+        rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, max_windows=5000
     )
     wave = np.sin(np.pi * (np.arange(5) + 0.5) / 5)
     for place in (0, 6, 11):

@@ -102,7 +102,7 @@ def gait(seconds=30.0, rate=100.0):
 def test_a_hill_is_found_where_the_pose_comes_again_without_it(name):
     positions, others = gait(), [np.delete(np.arange(5), m) for m in range(5)]
     positions[1000:1100, 2, 0] += triangle(100, 30)
-    scene, own = Scene(positions, 100.0, others, relatives=others), replace(PAPER, predictor=name)
+    scene, own = Scene(positions, 100.0, others, segment_mates=others), replace(PAPER, predictor=name)
     source = Only(slow.predictor(own, CONFIG), 2)
     nothing = np.zeros(positions.shape, bool)
     found = slow.detect(scene, markers=list("ABCDE"), earlier=nothing, settings=own, predictor=source)
@@ -119,7 +119,7 @@ def test_a_loose_predictor_follows_a_hill_in_a_pose_that_comes_once():
     )
     recording = put(person.recording, [("C7", 1000, 1100)], lambda length: triangle(length)[:, None] * [1, 0, 0])
     near, marker = neighbours(recording.positions), recording.markers.index("C7")
-    scene = Scene(recording.positions, recording.rate, near, relatives=[own[:4] for own in near])
+    scene = Scene(recording.positions, recording.rate, near, segment_mates=[own[:4] for own in near])
     height = {}
     for name in ("replicated_network", "local_ridge"):
         source = slow.predictor(replace(PAPER, predictor=name), CONFIG)

@@ -23,9 +23,9 @@ def limb(frames=1500, markers=6, rate=100.0, seed=0):
     return own
 
 
-def scene(positions, relatives=None, rate=100.0):
+def scene(positions, segment_mates=None, rate=100.0):
     others = [np.delete(np.arange(positions.shape[1]), m) for m in range(positions.shape[1])]
-    return Scene(positions, rate, others, relatives=relatives)
+    return Scene(positions, rate, others, segment_mates=segment_mates)
 
 
 def quick(name, **changed):
@@ -51,11 +51,11 @@ def test_a_straight_line_does_not_learn_it():
 @pytest.mark.parametrize("name", BOTH)
 def test_siblings_and_parent_are_the_inputs_and_nearest_stand_in_for_them(name):
     positions = limb()
-    named = scene(positions, relatives=[np.array([4, 2])] * 6)
+    named = scene(positions, segment_mates=[np.array([4, 2])] * 6)
     assert quick(name)._usual(named, 0).tolist() == [2, 4]
     assert quick(name, nearest=3)._usual(scene(positions), 0).tolist() == [1, 2, 3]
     positions[200:, 4] = np.nan
-    assert quick(name)._usual(scene(positions, relatives=[np.array([4, 2])] * 6), 0).tolist() == [1, 2]
+    assert quick(name)._usual(scene(positions, segment_mates=[np.array([4, 2])] * 6), 0).tolist() == [1, 2]
 
 
 def test_rows_hold_now_and_before_and_what_was_not_seen_before_is_as_now():
@@ -124,8 +124,8 @@ def test_measured_samples_are_learned_from_where_there_are_enough(name):
     gapped[100:300, 1] = np.nan
     filled[100:300, 1] += 500.0
     others = [np.arange(2, 6)] * 6
-    measured = Scene(gapped, 100.0, others, relatives=others)
-    both = Scene(filled, 100.0, others, measured=measured, relatives=others)
+    measured = Scene(gapped, 100.0, others, segment_mates=others)
+    both = Scene(filled, 100.0, others, measured=measured, segment_mates=others)
     method = quick(name)
     assert np.allclose(method._task(both, 1, np.array([2, 3])).target, positions[np.r_[0:100, 300:600], 1])
     assert np.isfinite(method.predict(both, 1, 150, 160).positions).all()

@@ -195,7 +195,7 @@ def test_recurrent_networks_look_beyond_the_gap(person):
             moved = seen.positions.copy()
             moved[frames] += 300.0
             other = Scene(moved, 100.0, seen.neighbours)
-            other.remember((one, "learned"), partial(one._learned, seen))
+            other.cached((one, "learned"), partial(one._learned, seen))
             again = one.predict(other, 3, 100, 140).positions
             assert np.array_equal(usual, again) != bool(matters)
 
@@ -256,7 +256,7 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
 
 def test_siblings_and_parent_marker_are_the_first_inputs(person):
     seen = hidden(person, (3, 100, 140))
-    related = replace(seen, relatives=[np.array([11, 9]) for _ in range(12)])
+    related = replace(seen, segment_mates=[np.array([11, 9]) for _ in range(12)])
     limits = {"most": 4, "minimum": 3, "share": 0.6, "minimum_frames": 60}
     there = np.ones(12, bool)
     near = neighbours(person)[3]
