@@ -8,16 +8,31 @@ import numpy as np
 
 from markermend.formats.c3d.data_layout import Layout
 from markermend.formats.c3d.encoding import Coding
+from markermend.formats.units import LARGEST
 
-LARGEST = 32767
+LARGEST_INTEGER = 32767
 """The largest integer of a coordinate in an integer file."""
-
-FARTHEST = 1e7
-"""No laboratory has coordinates so large in mm or m: programs store them (-1e9) for what they did not see."""
 
 
 def map_points(path: Path, layout: Layout, coding: Coding, *, writable: bool = False) -> np.ndarray:
-    """The stored numbers of the points as an array (frames, points, 4) over the file itself."""
+    """Map the stored numbers of the points into memory.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    layout : Layout
+        Where its data lie.
+    coding : Coding
+        How its numbers are stored.
+    writable : bool
+        Whether what is assigned to the array goes into the file.
+
+    Returns
+    -------
+    ndarray, shape (frames, points, 4)
+        A view of the file itself, of the coding's float or integer type.
+    """
     data = np.memmap(path, np.uint8, "r+" if writable else "r")
     stored = coding.float_type if layout.real else coding.integer_type
     width = stored.itemsize
@@ -26,17 +41,47 @@ def map_points(path: Path, layout: Layout, coding: Coding, *, writable: bool = F
 
 
 def decode(stored: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarray, np.ndarray]:
-    """Stored numbers (frames, points, 4) as coordinates (frames, points, 3) in the file's unit, and word 4 as stored."""
+    """Decode stored points.
+
+    Parameters
+    ----------
+    stored : ndarray, shape (frames, points, 4)
+        As map_points gives them.
+    layout : Layout
+        Where the data lie, and their scale.
+    coding : Coding
+        How the numbers are stored.
+
+    Returns
+    -------
+    coordinates : ndarray of float, shape (frames, points, 3)
+        In the file's unit, whatever word 4 says.
+    word4 : ndarray of float, shape (frames, points)
+        The fourth number as stored.
+    """
     if layout.real:
         return coding.decode_floats(stored[..., :3]), coding.decode_floats(stored[..., 3])
     return stored[..., :3] * layout.scale, stored[..., 3].astype(np.float64)
 
 
 def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Word 4 of points as residual, in the file's unit, and camera mask (7 bits).
+    """Take word 4 of points apart into residual and camera mask.
 
-    Word 4 is a signed 16-bit integer, in float files the float of one, signed or unsigned: negative means missing, and
-    gives residual -1 and no camera. A word 4 that is not finite has residual NaN.
+    Word 4 is a signed 16-bit integer, in float files the float of one, signed or unsigned; negative means missing.
+
+    Parameters
+    ----------
+    word4 : ndarray of float
+        As decoded, of any shape.
+    scale : float
+        POINT:SCALE without its sign.
+
+    Returns
+    -------
+    residual : ndarray of float
+        In the file's unit; -1 where the sample is missing, NaN where word 4 is not finite.
+    cameras : ndarray of uint8
+        One bit for each of seven cameras; 0 where the sample is missing.
     """
     finite = np.isfinite(word4)
     whole = np.where(finite, np.clip(word4, -1.0, 65535.0), 0.0).astype(np.int64)
@@ -46,31 +91,60 @@ def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarra
 
 
 def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str, np.ndarray], bool]:
-    """Why samples are missing, as one mask (frames, points) per clause, disjoint, and whether word 4 was believed.
+    """Decide which samples are missing, and by which clause of the rule.
 
-    positions, word4: as decoded. A sample counts for the first clause that catches it: `residual` (word 4 is negative),
-    `zero` (exactly 0, 0, 0), `not finite`, `out of range`. Where word 4 calls every real sample missing, it is not
-    believed.
+    A sample counts for the first clause that holds: `residual` (word 4 is negative), `zero` (exactly 0, 0, 0),
+    `not finite`, `out of range`. Word 4 is disregarded where it calls every real sample missing.
+
+    Parameters
+    ----------
+    positions : ndarray of float, shape (frames, points, 3)
+        In the file's unit, as decoded.
+    word4 : ndarray of float, shape (frames, points)
+        As decoded.
+
+    Returns
+    -------
+    clauses : dict of str to ndarray of bool, shape (frames, points)
+        Disjoint masks of missing samples, by clause.
+    credible : bool
+        False where word 4 was disregarded.
     """
     residual, _ = decode_word4(word4, 1.0)
     negative = residual < 0
     zero = (positions == 0).all(axis=2)
     unusable = ~(np.isfinite(positions).all(axis=2) & np.isfinite(word4))
-    far = (np.abs(positions) >= FARTHEST).any(axis=2)
+    far = (np.abs(positions) >= LARGEST).any(axis=2)
     real = ~(zero | unusable | far)
-    believed = not (real.any() and bool(np.all(negative | ~real)))
-    negative &= believed
+    credible = not (real.any() and bool(np.all(negative | ~real)))
+    negative &= credible
     zero &= ~negative
     unusable &= ~negative
     far &= ~negative & ~unusable
-    return {"residual": negative, "zero": zero, "not finite": unusable, "out of range": far}, believed
+    return {"residual": negative, "zero": zero, "not finite": unusable, "out of range": far}, credible
 
 
 def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarray, np.ndarray]:
-    """Samples (n, 3) in the file's unit, NaN = missing, as stored numbers (n, 4), and which of them cannot be stored.
+    """Encode samples for storage.
 
-    A position gets word 4 = 0 (residual 0, no camera: not measured), a missing one zeros and -1. What exceeds the
-    number format, or would become 0, 0, 0 and so read as missing, cannot be stored.
+    A position gets word 4 = 0 (residual 0, no camera: not measured), a missing one zeros and -1.
+
+    Parameters
+    ----------
+    values : ndarray of float, shape (n, 3)
+        Samples in the file's unit; NaN = missing.
+    layout : Layout
+        Where the data lie, and their scale.
+    coding : Coding
+        How numbers are stored.
+
+    Returns
+    -------
+    stored : ndarray, shape (n, 4)
+        Of the type that map_points gives.
+    refused : ndarray of bool, shape (n,)
+        Samples that cannot be stored: they exceed the number format or would be read back as missing, being too large
+        for a position or rounded to 0, 0, 0.
     """
     missing = np.isnan(values).any(axis=1)
     positions = np.where(missing[:, None], 0.0, values)
@@ -81,8 +155,9 @@ def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarr
         vanished = (coding.decode_floats(stored[:, :3]) == 0).all(axis=1)
     else:
         steps = np.rint(positions / layout.scale)
-        readable = np.asarray((np.abs(steps) <= LARGEST).all(axis=1))
+        readable = np.asarray((np.abs(steps) <= LARGEST_INTEGER).all(axis=1))
         vanished = (steps == 0).all(axis=1)
-        held = np.where(readable[:, None], steps, 0.0)
-        stored = np.column_stack((held, word4)).astype(coding.integer_type)
-    return stored, ~readable | (vanished & ~missing)
+        storable = np.where(readable[:, None], steps, 0.0)
+        stored = np.column_stack((storable, word4)).astype(coding.integer_type)
+    far = (np.abs(positions) >= LARGEST).any(axis=1)
+    return stored, ~readable | far | (vanished & ~missing)

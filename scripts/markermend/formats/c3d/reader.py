@@ -9,27 +9,40 @@ from pathlib import Path
 import numpy as np
 
 from markermend.core.recording import BadRecording, Recording
+from markermend.formats import units
 from markermend.formats.c3d import points as c3d_points
 from markermend.formats.c3d.data_layout import Layout, locate
 from markermend.formats.c3d.parameters import Section, read_section
 from markermend.formats.labels import is_unlabelled, tidy_labels
 from markermend.formats.reading import PatchResult, Reading
 
-MILLIMETRES = {"mm": 1.0, "m": 1000.0, "cm": 10.0, "dm": 100.0, "in": 25.4, "inch": 25.4, "ft": 304.8}
-"""Length of a unit in mm, by its name in small letters."""
-
 MODEL_GROUPS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 """Parameters of POINT that list the labels of model outputs, whether TYPE_GROUPS names them or not."""
 
-LARGEST_IN_METRES = 20.0
-"""Coordinates that stay below this are metres: a capture volume in mm exceeds it, one in m does not."""
+NOT_MODELS = ("LABELS", "UNITS", "DESCRIPTIONS", "POINTS", "MARKERS")
+"""Parameters of POINT that list no model outputs, even where TYPE_GROUPS names them."""
 
 
 def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
-    """Read the labelled markers of a C3D file, in mm, with the samples that the missing-sample rule catches as NaN.
+    """Read the labelled markers of a C3D file.
 
-    unlabelled: regular expressions for the names of trajectories that nobody labelled. The rate is NaN where the file
-    has none. Raises BadRecording where the file is not a C3D file, or holds no points.
+    Parameters
+    ----------
+    path : Path
+        The file.
+    unlabelled : sequence of str
+        Regular expressions for the names that capture programs give to unlabelled trajectories (see labels.py).
+
+    Returns
+    -------
+    Reading
+        Positions in mm; NaN where the missing-sample rule (points.missing_clauses) holds. The rate is NaN where the
+        file states none.
+
+    Raises
+    ------
+    BadRecording
+        If the file is not a C3D file, holds no points, or has a unit that is not one of length.
     """
     section, layout = _open(path)
     names, warnings = _names(section, layout)
@@ -55,11 +68,31 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
 def patch(
     original: Path, target: Path, *, positions: np.ndarray, changed: np.ndarray, columns: Sequence[int]
 ) -> PatchResult:
-    """Copy the original to `target` and overwrite the changed samples in its data block, and nothing else.
+    """Copy a C3D file and overwrite the changed samples in its data block, and nothing else.
 
-    positions: (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers). columns: the markers' places in
-    the file, as read. A sample is written with word 4 = 0 (not measured), or as zeros and -1 where missing; in integer
-    files it is rounded to the scale. What the number format cannot hold is left as in the original, and reported.
+    A sample is written with word 4 = 0 (not measured), or as zeros and -1 where it is missing; integer files round it
+    to their scale. What the number format cannot hold stays as in the original.
+
+    Parameters
+    ----------
+    original, target : Path
+        The file, and where its copy goes.
+    positions : ndarray of float, shape (frames, markers, 3)
+        In mm; NaN = missing.
+    changed : ndarray of bool, shape (frames, markers)
+        The samples to write.
+    columns : sequence of int
+        Index of each marker among the file's points, as read.
+
+    Returns
+    -------
+    PatchResult
+        How many samples were written, and which were refused.
+
+    Raises
+    ------
+    ValueError
+        If the shape of the positions does not fit the file.
     """
     section, layout = _open(original)
     if positions.shape != (layout.frames, len(columns), 3):
@@ -69,12 +102,12 @@ def patch(
     frame, marker = np.nonzero(changed)
     stored, refused = c3d_points.encode(positions[frame, marker] / factors[marker, None], layout, section.coding)
     column = np.asarray(columns, int)[marker]
-    kept = ~refused
-    if kept.any():
+    written = ~refused
+    if written.any():
         points = c3d_points.map_points(target, layout, section.coding, writable=True)
-        points[frame[kept], column[kept]] = stored[kept]
+        points[frame[written], column[written]] = stored[written]
     left = zip(frame[refused].tolist(), column[refused].tolist(), strict=True)
-    return PatchResult(int(kept.sum()), tuple(left))
+    return PatchResult(int(written.sum()), tuple(left))
 
 
 def _open(path: Path) -> tuple[Section, Layout]:
@@ -89,11 +122,11 @@ def _positions(
     """Positions (frames, columns, 3) in the file's unit, NaN where missing; missing samples per clause; warnings."""
     stored = c3d_points.map_points(path, layout, section.coding)
     positions, word4 = c3d_points.decode(stored[:, np.asarray(columns, int)], layout, section.coding)
-    missing, believed = c3d_points.missing_clauses(positions, word4)
+    missing, credible = c3d_points.missing_clauses(positions, word4)
     for caught in missing.values():
         positions[caught] = np.nan
     counts = {clause: int(caught.sum()) for clause, caught in missing.items()}
-    warnings = [] if believed else ["Every residual is -1 although the positions are real; the positions are kept."]
+    warnings = [] if credible else ["Every residual is -1 although the positions are real; the positions are kept."]
     return positions, counts, warnings
 
 
@@ -119,34 +152,31 @@ def _model_outputs(section: Section, names: Sequence[str]) -> set[str]:
     listed: set[str] = set()
     for group in {*section.texts("POINT", "TYPE_GROUPS"), *MODEL_GROUPS}:
         group = group.strip().upper()
-        if group not in ("LABELS", "UNITS", "DESCRIPTIONS", "POINTS", "MARKERS"):
+        if group not in NOT_MODELS:
             listed.update(" ".join(label.split()) for label in section.texts("POINT", group))
-    units = [unit.strip().lower() for unit in section.texts("POINT", "UNITS")]
-    if len(units) >= len(names):
-        listed.update(name for name, unit in zip(names, units, strict=False) if unit and unit not in MILLIMETRES)
+    declared = section.texts("POINT", "UNITS")
+    if len(declared) >= len(names):
+        pairs = zip(names, declared, strict=False)
+        listed.update(name for name, unit in pairs if unit.strip() and units.unit_of(unit) is None)
     return listed & set(names)
 
 
 def _units(section: Section, columns: Sequence[int], positions: np.ndarray) -> tuple[str, np.ndarray, list[str]]:
     """The unit of the markers, mm per unit for each, and warnings.
 
-    A blank unit is mm, unless the coordinates are so small that they are metres; a declared one is believed.
+    A blank unit is mm, unless the coordinates are so small that they are metres; a declared one holds.
     positions: (frames, markers, 3) in the file's unit, NaN = missing.
     """
     declared = [unit.strip().lower() for unit in section.texts("POINT", "UNITS")]
-    used = [declared[c] if len(declared) > max(c, 1) else (declared or [""])[0] for c in columns]
-    unknown = sorted({unit for unit in used if unit and unit not in MILLIMETRES})
+    named = [declared[c] if len(declared) > max(c, 1) else (declared or [""])[0] for c in columns]
+    unknown = sorted({name for name in named if name and units.unit_of(name) is None})
     if unknown:
         raise BadRecording(f"POINT:UNITS is {', '.join(unknown)}, not a unit of length: correct it in the original")
-    sizes = np.abs(positions[:: max(1, len(positions) // 1000)])
-    sizes = sizes[np.isfinite(sizes)]
-    small = sizes.size > 0 and float(np.percentile(sizes, 95)) < LARGEST_IN_METRES
+    small = units.are_likely_metres(positions)
+    used = [units.unit_of(name) or ("m" if small else "mm") for name in named]
     warnings = []
-    if "" in used:
-        assumed = "m" if small else "mm"
-        used = [unit or assumed for unit in used]
+    if "" in named:
         warnings.append(f"POINT:UNITS is blank; {'the coordinates are so small that m' if small else 'mm'} is assumed.")
     elif small and "mm" in used:
         warnings.append("POINT:UNITS is mm, but the coordinates are so small that they may be metres.")
-    factors = np.array([MILLIMETRES[unit] for unit in used])
-    return ", ".join(dict.fromkeys(used)), factors, warnings
+    return ", ".join(dict.fromkeys(used)), np.array([units.MILLIMETRES[unit] for unit in used]), warnings

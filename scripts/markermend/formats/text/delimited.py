@@ -6,16 +6,19 @@ import re
 from collections.abc import Sequence
 
 from markermend.core.recording import BadRecording
+from markermend.formats.text.axes_header import below_axes, find_axes
+from markermend.formats.text.header_values import unit_named
 from markermend.formats.text.lines import Sheet, likeliest_delimiter
-from markermend.formats.text.nexus import below_axes, find_axes
-from markermend.formats.text.table_layout import Layout, frame_rows, plain_rows, unit_named, writes_decimal_comma
+from markermend.formats.text.table_layout import Layout
+from markermend.formats.text.table_rows import frame_rows, plain_rows, writes_decimal_comma
 
 HEADER_LINES = 12
-"""How far from the top the line that names the columns is looked for."""
+"""How many lines from the top the line that names the columns is looked for."""
 
 LONGEST_TITLE = 300
 """Characters; a longer cell is no column's name."""
 
+# Without brackets only metric units: "x_toe_in" is the x of a marker "toe_in".
 _UNIT = r"(?:\s*[(\[](?P<unit>[a-zA-Z]+)[)\]]|_(?P<suffix>mm|cm|m))?"
 _AXIS_LAST = re.compile(rf"(?P<name>.*?[^\s_.:/|-])[\s_.:/|-]+(?P<axis>[xyzXYZ]){_UNIT}")
 _AXIS_FIRST = re.compile(rf"(?P<axis>[xyzXYZ])[\s_.:/|-]+(?P<name>.+?){_UNIT}")
@@ -28,7 +31,22 @@ _TIME = re.compile(
 def describe(sheet: Sheet) -> Layout:
     """Find the trajectories of a CSV by its column names, in one line or in two (names above X, Y, Z).
 
-    The rate comes from a time column or the recordings table. Raises BadRecording where no trajectory is named.
+    The rate comes from a time column or from the recordings table.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+
+    Returns
+    -------
+    Layout
+        Where the trajectories stand.
+
+    Raises
+    ------
+    BadRecording
+        If no line names columns by marker and axis, or the units of the trajectories differ.
     """
     for line in [line for line in sheet.filled(0, b"\t") if line < HEADER_LINES]:
         delimiter = likeliest_delimiter([sheet.lines[line]])
@@ -45,7 +63,7 @@ def describe(sheet: Sheet) -> Layout:
 
 
 def _trajectories(titles: Sequence[str]) -> dict[tuple[str, int], dict[str, tuple[int, str]]]:
-    """Column and unit of each axis by marker; the second bearer of a name is a trajectory of its own."""
+    """Column and unit of each axis by marker; the second trajectory of the same name is one of its own."""
     short = {i: title for i, title in enumerate(titles) if len(title) <= LONGEST_TITLE}
     matches = {i: _AXIS_LAST.fullmatch(title) or _AXIS_FIRST.fullmatch(title) for i, title in short.items()}
     axes: dict[tuple[str, int], dict[str, tuple[int, str]]] = {}
@@ -53,8 +71,8 @@ def _trajectories(titles: Sequence[str]) -> dict[tuple[str, int], dict[str, tupl
     for column, match in matches.items():
         if match:
             title = (match["name"].strip(), match["axis"].lower())
-            bearer = seen[title] = seen.get(title, -1) + 1
-            axes.setdefault((title[0], bearer), {})[title[1]] = (column, match["unit"] or match["suffix"] or "")
+            repetition = seen[title] = seen.get(title, -1) + 1
+            axes.setdefault((title[0], repetition), {})[title[1]] = (column, match["unit"] or match["suffix"] or "")
     return axes if any(len(found) == 3 for found in axes.values()) else {}
 
 
@@ -66,8 +84,8 @@ def _layout(
     found: dict[tuple[str, int], dict[str, tuple[int, str]]],
 ) -> Layout:
     """The layout of a table below one line of titles."""
-    whole = {key: axes for key, axes in found.items() if len(axes) == 3}
-    units = {unit_named(sheet, unit) for axes in whole.values() for _, unit in axes.values() if unit}
+    complete = {key: axes for key, axes in found.items() if len(axes) == 3}
+    units = {unit_named(sheet, unit) for axes in complete.values() for _, unit in axes.values() if unit}
     if len(units) > 1:
         raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(units))})")
     frame = next((i for i, title in enumerate(titles) if _FRAME.fullmatch(title) or (i == 0 and not title)), None)
@@ -88,8 +106,8 @@ def _layout(
         format="csv",
         delimiter=delimiter,
         rows=rows,
-        names=tuple(name for name, _ in whole),
-        columns=tuple((axes["x"][0], axes["y"][0], axes["z"][0]) for axes in whole.values()),
+        names=tuple(name for name, _ in complete),
+        columns=tuple((axes["x"][0], axes["y"][0], axes["z"][0]) for axes in complete.values()),
         unit=units.pop() if units else None,
         rate=None,
         frame=frame,

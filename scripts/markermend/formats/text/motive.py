@@ -1,4 +1,4 @@
-"""Where the trajectories stand in a Motive (OptiTrack) CSV: columns of type `Marker`, beside solved bodies and bones.
+"""Where the trajectories stand in a Motive (OptiTrack) CSV: columns of type `Marker`, among solved bodies and bones.
 
 Positions that Motive solves from a rigid body or a skeleton are not measured; they are left alone as model outputs.
 """
@@ -6,26 +6,36 @@ Positions that Motive solves from a rigid body or a skeleton are not measured; t
 from __future__ import annotations
 
 from markermend.core.recording import BadRecording
+from markermend.formats.text.axes_header import consecutive, triples
+from markermend.formats.text.header_values import count_named, rate_named, unit_named
 from markermend.formats.text.lines import Sheet, likeliest_delimiter
-from markermend.formats.text.table_layout import (
-    Layout,
-    consecutive,
-    count_named,
-    frame_rows,
-    rate_named,
-    triples,
-    unit_named,
-    writes_decimal_comma,
-)
+from markermend.formats.text.table_layout import Layout
+from markermend.formats.text.table_rows import frame_rows, writes_decimal_comma
 
 HEADER_LINES = 15
-"""How far from the top the line `Frame, Time, X, Y, Z` is looked for."""
+"""How many lines from the top the line `Frame, Time, X, Y, Z` is looked for."""
+
+UNLABELLED = ("unlabeled", "unlabelled")
+"""What Motive writes before the colon and the number of an unlabelled trajectory."""
 
 
 def describe(sheet: Sheet) -> Layout:
     """Find the measured markers of a Motive CSV.
 
-    Raises BadRecording where the header is cut off or no column holds a measured marker.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+
+    Returns
+    -------
+    Layout
+        Where the trajectories stand.
+
+    Raises
+    ------
+    BadRecording
+        If the header is cut off, or no column holds a measured marker.
     """
     delimiter = likeliest_delimiter(sheet.lines[:1])
     cells = sheet.texts(0, delimiter)
@@ -57,14 +67,10 @@ def describe(sheet: Sheet) -> Layout:
         unit=unit_named(sheet, header["Length Units"]) if header.get("Length Units") else None,
         rate=rate_named(header.get("Export Frame Rate", header.get("Capture Frame Rate", ""))),
         time=1 if axes[1].lower().startswith("time") else None,
-        left=frozenset(k for k, i in enumerate(starts) if names[i].rpartition(":")[0].lower() in UNLABELLED),
+        unlabelled=frozenset(k for k, i in enumerate(starts) if names[i].rpartition(":")[0].lower() in UNLABELLED),
         model_outputs=tuple(solved),
         frames=count_named(header.get("Total Exported Frames", "")),
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
         own_missing=True,
         warnings=tuple(warnings),
     )
-
-
-UNLABELLED = ("unlabeled", "unlabelled")
-"""What Motive puts before the colon and the number of a trajectory that nobody labelled."""

@@ -9,7 +9,8 @@ import numpy as np
 
 from markermend.formats.text.cells import BLOCK, READ, parse
 from markermend.formats.text.lines import BLANKS, Sheet, split
-from markermend.formats.text.table_layout import MILLIMETRES, Layout
+from markermend.formats.text.table_layout import Layout
+from markermend.formats.units import MILLIMETRES
 
 MOST_DECIMALS = 15
 """More digits than this hold nothing."""

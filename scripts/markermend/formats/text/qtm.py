@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from markermend.core.recording import BadRecording
+from markermend.formats.text.axes_header import consecutive
+from markermend.formats.text.header_values import count_named, rate_named
 from markermend.formats.text.lines import Sheet, is_number
-from markermend.formats.text.table_layout import (
-    SAMPLE_LINES,
-    Layout,
-    consecutive,
-    count_named,
-    frame_rows,
-    plain_rows,
-    rate_named,
-    writes_decimal_comma,
-)
+from markermend.formats.text.table_layout import Layout
+from markermend.formats.text.table_rows import SAMPLE_LINES, frame_rows, plain_rows, writes_decimal_comma
 
 DELIMITER = b"\t"
 
@@ -23,7 +17,20 @@ DELIMITER = b"\t"
 def describe(sheet: Sheet) -> Layout:
     """Find the trajectories of a QTM TSV, with or without a line of column titles, a frame and a time column.
 
-    Raises BadRecording for files of other data than 3-D trajectories, or whose header is cut off.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+
+    Returns
+    -------
+    Layout
+        Where the trajectories stand.
+
+    Raises
+    ------
+    BadRecording
+        If the file holds other data than 3-D trajectories, or its header is cut off.
     """
     header, after = _header(sheet)
     included = header.get("DATA_INCLUDED", ["3D"])[0]
@@ -39,7 +46,7 @@ def describe(sheet: Sheet) -> Layout:
     leading = [title for title in titles[:2] if title in ("frame", "time")] if titled else _leading(sheet, start, names)
     warnings = []
     if promised is not None and promised != len(names):
-        warnings.append(f"The header says {promised} markers and names {len(names)}: the names are taken.")
+        warnings.append(f"The header says {promised} markers and names {len(names)}: the names are used.")
     if leading:
         rows, more = frame_rows(sheet, start, DELIMITER, section=False)
         warnings += more
@@ -76,7 +83,7 @@ def _header(sheet: Sheet) -> tuple[dict[str, list[str]], int]:
 def _leading(sheet: Sheet, start: int, names: Sequence[str]) -> list[str]:
     """The columns before the trajectories in a table without titles: a frame and a time column, or nothing.
 
-    They are there if the rows have two cells more than the trajectories need and the first cells count up by one.
+    They are present if the rows have two cells more than the trajectories need and the first cells count up by one.
     """
     rows = [sheet.texts(line, DELIMITER) for line in plain_rows(sheet, start, DELIMITER)[:SAMPLE_LINES]]
     wide = bool(rows) and all(len(row) >= 3 * len(names) + 2 and is_number(row[0]) for row in rows)

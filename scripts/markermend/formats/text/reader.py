@@ -1,6 +1,6 @@
 """Text files of capture programs, read and patched: TRC, Vicon Nexus CSV, Motive CSV, QTM TSV, plain CSV.
 
-The formats differ only in their layout, which formats/{trc,nexus,motive,qtm,plain}.py describe. Patching replaces the
+The formats differ only in their layout, which trc, nexus, motive, qtm and delimited describe. Patching replaces the
 cells of changed samples and leaves every other byte of the file as it was.
 """
 
@@ -12,12 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from markermend.core.recording import BadRecording, Recording
+from markermend.formats import units
 from markermend.formats.labels import is_unlabelled, tidy_labels
 from markermend.formats.reading import PatchResult, Reading
 from markermend.formats.text import cells, delimited, motive, nexus, patching, qtm, trc
 from markermend.formats.text import lines as text_lines
 from markermend.formats.text.lines import Sheet
-from markermend.formats.text.table_layout import MILLIMETRES, Layout
+from markermend.formats.text.table_layout import Layout
 from markermend.formats.text.timing import clock
 from markermend.storage.atomic import replacing
 
@@ -28,20 +29,25 @@ FORMATS: dict[str, Callable[[Sheet], Layout]] = {
     "qtm": qtm.describe,
     "csv": delimited.describe,
 }
-"""What finds the trajectories of each format."""
+"""The function that describes the layout of each format."""
 
 CLAUSES = {cells.NOT_A_NUMBER: "not a number", cells.NOT_FINITE: "not finite", cells.BLANK: "blank"}
-"""What a sample with such a cell is missing for; the first that holds counts."""
-
-FARTHEST = 1e9
-"""mm. What lies beyond is no position on Earth; it is missing."""
-
-METRES_BELOW = 10.0
-"""Positions in a file that names no unit are taken for metres if 95 % of the numbers are smaller than this."""
+"""Why a sample with such a cell is missing; the first reason that holds counts."""
 
 
 def format_of(content: Sheet) -> str:
-    """The format of a text file: trc, nexus, motive, qtm, or csv for anything else."""
+    """Recognise the format of a text file.
+
+    Parameters
+    ----------
+    content : Sheet
+        The file.
+
+    Returns
+    -------
+    str
+        trc, nexus, motive, qtm, or csv for anything else.
+    """
     top = content.lines[:8]
     if top[0].lstrip(b'"').startswith(b"Format Version"):
         return "motive"
@@ -57,32 +63,57 @@ def format_of(content: Sheet) -> str:
 def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Reading:
     """Read the labelled markers of a text file of any of the formats.
 
-    unlabelled: patterns of names of trajectories that nobody labelled (formats/labels.py). rate: Hz, as the recordings
-    table says; it goes before what the file says. A sample is missing if a cell is blank or holds no finite number, or
-    if it is exactly 0, 0, 0. Rows and labels count where the header says otherwise. Raises BadRecording.
+    A sample is missing if one of its cells is blank or holds no finite number, if it is exactly 0, 0, 0, or if a
+    coordinate is too large for a position. Where the header disagrees with rows or labels, these are used.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    unlabelled : sequence of str
+        Regular expressions for the names that capture programs give to unlabelled trajectories (see labels.py).
+    rate : float or None
+        Frame rate in Hz, used in place of the file's; None = the file's.
+
+    Returns
+    -------
+    Reading
+        Positions in mm; NaN where a sample is missing.
+
+    Raises
+    ------
+    BadRecording
+        If the file has no frames, no labelled markers, no sample or no usable rate, or its layout is not understood.
     """
     content = text_lines.load(path)
     layout = FORMATS[format_of(content)](content)
     if not layout.rows:
         raise BadRecording(f"{path.name} has no frames: export the recording again")
     names, warnings = tidy_labels(layout.names)
-    alone = [i in layout.left or is_unlabelled(name, unlabelled) for i, name in enumerate(names)]
-    labelled = [i for i, left in enumerate(alone) if not left]
+    nameless = [i in layout.unlabelled or is_unlabelled(name, unlabelled) for i, name in enumerate(names)]
+    labelled = [i for i, skipped in enumerate(nameless) if not skipped]
     if not labelled:
         raise BadRecording(f"{path.name} has no labelled marker: label the markers and export it again")
-    numbers, why, short = cells.parse(content, layout, _cells(layout, labelled))
-    unit = layout.unit or _likely_unit(numbers)
+    numbers, why, short = cells.parse(content, layout, layout.cells_of(labelled))
+    small = units.are_likely_metres(numbers)
+    unit = layout.unit or ("m" if small else "mm")
     positions, missing = _positions(numbers, why, unit)
     if not np.isfinite(positions).any():
         raise BadRecording(f"{path.name} has no 3-D data: every sample of every marker is missing")
     timing = clock(content, layout, rate)
-    warnings = [*layout.warnings, *warnings, *_warnings(layout, missing, short, unit), *timing.warnings]
+    warnings = [
+        *layout.warnings,
+        *warnings,
+        *_unit_warnings(layout.unit, small),
+        *_row_warnings(layout, missing, short),
+        *timing.warnings,
+    ]
     return Reading(
         recording=Recording(tuple(names[i] for i in labelled), positions, timing.rate, timing.first_frame),
         format=layout.format,
         unit=unit,
         columns=tuple(labelled),
-        unlabelled=tuple(name for name, left in zip(names, alone, strict=True) if left),
+        unlabelled=tuple(name for name, skipped in zip(names, nameless, strict=True) if skipped),
         model_outputs=layout.model_outputs,
         missing=missing,
         warnings=tuple(warnings),
@@ -94,26 +125,48 @@ def patch(
 ) -> PatchResult:
     """Write a copy of a text file in which the changed samples have new positions and every other byte is the same.
 
-    format: as read. positions: float64 (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers).
-    columns: index of each marker among the file's trajectories. Numbers get as many decimals as the column has, and at
-    least 3 for mm, 6 for m. A sample that cannot be written (partly missing, too far, or rounded to 0, 0, 0, which
-    means missing) is refused and stands as it was.
+    Numbers get as many decimals as the column has, and at least 3 for mm, 6 for m. A sample that would be read back as
+    missing (partly missing, too large, or rounded to 0, 0, 0) is refused and stays as it was.
+
+    Parameters
+    ----------
+    original, target : Path
+        The file, and where its copy goes.
+    format : str
+        A key of FORMATS, as read.
+    positions : ndarray of float, shape (frames, markers, 3)
+        In mm; NaN = missing.
+    changed : ndarray of bool, shape (frames, markers)
+        The samples to write.
+    columns : sequence of int
+        Index of each marker among the file's trajectories, as read.
+
+    Returns
+    -------
+    PatchResult
+        How many samples were written, and which were refused.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit the file.
     """
     content = text_lines.load(original)
     layout = FORMATS[format](content)
     if changed.shape != (len(layout.rows), len(columns)) or positions.shape != (*changed.shape, 3):
         raise ValueError(f"{changed.shape} samples do not fit {len(layout.rows)} rows and {len(columns)} markers")
-    unit = layout.unit or _likely_unit(cells.parse(content, layout, _cells(layout, columns))[0])
+    numbers = cells.parse(content, layout, layout.cells_of(columns))[0]
+    unit = layout.unit or ("m" if units.are_likely_metres(numbers) else "mm")
     edited = [columns[marker] for marker in np.flatnonzero(changed.any(axis=0)).tolist()]
     style = patching.style_of(content, layout, unit, edited, columns)
-    scaled = positions / MILLIMETRES[unit]
+    scaled = positions / units.MILLIMETRES[unit]
     lines, refused = list(content.lines), []
     for row in np.flatnonzero(changed.any(axis=1)).tolist():
         texts: dict[int, bytes] = {}
         for marker in np.flatnonzero(changed[row]).tolist():
             where = layout.columns[columns[marker]]
             new = patching.sample_cells(scaled[row, marker].tolist(), where, layout, style)
-            if new is None or (np.abs(positions[row, marker]) > FARTHEST).any():
+            if new is None or (np.abs(scaled[row, marker]) >= units.LARGEST).any():
                 refused.append((row, columns[marker]))
             else:
                 texts.update(zip(where, new, strict=True))
@@ -123,41 +176,36 @@ def patch(
     return PatchResult(int(changed.sum()) - len(refused), tuple(refused))
 
 
-def _cells(layout: Layout, trajectories: Sequence[int]) -> list[int]:
-    """The columns of the axes of some trajectories, side by side."""
-    return [column for trajectory in trajectories for column in layout.columns[trajectory]]
-
-
 def _positions(numbers: np.ndarray, why: np.ndarray, unit: str) -> tuple[np.ndarray, dict[str, int]]:
     """Positions in mm, NaN where missing, and how many samples each clause of the rule caught."""
-    with np.errstate(over="ignore"):
-        samples = numbers.reshape(len(numbers), -1, 3) * MILLIMETRES[unit]
+    samples = numbers.reshape(len(numbers), -1, 3)
     reasons = why.reshape(samples.shape)
     seen = np.ones(samples.shape[:2], bool)
     missing = {}
     clauses = [(name, (reasons == reason).any(axis=2)) for reason, name in CLAUSES.items()]
-    clauses += [("zero", (samples == 0).all(axis=2)), ("out of range", (np.abs(samples) > FARTHEST).any(axis=2))]
+    clauses += [("zero", (samples == 0).all(axis=2)), ("out of range", (np.abs(samples) >= units.LARGEST).any(axis=2))]
     for name, caught in clauses:
         if (seen & caught).any():
             missing[name] = int((seen & caught).sum())
         seen &= ~caught
-    samples[~seen] = np.nan
-    return samples, missing
+    return np.where(seen[..., None], samples, np.nan) * units.MILLIMETRES[unit], missing
 
 
-def _likely_unit(numbers: np.ndarray) -> str:
-    """The unit that the size of the numbers speaks for."""
-    sizes = np.abs(numbers[np.isfinite(numbers) & (numbers != 0)])
-    return "m" if sizes.size and np.quantile(sizes, 0.95) < METRES_BELOW else "mm"
+def _unit_warnings(named: str | None, small: bool) -> list[str]:
+    """Say what unit was assumed, or that the named one is doubtful."""
+    if named is None:
+        return [f"The file names no unit; by the size of its numbers, {'m' if small else 'mm'} is assumed."]
+    doubtful = small and named == "mm"
+    return ["The file's unit is mm, but the coordinates are so small that they may be metres."] if doubtful else []
 
 
-def _warnings(layout: Layout, missing: dict[str, int], short: int, unit: str) -> list[str]:
+def _row_warnings(layout: Layout, missing: dict[str, int], short: int) -> list[str]:
     """Say what is odd about the rows."""
     warnings = []
-    if layout.unit is None:
-        warnings.append(f"The file names no unit; by the size of its numbers it is taken to be {unit}.")
     if layout.frames is not None and layout.frames != len(layout.rows):
-        warnings.append(f"The header says {layout.frames} frames and the file has {len(layout.rows)}: the rows count.")
+        warnings.append(
+            f"The header says {layout.frames} frames and the file has {len(layout.rows)}: the rows are used."
+        )
     if short:
         warnings.append(f"{short} rows lack cells; the samples without cells are missing.")
     for clause in ("not a number", "out of range"):

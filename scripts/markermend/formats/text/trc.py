@@ -8,31 +8,38 @@ from pathlib import Path
 import numpy as np
 
 from markermend.core.recording import BadRecording, Recording
+from markermend.formats.text.axes_header import consecutive
+from markermend.formats.text.header_values import count_named, rate_named, unit_named
 from markermend.formats.text.lines import Sheet, likeliest_delimiter
-from markermend.formats.text.table_layout import (
-    MILLIMETRES,
-    Layout,
-    consecutive,
-    count_named,
-    frame_rows,
-    rate_named,
-    row_widths,
-    unit_named,
-    writes_decimal_comma,
-)
+from markermend.formats.text.table_layout import Layout
+from markermend.formats.text.table_rows import frame_rows, row_widths, writes_decimal_comma
+from markermend.formats.units import MILLIMETRES
 from markermend.storage.atomic import write_text
 
 HEADER_LINES = 5
-"""How far from the top the line that names the header's fields is looked for."""
+"""How many lines from the top the line that names the header's fields is looked for."""
 
 DECIMALS = {"mm": 5, "cm": 6, "m": 8}
 """Decimals that a new file is written with: a hundred times finer than any system measures."""
 
 
 def describe(sheet: Sheet) -> Layout:
-    """Find the trajectories of a TRC file; its rows and labels count, not the numbers of its header.
+    """Find the trajectories of a TRC file by its rows and labels, whatever numbers its header states.
 
-    Raises BadRecording where the header is cut off or the labels cannot be matched with the columns.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+
+    Returns
+    -------
+    Layout
+        Where the trajectories stand.
+
+    Raises
+    ------
+    BadRecording
+        If the header is cut off, or the labels cannot be matched with the columns.
     """
     fields = next((i for i, line in enumerate(sheet.lines[:HEADER_LINES]) if b"DataRate" in line), None)
     if fields is None:
@@ -65,7 +72,7 @@ def describe(sheet: Sheet) -> Layout:
 def _match(
     sheet: Sheet, labels: Sequence[str], first: int, widths: Sequence[int]
 ) -> tuple[tuple[str, ...], list[int], list[str]]:
-    """Match the labels with the columns: each stands above its X, or they are as many as the rows have triples."""
+    """Match the labels with the columns: each stands above its X, or there are as many as the rows have triples."""
     labelled = [i for i in range(first, len(labels)) if labels[i]]
     if not labelled:
         raise BadRecording(f"{sheet.name}: no marker is labelled. Label the markers and export it again")
@@ -74,11 +81,13 @@ def _match(
         return tuple(labels[i] for i in starts), starts, []
     if first + 3 * len(labelled) != max(widths, default=0):
         raise BadRecording(
-            f"{sheet.name}: the {len(labelled)} labels stand above no columns that would be theirs. Correct the line of"
+            f"{sheet.name}: the {len(labelled)} labels do not stand above columns of their own. Correct the line of"
             " labels: each above its X"
         )
     starts = list(range(first, first + 3 * len(labelled), 3))
-    warning = "The labels do not stand above their columns; they are as many as there are trajectories and go in order."
+    warning = (
+        "The labels do not stand above their columns; there are as many as trajectories, and they are taken in order."
+    )
     return tuple(labels[i] for i in labelled), starts, [warning]
 
 
@@ -87,7 +96,7 @@ def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int])
     warnings = []
     if count_named(promised) != len(starts):
         warnings.append(
-            f"The header says {promised[:20] or 'no'} markers and {len(starts)} are labelled: the labels count."
+            f"The header says {promised[:20] or 'no'} markers and {len(starts)} are labelled: the labels are used."
         )
     wider = sum(width > starts[-1] + 3 for width in widths)
     if wider:
@@ -98,8 +107,16 @@ def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int])
 def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
     """Write a TRC file that OpenSim opens: tabs, missing samples blank, exact counts, a blank line above the data.
 
-    unit: mm, cm or m, of the file; the recording is in mm. Times start at zero. A recording without frames or markers
-    gives a file without them.
+    Times start at zero. A recording without frames or markers gives a file without them.
+
+    Parameters
+    ----------
+    path : Path
+        Where it goes.
+    recording : Recording
+        Positions in mm; NaN = missing.
+    unit : str
+        Unit of the file: mm, cm or m.
     """
     decimals = DECIMALS[unit]
     count = len(recording.markers)
@@ -114,8 +131,8 @@ def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
         "",
     ]
     positions = (recording.positions / MILLIMETRES[unit]).reshape(recording.frames, 3 * count)
-    unseen = np.repeat(recording.missing, 3, axis=1).tolist()
-    for row, (cells, blank) in enumerate(zip(positions.tolist(), unseen, strict=True)):
-        written = ["" if gone else f"{cell:.{decimals}f}" for cell, gone in zip(cells, blank, strict=True)]
+    missing = np.repeat(recording.missing, 3, axis=1).tolist()
+    for row, (cells, blank) in enumerate(zip(positions.tolist(), missing, strict=True)):
+        written = ["" if void else f"{cell:.{decimals}f}" for cell, void in zip(cells, blank, strict=True)]
         lines.append("\t".join([str(recording.first_frame + row), f"{row / recording.rate:.6f}", *written]))
     write_text(path, "\n".join(lines) + "\n")

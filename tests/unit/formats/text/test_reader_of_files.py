@@ -9,9 +9,8 @@ import pytest
 from markermend.core.recording import BadRecording
 from markermend.formats.reading import Reading
 from markermend.formats.text import reader
+from markermend.formats.units import LARGEST, MILLIMETRES
 from support.text_files import FORMATS, make, positions
-
-FARTHEST = 1e9
 
 
 def outcome(path: Path, content: bytes) -> Reading | str:
@@ -25,7 +24,7 @@ def outcome(path: Path, content: bytes) -> Reading | str:
     assert 0 < recording.rate < np.inf and recording.frames > 0 and len(recording.markers) == len(reading.columns)
     gone = np.isnan(recording.positions)
     assert (gone.any(axis=2) == gone.all(axis=2)).all() and not gone.all()
-    assert np.nanmax(np.abs(recording.positions)) <= FARTHEST
+    assert np.nanmax(np.abs(recording.positions)) < LARGEST * MILLIMETRES[reading.unit]
     assert sum(reading.missing.values()) == gone.all(axis=2).sum()
     return reading
 
