@@ -1,1 +1,1 @@
-"""Numerical methods over arrays that know nothing of markers or files."""
+"""Numerical methods on arrays, independent of markers, recordings and files."""

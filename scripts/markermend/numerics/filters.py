@@ -1,7 +1,8 @@
 """Filters of one signal that never look across a gap: differences, moving median and sum, Savitzky-Golay.
 
-A signal is a float vector with NaN where nothing was measured. Each function works on its valid runs one by one, keeps
-its length, and leaves NaN where NaN was. Lengths are in samples."""
+A signal is a float vector with NaN where nothing was measured. Each function treats the runs of valid samples one by
+one, keeps the signal's length, and leaves NaN where NaN was. Lengths are in samples.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +15,20 @@ from markermend.numerics.intervals import runs
 
 
 def per_run(operate: Callable[[np.ndarray], np.ndarray], signal: np.ndarray) -> np.ndarray:
-    """Apply an operation to each valid run of a signal on its own."""
+    """Apply an operation to each run of valid samples on its own.
+
+    Parameters
+    ----------
+    operate : Callable[[np.ndarray], np.ndarray]
+        Maps a vector without NaN to one of the same length.
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+
+    Returns
+    -------
+    np.ndarray
+        Result (frames,); NaN where the signal is NaN.
+    """
     out = np.full(len(signal), np.nan)
     for start, stop in runs(~np.isnan(signal)):
         out[start:stop] = operate(signal[start:stop])
@@ -22,35 +36,104 @@ def per_run(operate: Callable[[np.ndarray], np.ndarray], signal: np.ndarray) -> 
 
 
 def difference(signal: np.ndarray) -> np.ndarray:
-    """Each sample minus the one before (skurowski2022 eq 12, 19, 26); 0 at the first sample of a run."""
+    """Subtract from each sample the one before it.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+
+    Returns
+    -------
+    np.ndarray
+        First differences (frames,); 0 at the first sample of a run, NaN where the signal is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 12, 19, 26.
+    """
     return per_run(lambda run: np.diff(run, prepend=run[:1]), signal)
 
 
 def moving_median(signal: np.ndarray, window: int) -> np.ndarray:
-    """Median over an odd window about each sample; the first and last sample of a run stand in beyond its ends."""
+    """Take the median over a window centred on each sample.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    window : int
+        Length of the window, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Medians (frames,); runs are extended by their first and last sample. NaN where the signal is NaN.
+    """
     return per_run(lambda run: ndimage.median_filter(run, window, mode="nearest"), signal)
 
 
 def smoothing_matrix(window: int, order: int) -> np.ndarray:
-    """The matrix (window, window) that replaces samples by the polynomial fitted to them (skurowski2022 eq 6, 8)."""
+    """Compute the projection of a window of samples onto polynomials.
+
+    Parameters
+    ----------
+    window : int
+        Length of the window, samples.
+    order : int
+        Order of the polynomials.
+
+    Returns
+    -------
+    np.ndarray
+        Matrix (window, window) that replaces samples by the polynomial fitted to them.
+
+    References
+    ----------
+    skurowski2022 eq 6, 8.
+    """
     offsets = np.linspace(-1.0, 1.0, window) if window > 1 else np.zeros(1)
     basis, _ = np.linalg.qr(np.vander(offsets, order + 1))
-    return basis @ basis.T
+    projection: np.ndarray = basis @ basis.T
+    return projection
 
 
 def high_pass(signal: np.ndarray, window: int, order: int) -> np.ndarray:
-    """Signal minus its Savitzky-Golay smooth (skurowski2022 eq 7): polynomials up to `order` vanish, ends included.
+    """Subtract the Savitzky-Golay smooth from a signal; polynomials up to the order vanish, also at the ends.
 
-    window: odd, above order. Runs shorter than the window get one polynomial, of a lower order if need be.
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    window : int
+        Length of the window, odd and above the order, samples. A shorter run gets one polynomial, of a lower order if
+        it has too few samples.
+    order : int
+        Order of the polynomials.
+
+    Returns
+    -------
+    np.ndarray
+        High-pass filtered signal (frames,); NaN where the signal is NaN.
+
+    Raises
+    ------
+    ValueError
+        If the window is even or not above the order.
+
+    References
+    ----------
+    skurowski2022 eq 7.
     """
     if window % 2 == 0 or window <= order:
         raise ValueError(f"window {window} is not odd or not above the order {order}")
 
     def run_high_pass(run: np.ndarray) -> np.ndarray:
         if len(run) < window:
-            return run - smoothing_matrix(len(run), min(order, len(run) - 1)) @ run
+            rest: np.ndarray = run - smoothing_matrix(len(run), min(order, len(run) - 1)) @ run
+            return rest
         matrix, half = smoothing_matrix(window, order), window // 2
-        smooth = ndimage.convolve1d(run, matrix[half])
+        smooth: np.ndarray = ndimage.convolve1d(run, matrix[half])
         smooth[:half] = matrix[:half] @ run[:window]
         smooth[-half:] = matrix[-half:] @ run[-window:]
         return run - smooth
@@ -59,5 +142,22 @@ def high_pass(signal: np.ndarray, window: int, order: int) -> np.ndarray:
 
 
 def moving_sum(signal: np.ndarray, window: int) -> np.ndarray:
-    """Sum over an odd window about each sample (skurowski2022 eq 21, 22); nothing counts beyond the ends of a run."""
+    """Sum a signal over a window centred on each sample.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    window : int
+        Length of the window, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Sums (frames,); runs are extended by zeros. NaN where the signal is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 21, 22.
+    """
     return per_run(lambda run: ndimage.convolve1d(run, np.ones(window), mode="constant"), signal)

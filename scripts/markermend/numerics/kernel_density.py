@@ -1,4 +1,4 @@
-"""Density of a distance: a Gaussian kernel estimate with Silverman's bandwidth, exact at any point, with quantiles."""
+"""Kernel density estimates in one dimension: Gaussian kernels with Silverman's bandwidth, exact at any point."""
 
 from __future__ import annotations
 
@@ -8,54 +8,105 @@ from functools import cached_property
 
 import numpy as np
 
+MIN_BANDWIDTH = 1e-3
+"""Least bandwidth, mm: distances within a rigid body do not vary at all."""
+
+BISECTIONS = 30
+"""Steps of the search for a quantile: enough for a millionth of the samples' range."""
+
 
 @dataclass(frozen=True)
 class Density:
-    """A sum of Gaussians of one bandwidth around samples (n,), mm."""
+    """A mean of Gaussians of equal bandwidth around samples.
+
+    Attributes
+    ----------
+    samples : np.ndarray
+        Samples (n,), mm, ascending.
+    bandwidth : float
+        Standard deviation of the Gaussians, mm.
+    """
 
     samples: np.ndarray
     bandwidth: float
 
     def log_density(self, points: np.ndarray) -> np.ndarray:
-        """Natural logarithm of the density at points of any shape; finite however far off; NaN stays NaN."""
-        deviation = -0.5 * ((points[..., None] - self.samples) / self.bandwidth) ** 2
-        largest = deviation.max(axis=-1)
-        total = np.log(np.exp(deviation - largest[..., None]).sum(axis=-1)) + largest
-        return total - np.log(len(self.samples) * self.bandwidth * np.sqrt(2 * np.pi))
+        """Evaluate the natural logarithm of the density.
+
+        Parameters
+        ----------
+        points : np.ndarray
+            Points of any shape, mm.
+
+        Returns
+        -------
+        np.ndarray
+            Log-density of the same shape, per mm: finite at any distance from the samples, NaN where a point is NaN.
+        """
+        exponent = -0.5 * ((points[..., None] - self.samples) / self.bandwidth) ** 2
+        largest = exponent.max(axis=-1)
+        total = np.log(np.exp(exponent - largest[..., None]).sum(axis=-1)) + largest
+        density: np.ndarray = total - np.log(len(self.samples) * self.bandwidth * np.sqrt(2 * np.pi))
+        return density
 
     def quantiles(self, probabilities: Sequence[float]) -> np.ndarray:
-        """Points (q,) under which the given shares of the density lie, to a millionth of the samples' range."""
+        """Compute quantiles by bisection of the distribution function.
+
+        Parameters
+        ----------
+        probabilities : Sequence[float]
+            Probabilities (q,), between 0 and 1.
+
+        Returns
+        -------
+        np.ndarray
+            Quantiles (q,), mm, to a millionth of the samples' range.
+        """
         key = tuple(probabilities)
-        if key not in self._found:
-            self._found[key] = self._quantiles(np.array(key))
-        return self._found[key]
+        if key not in self._computed_quantiles:
+            self._computed_quantiles[key] = self._bisect(np.array(key))
+        return self._computed_quantiles[key]
 
     @cached_property
-    def _found(self) -> dict[tuple[float, ...], np.ndarray]:
-        """Quantiles by their probabilities: the same are asked for by gap after gap."""
+    def _computed_quantiles(self) -> dict[tuple[float, ...], np.ndarray]:
+        """Quantiles by their probabilities, which are the same for gap after gap."""
         return {}
 
-    def _quantiles(self, wanted: np.ndarray) -> np.ndarray:
-        """Bisection of the distribution function."""
+    def _bisect(self, probabilities: np.ndarray) -> np.ndarray:
+        """Quantiles (q,) at probabilities (q,)."""
         from scipy.special import ndtr
 
-        low = np.full(wanted.shape, self.samples.min() - 10 * self.bandwidth)
-        high = np.full(wanted.shape, self.samples.max() + 10 * self.bandwidth)
-        for _ in range(30):
+        low = np.full(probabilities.shape, self.samples.min() - 10 * self.bandwidth)
+        high = np.full(probabilities.shape, self.samples.max() + 10 * self.bandwidth)
+        for _ in range(BISECTIONS):
             middle = (low + high) / 2
-            below = ndtr((middle[:, None] - self.samples) / self.bandwidth).mean(axis=1) < wanted
+            below = ndtr((middle[:, None] - self.samples) / self.bandwidth).mean(axis=1) < probabilities
             low, high = np.where(below, middle, low), np.where(below, high, middle)
-        return (low + high) / 2
+        quantiles: np.ndarray = (low + high) / 2
+        return quantiles
 
 
 def kernel_density(samples: np.ndarray, *, max_samples: int) -> Density:
-    """Estimate a density; source: tits2018 eq 21, Silverman's rule of thumb.
+    """Estimate a density by Gaussian kernels with Silverman's rule of thumb.
 
-    samples: (n,), mm, at least two. At max_samples `max_samples` of them are used, evenly spaced in rank, so that the tails stay.
-    The bandwidth is at least a thousandth of a millimetre: distances within a rigid body do not vary at all.
+    Parameters
+    ----------
+    samples : np.ndarray
+        Samples (n,), mm, at least two, without NaN.
+    max_samples : int
+        Largest number of kernels: of more samples, those evenly spaced in rank are used, which keeps the tails.
+
+    Returns
+    -------
+    Density
+        The density; its bandwidth is that of all samples, at least a thousandth of a millimetre.
+
+    References
+    ----------
+    tits2018 eq 21; Silverman (1986), Density Estimation for Statistics and Data Analysis, eq 3.28.
     """
     ordered = np.sort(samples)
     bandwidth = ordered.std(ddof=1) * (len(ordered) * 3 / 4) ** -0.2
     if len(ordered) > max_samples:
         ordered = ordered[np.linspace(0, len(ordered) - 1, max_samples).astype(int)]
-    return Density(ordered, max(float(bandwidth), 1e-3))
+    return Density(ordered, max(float(bandwidth), MIN_BANDWIDTH))

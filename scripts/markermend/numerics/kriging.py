@@ -1,4 +1,4 @@
-"""Kriging: carry the residual of a regression across a gap by its own autocovariance (simple kriging in time)."""
+"""Simple kriging in time: carry the residual of a regression across a gap by its own autocovariance."""
 
 from __future__ import annotations
 
@@ -6,20 +6,33 @@ from dataclasses import dataclass
 
 import numpy as np
 
-NEAR_PAIRS = 20
-"""So many pairs of frames at each of the shortest lags tell the white noise."""
+MIN_PAIRS = 20
+"""Least number of pairs of frames at each of the shortest lags from which the white noise is estimated."""
+
+FITTED_LAGS = 40
+"""Number of lags at which the autocovariance is fitted, before duplicates are dropped."""
 
 
 def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
-    """Empirical autocovariance (k,) of a residual (frames, axes) about zero at lags (k,), frames, averaged over the axes.
+    """Compute the empirical autocovariance of a residual about zero, averaged over its axes.
 
-    NaN = missing: pairs with a missing end do not count; NaN at a lag without any pair.
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residual (frames, axes), NaN = missing: pairs with a missing sample do not count.
+    lags : np.ndarray
+        Lags (k,), frames.
+
+    Returns
+    -------
+    np.ndarray
+        Autocovariance (k,), squared unit of the residual; NaN at a lag without any pair.
     """
     known = np.flatnonzero(~np.isnan(residual).any(axis=1))
     values = residual[known]
-    place = np.full(len(residual) + lags.max(), -1)
-    place[known] = np.arange(len(known))
-    partner = place[known[:, None] + lags]
+    index = np.full(len(residual) + lags.max(), -1)
+    index[known] = np.arange(len(known))
+    partner = index[known[:, None] + lags]
     products = np.einsum("na,nka->nk", values, values[partner])
     pairs = np.count_nonzero(partner >= 0, axis=0)
     total = np.where(partner >= 0, products, 0.0).sum(axis=0)
@@ -27,35 +40,62 @@ def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
 
 
 def white_noise_variance(residual: np.ndarray) -> float:
-    """Variance of the white noise on a residual (frames, axes), squared unit; NaN = missing.
+    """Estimate the variance of the white noise on a smooth residual.
 
-    Of half the mean squared differences at one, two and three frames, what remains when the parts that grow with the
-    second and the fourth power of the lag, those of a smooth course, cancel; from medians, so that artifacts do not
-    count. Zero where too few frames lie that near.
+    The semivariogram of noise on a smooth signal is ``noise + a lag^2 + b lag^4`` at short lags. Its values at lags
+    of one, two and three frames are combined such that the terms of the signal cancel. They are computed from medians,
+    so artifacts hardly count.
+
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residual (frames, axes), NaN = missing.
+
+    Returns
+    -------
+    float
+        Variance, squared unit of the residual; 0 where fewer than MIN_PAIRS pairs of frames have one of these lags.
     """
-    halves = []
+    semivariances = []
     for lag in (1, 2, 3):
-        apart = residual[lag:] - residual[:-lag]
-        apart = np.abs(apart[~np.isnan(apart).any(axis=1)])
-        if len(apart) < NEAR_PAIRS:
+        change = residual[lag:] - residual[:-lag]
+        change = np.abs(change[~np.isnan(change).any(axis=1)])
+        if len(change) < MIN_PAIRS:
             return 0.0
-        halves.append((np.median(apart) / 0.6745) ** 2 / 2)
-    return max(0.0, float(15 * halves[0] - 6 * halves[1] + halves[2]) / 10)
+        semivariances.append((np.median(change) / 0.6745) ** 2 / 2)
+    return max(0.0, float(15 * semivariances[0] - 6 * semivariances[1] + semivariances[2]) / 10)
 
 
 @dataclass(frozen=True)
 class Covariance:
     """A covariance function of time: white noise plus a non-negative sum of Matern kernels of order 3/2 and 5/2.
 
-    weights: (1 + 2 * scales,), mm^2: noise, order 3/2, order 5/2. scales_s: correlation lengths in s.
+    Attributes
+    ----------
+    weights : np.ndarray
+        Variances (1 + 2 * scales,), mm^2: of the noise, of the kernels of order 3/2, of those of order 5/2.
+    scales_s : np.ndarray
+        Correlation lengths (scales,), s.
     """
 
     weights: np.ndarray
     scales_s: np.ndarray
 
     def __call__(self, lag_s: np.ndarray) -> np.ndarray:
-        """Covariance, mm^2, at lags in s, without the white noise."""
-        return kernels(lag_s, self.scales_s) @ self.weights[1:]
+        """Evaluate the covariance of the smooth part, without the white noise.
+
+        Parameters
+        ----------
+        lag_s : np.ndarray
+            Lags of any shape, s.
+
+        Returns
+        -------
+        np.ndarray
+            Covariance of the same shape, mm^2.
+        """
+        covariance: np.ndarray = kernels(lag_s, self.scales_s) @ self.weights[1:]
+        return covariance
 
     @property
     def noise(self) -> float:
@@ -64,36 +104,67 @@ class Covariance:
 
 
 def kernels(lag_s: np.ndarray, scales_s: np.ndarray) -> np.ndarray:
-    """Unit Matern kernels (..., 2 * scales) at lags in s: first order 3/2, then 5/2.
+    """Evaluate Matern kernels of unit variance.
 
-    No RBF kernel: its paths are so smooth that a small misfit at the border extrapolates to metres.
+    The squared exponential kernel is left out: its paths are so smooth that a small misfit at the border of a gap
+    extrapolates to metres.
+
+    Parameters
+    ----------
+    lag_s : np.ndarray
+        Lags of any shape, s.
+    scales_s : np.ndarray
+        Correlation lengths (scales,), s.
+
+    Returns
+    -------
+    np.ndarray
+        Kernels (..., 2 * scales): those of order 3/2, then those of order 5/2.
+
+    References
+    ----------
+    Rasmussen & Williams (2006), Gaussian Processes for Machine Learning, eq 4.17.
     """
     scaled = np.abs(lag_s)[..., None] / scales_s
-    once, twice = np.sqrt(3) * scaled, np.sqrt(5) * scaled
-    return np.concatenate([(1 + once) * np.exp(-once), (1 + twice + twice**2 / 3) * np.exp(-twice)], axis=-1)
+    order3, order5 = np.sqrt(3) * scaled, np.sqrt(5) * scaled
+    return np.concatenate([(1 + order3) * np.exp(-order3), (1 + order5 + order5**2 / 3) * np.exp(-order5)], axis=-1)
 
 
 def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, max_lag_s: float) -> Covariance:
-    """Fit a covariance function to a residual's autocovariance by non-negative least squares.
+    """Fit a covariance function to the autocovariance of a residual by non-negative least squares.
 
-    residual: (frames, axes), mm, NaN = missing. rate: Hz. max_lag_s: lags beyond it are not looked at.
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residual (frames, axes), mm, NaN = missing.
+    rate : float
+        Sampling rate, Hz.
+    scales_s : np.ndarray
+        Correlation lengths (scales,) of the kernels, s.
+    max_lag_s : float
+        Longest lag that is fitted, s.
+
+    Returns
+    -------
+    Covariance
+        The covariance function; next to no noise alone where no sample is known.
     """
     from scipy.optimize import nnls  # 0.2 s to import, and most detectors never get here
 
-    lags = int(np.clip(round(max_lag_s * rate), 2, max(2, len(residual) // 2)))
-    # Lags are thinned towards the long ones, so that the short ones, which matter at the borders, are not outvoted.
-    chosen = np.unique(np.round(np.geomspace(1, lags, 40)).astype(int) - 1)
-    empirical = autocovariance(residual, chosen)
-    chosen, empirical = chosen[~np.isnan(empirical)], empirical[~np.isnan(empirical)]
-    if len(chosen) == 0:
+    max_lag = int(np.clip(round(max_lag_s * rate), 2, max(2, len(residual) // 2)))
+    # Fewer of the long lags are fitted: the short ones, which matter at the borders, must not be outvoted.
+    lags = np.unique(np.round(np.geomspace(1, max_lag, FITTED_LAGS)).astype(int) - 1)
+    empirical = autocovariance(residual, lags)
+    lags, empirical = lags[~np.isnan(empirical)], empirical[~np.isnan(empirical)]
+    if len(lags) == 0:
         return Covariance(np.append(1e-12, np.zeros(2 * len(scales_s))), scales_s)
-    lag_s = chosen / rate
-    design = np.concatenate([(chosen == 0)[:, None].astype(float), kernels(lag_s, scales_s)], axis=1)
+    lag_s = lags / rate
+    design = np.concatenate([(lags == 0)[:, None].astype(float), kernels(lag_s, scales_s)], axis=1)
     weights, _ = nnls(design, empirical)
     if weights.sum() <= 0:
         weights[0] = max(empirical[0], 1e-12)
-    # Next to the variance of the whole the noise is too small for the fit to see. Taken for noiseless, a residual is
-    # carried on along the slope that its last samples happen to have.
+    # Noise that is small beside the total variance escapes the fit. A residual taken for noiseless would be
+    # extrapolated along the slope that its last samples happen to have.
     weights[0] = max(weights[0], white_noise_variance(residual))
     return Covariance(weights, scales_s)
 
@@ -101,9 +172,29 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, m
 def krige(
     covariance: Covariance, *, observed_s: np.ndarray, values: np.ndarray, target_s: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Mean (n, axes) and variance (n,) of a zero-mean process at `target_s`, given `values` (k, axes) at `observed_s`.
+    """Predict a zero-mean process by simple kriging (Gaussian process regression).
 
-    The mean is that of the smooth part; the variance adds the white noise, because a true sample has it too.
+    Parameters
+    ----------
+    covariance : Covariance
+        Covariance function of the process.
+    observed_s : np.ndarray
+        Times of the observations (k,), s.
+    values : np.ndarray
+        Observations (k, axes), mm, without NaN.
+    target_s : np.ndarray
+        Times to predict (n,), s.
+
+    Returns
+    -------
+    mean : np.ndarray
+        Conditional mean (n, axes) of the smooth part, mm.
+    variance : np.ndarray
+        Conditional variance (n,), mm^2, including the white noise, which a true sample has too.
+
+    References
+    ----------
+    Rasmussen & Williams (2006), Gaussian Processes for Machine Learning, eq 2.25, 2.26.
     """
     total = covariance(np.zeros(1))[0] + covariance.noise
     if len(observed_s) == 0:

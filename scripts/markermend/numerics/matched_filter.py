@@ -1,7 +1,7 @@
-"""Bumps in a residual: how clearly does one that rises and falls stand out from a process of known covariance?
+"""Matched filters that find raised-cosine pulses in coloured noise.
 
-A matched filter (generalised least squares in time): of all weights on the samples about a moment that do not answer to
-a constant, those that find a bump of given length with the least variance. `strength` is in standard deviations.
+The filter is the generalised least-squares estimate of the pulse's height beside an unknown constant: of all weights on
+the samples about a moment that do not respond to a constant, those that estimate the height with the least variance.
 """
 
 from __future__ import annotations
@@ -17,9 +17,16 @@ from markermend.numerics.kriging import Covariance, fit_covariance
 
 @dataclass(frozen=True)
 class MatchedFilter:
-    """Weights (taps,) on means over `step` samples each, which answer to noise with variance 1.
+    """A matched filter of one length, scaled to respond to the noise with variance 1.
 
-    deviation: standard deviation of the height of the bump that they find.
+    Attributes
+    ----------
+    weights : np.ndarray
+        Weights (taps,) on means over `step` samples each.
+    step : int
+        Number of samples in each mean.
+    deviation : float
+        Standard deviation of the estimated height of the pulse, in the unit of the signal.
     """
 
     weights: np.ndarray
@@ -27,55 +34,117 @@ class MatchedFilter:
     deviation: float
 
 
-def raised_cosine(at: np.ndarray) -> np.ndarray:
-    """Course of a bump of height 1 from 0 to 1: at rest at either end, and 0 beyond."""
-    return 0.5 - 0.5 * np.cos(2 * np.pi * np.clip(at, 0.0, 1.0))
+def raised_cosine(phase: np.ndarray) -> np.ndarray:
+    """Evaluate a raised-cosine (Hann) pulse of height 1.
+
+    Parameters
+    ----------
+    phase : np.ndarray
+        Phases of any shape: the pulse begins at 0 and ends at 1, with slope 0.
+
+    Returns
+    -------
+    np.ndarray
+        Heights of the same shape; 0 outside the pulse.
+    """
+    height: np.ndarray = 0.5 - 0.5 * np.cos(2 * np.pi * np.clip(phase, 0.0, 1.0))
+    return height
 
 
 def design_filter(covariance: Covariance, *, length: int, flank: float, taps: int, rate: float) -> MatchedFilter:
-    """The filter for bumps of a length in samples; `flank` of the length is looked at on either side.
+    """Design the matched filter for pulses of a length.
 
-    taps: over the bump, at most about so many means are looked at.
+    Parameters
+    ----------
+    covariance : Covariance
+        Covariance function of the noise.
+    length : int
+        Length of the pulse, samples.
+    flank : float
+        Part of the length that the filter covers on either side of the pulse.
+    taps : int
+        Largest number, about, of means over the pulse: longer pulses are filtered at a lower rate.
+    rate : float
+        Sampling rate, Hz.
+
+    Returns
+    -------
+    MatchedFilter
+        The filter.
+
+    References
+    ----------
+    Kay (1998), Fundamentals of Statistical Signal Processing: Detection Theory, section 4.4.
     """
     step = max(1, length // taps)
     taps = length // step
-    bump = raised_cosine((np.arange(taps) + 0.5) / taps)
-    side = np.zeros(int(np.ceil(flank * len(bump))))
-    bump = np.concatenate([side, bump, side])
-    lags = np.arange(len(bump))
+    pulse = raised_cosine((np.arange(taps) + 0.5) / taps)
+    side = np.zeros(int(np.ceil(flank * len(pulse))))
+    pulse = np.concatenate([side, pulse, side])
+    lags = np.arange(len(pulse))
     smooth = covariance(lags * step / rate)
-    # Without some noise a process that is very smooth would let the finest detail of the shape decide.
+    # Without some noise the finest detail of the shape would decide where the process is very smooth.
     noise = covariance.noise / step + 1e-5 * (smooth[0] + covariance.noise) + 1e-12
-    between = smooth[np.abs(lags[:, None] - lags)] + noise * np.eye(len(bump))
-    for_bump, for_constant = np.linalg.solve(between, np.stack([bump, np.ones(len(bump))], axis=1)).T
-    weights = for_bump - for_constant * for_bump.sum() / for_constant.sum()
-    information = float(weights @ bump)
+    between = smooth[np.abs(lags[:, None] - lags)] + noise * np.eye(len(pulse))
+    of_pulse, of_constant = np.linalg.solve(between, np.stack([pulse, np.ones(len(pulse))], axis=1)).T
+    weights = of_pulse - of_constant * of_pulse.sum() / of_constant.sum()
+    information = float(weights @ pulse)
     return MatchedFilter(weights / np.sqrt(information), step, 1 / np.sqrt(information))
 
 
-def filter_response(signal: np.ndarray, bump: MatchedFilter) -> np.ndarray:
-    """Answer (frames,) of a filter to a signal (frames, axes), all axes together; NaN where its window is not whole.
+def filter_response(signal: np.ndarray, matched: MatchedFilter) -> np.ndarray:
+    """Apply a matched filter to all axes of a signal.
 
-    NaN = missing: nothing is found across a gap.
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames, axes), NaN = missing.
+    matched : MatchedFilter
+        The filter.
+
+    Returns
+    -------
+    np.ndarray
+        Root of the summed squares of the axes' responses (frames,), in standard deviations of the noise; NaN where the
+        window of the filter reaches across a gap or an end.
     """
     out = np.full(len(signal), np.nan)
     for start, stop in runs(~np.isnan(signal).any(axis=1)):
-        means = (stop - start) // bump.step
-        if means < len(bump.weights):
+        means = (stop - start) // matched.step
+        if means < len(matched.weights):
             continue
-        run = signal[start : start + means * bump.step].reshape(means, bump.step, -1).mean(axis=1)
-        answer = sum((np.convolve(axis, bump.weights[::-1], "valid") ** 2 for axis in run.T), np.zeros(1))
-        centre = start + (np.arange(len(answer)) + len(bump.weights) / 2) * bump.step - 0.5
-        at = np.arange(int(np.ceil(centre[0])), int(centre[-1]) + 1)
-        out[at] = np.interp(at, centre, np.sqrt(answer))
+        run = signal[start : start + means * matched.step].reshape(means, matched.step, -1).mean(axis=1)
+        square = sum((np.convolve(axis, matched.weights[::-1], "valid") ** 2 for axis in run.T), np.zeros(1))
+        centre = start + (np.arange(len(square)) + len(matched.weights) / 2) * matched.step - 0.5
+        frames = np.arange(int(np.ceil(centre[0])), int(centre[-1]) + 1)
+        out[frames] = np.interp(frames, centre, np.sqrt(square))
     return out
 
 
 def clipped_covariance(
     signal: np.ndarray, *, sigmas: float, rate: float, scales_s: np.ndarray, max_lag_s: float
 ) -> Covariance:
-    """Covariance in time of a signal (frames, axes) but for what is unusual: it is cut off at so many robust sigmas."""
+    """Fit the covariance function of a signal whose outliers are clipped.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames, axes), mm, NaN = missing.
+    sigmas : float
+        Deviations from the axes' medians are clipped to so many robust standard deviations.
+    rate : float
+        Sampling rate, Hz.
+    scales_s : np.ndarray
+        Correlation lengths (scales,) of the kernels, s.
+    max_lag_s : float
+        Longest lag that is fitted, s.
+
+    Returns
+    -------
+    Covariance
+        The covariance function.
+    """
     middle = np.nanmedian(signal, axis=0)
     limit = sigmas * robust.mad_std((signal - middle).ravel())
-    usual = np.clip(signal - middle, -limit, limit)
-    return fit_covariance(usual, rate=rate, scales_s=scales_s, max_lag_s=max_lag_s)
+    clipped = np.clip(signal - middle, -limit, limit)
+    return fit_covariance(clipped, rate=rate, scales_s=scales_s, max_lag_s=max_lag_s)

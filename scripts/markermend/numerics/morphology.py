@@ -1,4 +1,8 @@
-"""Grey-scale morphology of one signal with flat structuring elements; nothing is looked at across a gap (skurowski2022 eq 13-17)."""
+"""Grey-scale morphology of one signal with flat structuring elements that never reach across a gap.
+
+A signal is a float vector with NaN where nothing was measured; sizes are odd numbers of samples (skurowski2022 eq
+13-17).
+"""
 
 from __future__ import annotations
 
@@ -9,25 +13,111 @@ from markermend.numerics.filters import per_run
 
 
 def erosion(signal: np.ndarray, size: int) -> np.ndarray:
-    """Least value under a flat structuring element of odd size (skurowski2022 eq 13, read as the minimum)."""
+    """Take the minimum of a signal under a flat structuring element.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    size : int
+        Size of the element, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Eroded signal (frames,); NaN where the signal is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 13, read as the minimum.
+    """
     return per_run(lambda run: ndimage.minimum_filter1d(run, size, mode="constant", cval=np.inf), signal)
 
 
 def dilation(signal: np.ndarray, size: int) -> np.ndarray:
-    """Greatest value under a flat structuring element of odd size (skurowski2022 eq 14, read as the maximum)."""
+    """Take the maximum of a signal under a flat structuring element.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    size : int
+        Size of the element, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Dilated signal (frames,); NaN where the signal is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 14, read as the maximum.
+    """
     return per_run(lambda run: ndimage.maximum_filter1d(run, size, mode="constant", cval=-np.inf), signal)
 
 
 def opening(signal: np.ndarray, size: int) -> np.ndarray:
-    """Erosion, then dilation: removes what is narrower than the element (skurowski2022 eq 15)."""
+    """Erode, then dilate a signal: remove peaks narrower than the element.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    size : int
+        Size of the element, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Opened signal (frames,), nowhere above the signal; NaN where it is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 15.
+    """
     return dilation(erosion(signal, size), size)
 
 
 def closing(signal: np.ndarray, size: int) -> np.ndarray:
-    """Dilation, then erosion: fills what is narrower than the element (skurowski2022 eq 16)."""
+    """Dilate, then erode a signal: fill valleys narrower than the element.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    size : int
+        Size of the element, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Closed signal (frames,), nowhere below the signal; NaN where it is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 16.
+    """
     return erosion(dilation(signal, size), size)
 
 
 def top_hat(signal: np.ndarray, size: int) -> np.ndarray:
-    """Signal minus its opening: keeps what is narrower than the element (skurowski2022 eq 17)."""
-    return signal - opening(signal, size)
+    """Subtract the opening from a signal: keep only peaks narrower than the element.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    size : int
+        Size of the element, odd, samples.
+
+    Returns
+    -------
+    np.ndarray
+        White top-hat (frames,), at least 0; NaN where the signal is NaN.
+
+    References
+    ----------
+    skurowski2022 eq 17.
+    """
+    residue: np.ndarray = signal - opening(signal, size)
+    return residue

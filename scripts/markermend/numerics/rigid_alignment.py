@@ -1,40 +1,70 @@
-"""Rigid frames on the body: the pose of a few steady markers, in whose coordinates the others hardly move."""
+"""Rigid alignment of markers: the pose of a few anchors, in whose frame the other markers of a segment hardly move."""
 
 from __future__ import annotations
 
 import numpy as np
 
+NEWTON_STEPS = 40
+"""Largest number of Newton steps to an eigenvalue; a handful is usual."""
+
 
 def align(points: np.ndarray, template: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Fit a rigid template to points (Kabsch), all frames at once.
+    """Fit a rigid template to points in all frames at once (the orthogonal Procrustes problem without reflections).
 
-    points: (frames, k, 3), complete. template: (k, 3), centred. Returns rotation (frames, 3, 3) and origin (frames, 3):
-    a laboratory position x has the local coordinates (x - origin) @ rotation.
+    A laboratory position ``x`` has the local coordinates ``(x - origin) @ rotation``.
+
+    Parameters
+    ----------
+    points : np.ndarray
+        Points (frames, k, 3), mm, without NaN.
+    template : np.ndarray
+        Template (k, 3), mm, centred.
+
+    Returns
+    -------
+    rotation : np.ndarray
+        Rotations (frames, 3, 3) from local to laboratory axes.
+    origin : np.ndarray
+        Origins (frames, 3), mm: the means of the points.
+
+    References
+    ----------
+    Kabsch (1976), Acta Crystallographica A 32(5).
     """
     origin = points.mean(axis=1)
     return nearest_rotations(np.einsum("nki,kj->nij", points - origin[:, None], template)), origin
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """The rotations (n, 3, 3) nearest to matrices (n, 3, 3), as unit quaternions; source: Horn 1987.
+    """Find the rotations nearest to matrices, by unit quaternions.
 
-    The quaternion is the eigenvector of a symmetric 4 x 4 matrix without trace; its eigenvalue, the largest root of the
-    characteristic polynomial, is found by Newton's method from above, and the vector is a column of the adjugate: a
-    tenth of the time of singular values, which are left with those few matrices that are nearly of rank 1.
+    The quaternion is the dominant eigenvector of a symmetric, traceless 4 x 4 matrix. Its eigenvalue, the largest root
+    of the characteristic polynomial, is found by Newton's method from above, and the eigenvector is a column of the
+    adjugate. This takes a tenth of the time of singular value decompositions, which remain for the few matrices of
+    nearly rank 1.
+
+    Parameters
+    ----------
+    matrices : np.ndarray
+        Matrices (n, 3, 3) of any rank, without NaN.
+
+    Returns
+    -------
+    np.ndarray
+        Rotations (n, 3, 3) that maximise the trace of their transposes times the matrices.
+
+    References
+    ----------
+    Horn (1987), "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4(4).
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(
-            matrices / np.linalg.norm(matrices, axis=(1, 2), keepdims=True), 0, -1
-        )
-        upper = [xx + yy + zz, zy - yz, xz - zx, yx - xy, xx - yy - zz, xy + yx, xz + zx, yy - xx - zz, yz + zy]
-        key = np.stack([*upper, zz - xx - yy], axis=-1)[:, [0, 1, 2, 3, 1, 4, 5, 6, 2, 5, 7, 8, 3, 6, 8, 9]]
-        key = key.reshape(-1, 4, 4)
+        key = _quaternion_matrices(matrices / np.linalg.norm(matrices, axis=(1, 2), keepdims=True))
         square = key @ key
         # Coefficients of the polynomial by Newton's identities: the powers of its roots sum to 0, 4, ...
         linear = -(square * key).sum(axis=(1, 2)) / 3
         constant = 2 - (square**2).sum(axis=(1, 2)) / 4
         root = np.full(len(matrices), np.sqrt(3.0))
-        for _ in range(40):
+        for _ in range(NEWTON_STEPS):
             step = (((root**2 - 2) * root + linear) * root + constant) / (4 * root**3 - 4 * root + linear)
             root = root - step
             if not (np.abs(step) > 1e-12).any():
@@ -43,11 +73,19 @@ def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
     adjugate = square @ key + r * square + (r**2 - 2) * key + (r**3 - 2 * r + linear[:, None, None]) * np.eye(4)
     diagonal = np.diagonal(adjugate, axis1=1, axis2=2)
     quaternion = np.take_along_axis(adjugate, np.argmax(diagonal, axis=1)[:, None, None], axis=2)[..., 0]
-    hard = ~(diagonal.sum(axis=1) > 1e-3)
+    degenerate = ~(diagonal.sum(axis=1) > 1e-3)
     rotations = _from_quaternions(quaternion)
-    if hard.any():
-        rotations[hard] = _by_singular_values(matrices[hard])
+    if degenerate.any():
+        rotations[degenerate] = _by_singular_values(matrices[degenerate])
     return rotations
+
+
+def _quaternion_matrices(matrices: np.ndarray) -> np.ndarray:
+    """Horn's symmetric matrices (n, 4, 4), whose dominant eigenvectors are the quaternions of matrices (n, 3, 3)."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(matrices, 0, -1)
+    upper = [xx + yy + zz, zy - yz, xz - zx, yx - xy, xx - yy - zz, xy + yx, xz + zx, yy - xx - zz, yz + zy]
+    key = np.stack([*upper, zz - xx - yy], axis=-1)[:, [0, 1, 2, 3, 1, 4, 5, 6, 2, 5, 7, 8, 3, 6, 8, 9]]
+    return key.reshape(-1, 4, 4)
 
 
 def _from_quaternions(quaternions: np.ndarray) -> np.ndarray:
@@ -63,26 +101,49 @@ def _from_quaternions(quaternions: np.ndarray) -> np.ndarray:
 
 
 def _by_singular_values(matrices: np.ndarray) -> np.ndarray:
-    """The rotations (n, 3, 3) nearest to matrices (n, 3, 3) of any rank (Kabsch)."""
+    """The rotations (n, 3, 3) nearest to matrices (n, 3, 3) of any rank, by singular value decompositions (Kabsch)."""
     left, _, right = np.linalg.svd(matrices)
     flip = np.where(np.linalg.det(left @ right) < 0, -1.0, 1.0)
     left[:, :, 2] *= flip[:, None]
-    return left @ right
+    rotations: np.ndarray = left @ right
+    return rotations
 
 
 def mean_shape(points: np.ndarray) -> np.ndarray:
-    """The centred typical shape (k, 3) of points (frames, k, 3), complete: two rounds of alignment from one frame."""
+    """Estimate the typical shape of points by two rounds of alignment to the frame of the most typical distances.
+
+    Parameters
+    ----------
+    points : np.ndarray
+        Points (frames, k, 3), mm, without NaN.
+
+    Returns
+    -------
+    np.ndarray
+        Shape (k, 3), mm, centred: the median of the aligned frames, which outliers hardly move.
+    """
     centred = points - points.mean(axis=1, keepdims=True)
-    size = np.linalg.norm(points[:, :, None] - points[:, None], axis=3).reshape(len(points), -1)
-    typical = int(np.argmin(np.abs(size - np.median(size, axis=0)).sum(axis=1)))
-    shape = centred[typical]
+    distances = np.linalg.norm(points[:, :, None] - points[:, None], axis=3).reshape(len(points), -1)
+    typical = int(np.argmin(np.abs(distances - np.median(distances, axis=0)).sum(axis=1)))
+    shape: np.ndarray = centred[typical]
     for _ in range(2):
         rotation, _ = align(points, shape)
-        shape = np.median(centred @ rotation, axis=0)
-        shape = shape - shape.mean(axis=0)
+        median = np.median(centred @ rotation, axis=0)
+        shape = median - median.mean(axis=0)
     return shape
 
 
 def width(shape: np.ndarray) -> float:
-    """The second largest root-mean-square extent of a shape (k, 3), mm: near 0 where the points lie on one line."""
+    """Measure how far a shape extends beside its longest axis.
+
+    Parameters
+    ----------
+    shape : np.ndarray
+        Points (k, 3), mm.
+
+    Returns
+    -------
+    float
+        Second largest root-mean-square extent, mm: near 0 where the points lie on one line.
+    """
     return float(np.linalg.svd(shape - shape.mean(axis=0), compute_uv=False)[1] / np.sqrt(len(shape)))

@@ -1,28 +1,47 @@
-"""Building blocks of the detectors: robust scale, filters and morphology that never look across a gap.
-
-A signal is a float vector with NaN where nothing was measured. Each function works on its valid runs one by one, keeps
-its length, and leaves NaN where NaN was. Lengths are in samples; `samples` makes them from seconds.
-"""
+"""Robust estimates of scale and location that outliers hardly move."""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy import ndimage
 
-NORMAL = 1.4826
-"""Standard deviation of a normal distribution with median absolute deviation 1."""
+MAD_TO_STD = 1.4826
+"""Standard deviation of a normal distribution whose median absolute deviation is 1."""
 
 
 def mad_std(values: np.ndarray) -> float:
-    """Robust standard deviation about the median (1.4826 times the median absolute deviation); NaN ignored, 0 if all are."""
+    """Estimate the standard deviation from the median absolute deviation (MAD) about the median.
+
+    Parameters
+    ----------
+    values : np.ndarray
+        Values of any shape; NaN and infinite ones are ignored.
+
+    Returns
+    -------
+    float
+        1.4826 times the MAD, in the unit of the values; 0 where no value is finite.
+    """
     finite = values[np.isfinite(values)]
-    return float(NORMAL * np.median(np.abs(finite - np.median(finite)))) if finite.size else 0.0
+    return float(MAD_TO_STD * np.median(np.abs(finite - np.median(finite)))) if finite.size else 0.0
 
 
 def moving_median_across_gaps(signal: np.ndarray, window: int) -> np.ndarray:
-    """Moving median that joins valid runs as if there were no gaps between: for scales, not for detection.
+    """Take the moving median of the valid samples as if no gap lay between them.
 
-    Within half a window of the ends it stays what it is where the window is whole.
+    Meant for slowly varying scales, not for detection.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    window : int
+        Length of the window, valid samples; at most as many as there are.
+
+    Returns
+    -------
+    np.ndarray
+        Medians (frames,); within half a window of the ends, that of the nearest whole window. NaN where the signal is.
     """
     out = np.full(len(signal), np.nan)
     valid = np.flatnonzero(~np.isnan(signal))

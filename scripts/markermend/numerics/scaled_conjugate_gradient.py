@@ -1,6 +1,6 @@
-"""Scaled conjugate gradient (Moller 1993), for many independent problems that advance together.
+"""Scaled conjugate gradient (Moller 1993) for many independent problems that advance together.
 
-The first axis of every array counts the problems. A problem that has come to rest is no longer evaluated.
+The first axis of every array counts the problems. A problem that has converged is no longer evaluated.
 """
 
 from __future__ import annotations
@@ -11,36 +11,54 @@ from dataclasses import dataclass
 import numpy as np
 
 Objective = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
-"""From parameters (b, n) and which problems they are of (b,), ascending: the values (b,) and the gradients (b, n)."""
+"""Maps parameters (b, n) and the indices of their problems (b,), ascending, to values (b,) and gradients (b, n)."""
 
-Judge = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""From the same: values (b,) on what was held out."""
+HeldOutLoss = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Maps the same arguments to losses (b,) on held-out data."""
 
 INITIAL_SCALE = 1e-6
-"""What the scale that keeps the curvature positive begins with; it finds its own size within a few steps (Moller 1993)."""
+"""First value of the scale that keeps the curvature positive; it adapts within a few steps."""
 
-EXHAUSTED = 1e-15
-"""A step that promises less than this part of the value is lost in rounding: the problem is solved."""
+ROUNDING = 1e-15
+"""A step whose expected decrease is below this part of the value is lost in rounding: the problem has converged."""
 
 
 @dataclass(frozen=True)
 class DescentOptions:
     """When to stop, and how curvature is measured.
 
-    iterations: at most. rest: largest component of a gradient at which a problem is solved. probe: length of the step
-    along the direction over which the gradient's change tells the curvature (Moller's sigma). patience: iterations
-    without a better held-out value, after which the best parameters so far are the result.
+    Attributes
+    ----------
+    iterations : int
+        Largest number of iterations.
+    gradient_tolerance : float
+        A problem has converged when no component of its gradient is larger.
+    probe : float
+        Length of the step along the direction over which the change of the gradient gives the curvature (Moller's
+        sigma).
+    patience : int
+        Iterations without a better held-out loss after which the best parameters so far are returned.
     """
 
     iterations: int
-    rest: float
+    gradient_tolerance: float
     probe: float
     patience: int
 
 
 @dataclass(frozen=True)
 class Minimum:
-    """Where each problem came to: parameters (problems, n), values (problems,), iterations (problems,)."""
+    """The best point that each problem reached.
+
+    Attributes
+    ----------
+    parameters : np.ndarray
+        Parameters (problems, n).
+    values : np.ndarray
+        Objective there (problems,), or the held-out loss if one was given.
+    iterations : np.ndarray
+        Number of iterations of each problem (problems,).
+    """
 
     parameters: np.ndarray
     values: np.ndarray
@@ -48,7 +66,7 @@ class Minimum:
 
 
 class _Descent:
-    """The state of all problems: where they are, their downhill gradients, directions, and curvatures along these."""
+    """The state of all problems: parameters, negative gradients, conjugate directions, and curvatures along these."""
 
     def __init__(self, objective: Objective, start: np.ndarray, probe: float) -> None:
         self.objective, self.probe = objective, probe
@@ -58,77 +76,101 @@ class _Descent:
         self.direction = self.downhill.copy()
         self.scale = np.full(len(start), INITIAL_SCALE)
         self.curvature = np.zeros(len(start))
-        self.moved = np.ones(len(start), bool)
+        self.succeeded = np.ones(len(start), bool)
         self.exhausted = np.zeros(len(start), bool)
 
-    def step(self, on: np.ndarray, *, restart: bool) -> None:
-        """Advance the problems `on` (indices, ascending) by one iteration: Moller 1993, steps 2 to 8."""
-        direction = self.direction[on]
+    def step(self, active: np.ndarray, *, restart: bool) -> None:
+        """Advance the active problems (indices, ascending) by one iteration: Moller 1993, steps 2 to 8."""
+        direction = self.direction[active]
         square = np.einsum("bn,bn->b", direction, direction)
-        self._measure_curvature(on, square)
-        scale = self.scale[on]
-        delta = self.curvature[on] + scale * square
-        bent = delta <= 0
-        scale = np.where(bent, 2 * (scale - delta / square), scale)
-        delta = self.curvature[on] + scale * square
-        along = np.einsum("bn,bn->b", direction, self.downhill[on])
-        reached = self.parameters[on] + (along / delta)[:, None] * direction
-        value, gradient = self.objective(reached, on)
-        self.exhausted[on] = along**2 / delta <= EXHAUSTED * np.abs(self.value[on])
-        # How well a parabola foretold the value: 1 is exactly, below 0 it went uphill.
-        fit = 2 * delta * (self.value[on] - value) / along**2
-        good = self.moved[on] = fit >= 0
-        self.parameters[on[good]], self.value[on[good]] = reached[good], value[good]
-        self._turn(on[good], -gradient[good], along[good], restart=restart)
-        stiffer = np.where(np.isfinite(fit), delta * (1 - fit), 4 * delta) / square
-        self.scale[on] = np.where(fit >= 0.75, scale / 4, np.where(fit >= 0.25, scale, scale + stiffer))
+        self._measure_curvature(active, square)
+        scale = self.scale[active]
+        delta = self.curvature[active] + scale * square
+        scale = np.where(delta <= 0, 2 * (scale - delta / square), scale)
+        delta = self.curvature[active] + scale * square
+        slope = np.einsum("bn,bn->b", direction, self.downhill[active])
+        reached = self.parameters[active] + (slope / delta)[:, None] * direction
+        value, gradient = self.objective(reached, active)
+        self.exhausted[active] = slope**2 / delta <= ROUNDING * np.abs(self.value[active])
+        # Actual over predicted decrease: 1 if the objective is quadratic, below 0 if it rises.
+        comparison = 2 * delta * (self.value[active] - value) / slope**2
+        good = self.succeeded[active] = comparison >= 0
+        self.parameters[active[good]], self.value[active[good]] = reached[good], value[good]
+        self._turn(active[good], -gradient[good], slope[good], restart=restart)
+        increase = np.where(np.isfinite(comparison), delta * (1 - comparison), 4 * delta) / square
+        raised = np.where(comparison >= 0.25, scale, scale + increase)
+        self.scale[active] = np.where(comparison >= 0.75, scale / 4, raised)
 
-    def _measure_curvature(self, on: np.ndarray, square: np.ndarray) -> None:
-        """Curvature along new directions, from gradients at two points (step 2); an old direction keeps its own."""
-        new = on[self.moved[on]]
+    def _measure_curvature(self, active: np.ndarray, square: np.ndarray) -> None:
+        """Curvature along new directions, from gradients at two points (step 2); after a failed step it stays."""
+        new = active[self.succeeded[active]]
         if len(new) == 0:
             return
-        probe = self.probe / np.sqrt(square[self.moved[on]])
+        probe = self.probe / np.sqrt(square[self.succeeded[active]])
         _, ahead = self.objective(self.parameters[new] + probe[:, None] * self.direction[new], new)
         self.curvature[new] = np.einsum("bn,bn->b", self.direction[new], ahead + self.downhill[new]) / probe
 
-    def _turn(self, on: np.ndarray, downhill: np.ndarray, along: np.ndarray, *, restart: bool) -> None:
-        """New conjugate directions (step 7); straight downhill at a restart, or where they would lead uphill."""
-        change = np.einsum("bn,bn->b", downhill, downhill - self.downhill[on])
-        turned = downhill + (change / along)[:, None] * self.direction[on]
-        straight = restart | (np.einsum("bn,bn->b", turned, downhill) <= 0)
-        self.direction[on] = np.where(straight[:, None], downhill, turned)
-        self.downhill[on] = downhill
+    def _turn(self, problems: np.ndarray, downhill: np.ndarray, slope: np.ndarray, *, restart: bool) -> None:
+        """New conjugate directions (step 7); steepest descent at a restart, or where they would lead uphill."""
+        change = np.einsum("bn,bn->b", downhill, downhill - self.downhill[problems])
+        conjugate = downhill + (change / slope)[:, None] * self.direction[problems]
+        steepest = restart | (np.einsum("bn,bn->b", conjugate, downhill) <= 0)
+        self.direction[problems] = np.where(steepest[:, None], downhill, conjugate)
+        self.downhill[problems] = downhill
 
 
 def minimise(
-    objective: Objective, start: np.ndarray, *, options: DescentOptions, held_out: Judge | None = None
+    objective: Objective, start: np.ndarray, *, options: DescentOptions, held_out: HeldOutLoss | None = None
 ) -> Minimum:
-    """Minimise many functions at once by scaled conjugate gradient; source: Moller 1993, Neural Networks 6(4).
+    """Minimise many functions at once by scaled conjugate gradient.
 
-    objective: values and gradients, see Objective; finite at the start. start: (problems, n). held_out: what tells when
-    to stop; without it, problems end at rest or with the iterations. Each problem goes its own way: the result does not
-    depend on which others there are. Raises ValueError where the objective is not finite at the start.
+    The result of a problem does not depend on the others.
+
+    Parameters
+    ----------
+    objective : Objective
+        Values and gradients; finite at the start.
+    start : np.ndarray
+        First parameters (problems, n).
+    options : DescentOptions
+        When to stop.
+    held_out : HeldOutLoss | None
+        Loss on held-out data, for early stopping; without it, problems end when they converge.
+
+    Returns
+    -------
+    Minimum
+        The best point of each problem, by the held-out loss if there is one.
+
+    Raises
+    ------
+    ValueError
+        If the objective is not finite at the start.
+
+    References
+    ----------
+    Moller (1993), "A scaled conjugate gradient algorithm for fast supervised learning", Neural Networks 6(4).
     """
     descent = _Descent(objective, start, options.probe)
     if not np.isfinite(descent.value).all():
         raise ValueError("the objective is not finite where the descent starts")
-    taken = np.zeros(len(start), int)
-    every = np.arange(len(start))
+    everyone = np.arange(len(start))
+    iterations, best_iteration = np.zeros(len(start), int), np.zeros(len(start), int)
     best = descent.parameters.copy()
-    best_value = descent.value.copy() if held_out is None else held_out(descent.parameters, every)
-    best_at = np.zeros(len(start), int)
-    on = every
+    best_value = descent.value.copy() if held_out is None else held_out(descent.parameters, everyone)
+    active = everyone
     for iteration in range(options.iterations):
-        on = on[(np.abs(descent.downhill[on]).max(axis=1) > options.rest) & ~descent.exhausted[on]]
+        steep = np.abs(descent.downhill[active]).max(axis=1) > options.gradient_tolerance
+        active = active[steep & ~descent.exhausted[active]]
         if held_out is not None:
-            on = on[taken[on] - best_at[on] < options.patience]
-        if len(on) == 0:
+            active = active[iterations[active] - best_iteration[active] < options.patience]
+        if len(active) == 0:
             break
-        descent.step(on, restart=(iteration + 1) % start.shape[1] == 0)
-        taken[on] += 1
-        value = descent.value[on] if held_out is None else held_out(descent.parameters[on], on)
-        better = on[value < best_value[on]]
-        best[better], best_at[better] = descent.parameters[better], taken[better]
-        best_value[better] = value[value < best_value[on]]
-    return Minimum(best, best_value, taken)
+        descent.step(active, restart=(iteration + 1) % start.shape[1] == 0)
+        iterations[active] += 1
+        value = descent.value[active] if held_out is None else held_out(descent.parameters[active], active)
+        improved = value < best_value[active]
+        better = active[improved]
+        best[better], best_iteration[better] = descent.parameters[better], iterations[better]
+        best_value[better] = value[improved]
+    return Minimum(best, best_value, iterations)

@@ -1,7 +1,7 @@
-"""WindowCovariance: what do short windows of a recording's residuals look like where nothing happens?
+"""Covariance of short windows of residuals, whatever their size: how well a sample follows from those about it.
 
-Some systems smooth their trajectories, some jitter; some bodies move fast. The covariance of short windows, but for
-polynomials of a low order, tells how well a sample follows from those about it, and what is off that.
+Some systems smooth their trajectories, others jitter, and some bodies move fast. The covariance is estimated from each
+recording, apart from polynomials of a low order and up to a factor of each window's own.
 """
 
 from __future__ import annotations
@@ -13,71 +13,130 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 
-ROUNDS = 8
-"""Iterations of the covariance; it changes by less than a percent after."""
+ITERATIONS = 8
+"""Iterations of the estimator; the covariance changes by less than a percent after them."""
 
 
 @dataclass(frozen=True, eq=False)
 class WindowCovariance:
-    """Covariance of windows, but for polynomials of an order, and up to a factor that is another in each window.
+    """Covariance of windows, apart from polynomials and up to a factor that differs between windows.
 
-    covariance: (n, n). order: polynomials up to it may take any size. Windows shorter than n have a part of it.
+    Attributes
+    ----------
+    covariance : np.ndarray
+        Covariance (n, n); windows of fewer samples have its leading part.
+    order : int
+        Polynomials up to this order may take any size.
     """
 
     covariance: np.ndarray
     order: int
 
     def precision(self, size: int) -> np.ndarray:
-        """Inverse of the covariance of windows of `size` samples, (size, size), 0 on polynomials.
+        """Invert the covariance of windows on the complement of the polynomials.
 
-        In units in which the middle sample is expected with a standard deviation of 1, given the others.
+        Parameters
+        ----------
+        size : int
+            Length of the windows, samples, at most n.
+
+        Returns
+        -------
+        np.ndarray
+            Precision (size, size), 0 on polynomials, scaled such that the middle sample has a conditional standard
+            deviation of 1 given the others.
         """
-        free = _free(size, self.order)
-        inverse = free @ np.linalg.inv(free.T @ self.covariance[:size, :size] @ free) @ free.T
-        return inverse / inverse[size // 2, size // 2]
+        basis = _polynomial_complement(size, self.order)
+        inverse = basis @ np.linalg.inv(basis.T @ self.covariance[:size, :size] @ basis) @ basis.T
+        precision: np.ndarray = inverse / inverse[size // 2, size // 2]
+        return precision
 
     def degrees_of_freedom(self, size: int) -> int:
-        """Degrees of freedom that polynomials leave to windows of `size` samples."""
+        """Count the degrees of freedom that polynomials leave to a window.
+
+        Parameters
+        ----------
+        size : int
+            Length of the window, samples.
+
+        Returns
+        -------
+        int
+            Degrees of freedom of one axis.
+        """
         return size - self.order - 1
 
 
 def sliding_windows(values: np.ndarray, size: int) -> np.ndarray:
-    """All windows of (frames, 3): (windows, 3, size)."""
+    """View all windows of a signal.
+
+    Parameters
+    ----------
+    values : np.ndarray
+        Signal (frames, axes).
+    size : int
+        Length of the windows, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Read-only view (frames - size + 1, axes, size).
+    """
     return np.lib.stride_tricks.sliding_window_view(values, size, axis=0)
 
 
 def fit_window_covariance(
     residual: np.ndarray, *, size: int, order: int, shrinkage: float, max_windows: int
 ) -> WindowCovariance:
-    """Learn the regularity of residuals (frames, markers, 3), mm; NaN = missing, windows with gaps are left out.
+    """Estimate the covariance of windows by Tyler's M-estimator, regularised by shrinkage.
 
-    Tyler's M-estimator (Tyler 1987), which gives each window the same weight however large it is: artifacts, fast motion
-    and lively markers do not dominate. shrinkage: part of the mean variance that is added to all. max_windows: windows used.
-    Where there are too few windows to learn from, samples count as independent.
+    Every window has the same weight however large it is: artifacts, fast motion and noisy markers do not dominate.
+
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residuals (frames, markers, 3), mm, NaN = missing: windows with a gap do not count.
+    size : int
+        Length of the windows, samples.
+    order : int
+        Order of the polynomials that are projected out.
+    shrinkage : float
+        Part of the mean variance that is added to every direction.
+    max_windows : int
+        Largest number, about, of windows that are used.
+
+    Returns
+    -------
+    WindowCovariance
+        The covariance; that of independent samples where there are too few windows.
+
+    References
+    ----------
+    Tyler (1987), "A distribution-free M-estimator of multivariate scatter", Ann. Stat. 15(1).
     """
-    free = _free(size, order)
+    basis = _polynomial_complement(size, order)
     step = max(1, 3 * residual.shape[0] * residual.shape[1] // max_windows)
-    parts = [own.reshape(-1, size)[::step] @ free for own in _whole(residual, size)]
-    seen = np.concatenate(parts) if parts else np.zeros((0, free.shape[1]))
-    seen = seen[(seen**2).sum(axis=1) > 0]
-    inner = np.eye(free.shape[1])
-    if len(seen) > size:
-        for _ in range(ROUNDS):
-            weight = 1 / np.einsum("id,de,ie->i", seen, np.linalg.inv(inner), seen, optimize=True)
-            inner = (seen * weight[:, None]).T @ seen
-            inner = inner / (np.trace(inner) / len(inner)) + shrinkage * np.eye(len(inner))
-    return WindowCovariance(free @ inner @ free.T, order)
+    parts = [own.reshape(-1, size)[::step] @ basis for own in _complete_windows(residual, size)]
+    windows = np.concatenate(parts) if parts else np.zeros((0, basis.shape[1]))
+    windows = windows[(windows**2).sum(axis=1) > 0]
+    scatter = np.eye(basis.shape[1])
+    if len(windows) > size:
+        for _ in range(ITERATIONS):
+            weight = 1 / np.einsum("id,de,ie->i", windows, np.linalg.inv(scatter), windows, optimize=True)
+            scatter = (windows * weight[:, None]).T @ windows
+            scatter = scatter / (np.trace(scatter) / len(scatter)) + shrinkage * np.eye(len(scatter))
+    return WindowCovariance(basis @ scatter @ basis.T, order)
 
 
-def _whole(residual: np.ndarray, size: int) -> Iterator[np.ndarray]:
-    """The windows of all markers that have no gap."""
+def _complete_windows(residual: np.ndarray, size: int) -> Iterator[np.ndarray]:
+    """The windows (n, 3, size) of all markers that have no gap."""
     for m in range(residual.shape[1]):
         for start, stop in runs(~np.isnan(residual[:, m, 0])):
             if stop - start >= size:
                 yield sliding_windows(residual[start:stop, m], size)
 
 
-def _free(size: int, order: int) -> np.ndarray:
-    """Orthonormal basis of what no polynomial of the order reaches in a window, (size, size - order - 1)."""
-    basis = np.vander(np.linspace(-1, 1, size), order + 1)
-    return np.linalg.svd(basis)[0][:, order + 1 :]
+def _polynomial_complement(size: int, order: int) -> np.ndarray:
+    """Orthonormal basis (size, size - order - 1) of the windows orthogonal to all polynomials of the order."""
+    polynomials = np.vander(np.linspace(-1, 1, size), order + 1)
+    return np.linalg.svd(polynomials)[0][:, order + 1 :]

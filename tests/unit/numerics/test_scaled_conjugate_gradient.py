@@ -6,7 +6,7 @@ import pytest
 from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimise
 from support import naive
 
-OPTIONS = DescentOptions(iterations=1000, rest=1e-8, probe=1e-6, patience=5)
+OPTIONS = DescentOptions(iterations=1000, gradient_tolerance=1e-8, probe=1e-6, patience=5)
 
 
 def quadratics(count, size, seed=0):
@@ -48,7 +48,7 @@ def test_curved_valleys_are_followed_to_their_end():
 
 @pytest.mark.parametrize("iterations", [1, 2, 5, 17, 60])
 def test_the_same_as_the_plain_twin(iterations):
-    options = DescentOptions(iterations=iterations, rest=1e-8, probe=1e-6, patience=5)
+    options = DescentOptions(iterations=iterations, gradient_tolerance=1e-8, probe=1e-6, patience=5)
     start = np.random.default_rng(1).normal(0, 1, (6, 2))
     found = minimise(rosenbrock, start, options=options).parameters
     for problem in range(6):

@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import RidgeModel, robust_weights
@@ -33,7 +34,7 @@ class RidgeChoice:
         present = scene.present[np.ix_(frames, candidates)]
         # A frame's anchors are its first present candidates; frames that share them share a model.
         leading = present & (np.cumsum(present, axis=1) <= self.options.anchors)
-        for anchors, rows in _groups(leading):
+        for anchors, rows in group_rows(leading):
             if anchors.sum() < 3:
                 continue
             often, ever = present[rows].all(axis=0), present[rows].any(axis=0)
@@ -41,7 +42,7 @@ class RidgeChoice:
             if model is None:
                 continue
             seen = scene.present[np.ix_(frames[rows], model.inputs)]
-            for used, members in _groups(seen):
+            for used, members in group_rows(seen):
                 yield model, used, frames[rows][members]
 
     def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
@@ -128,17 +129,6 @@ class RidgeChoice:
                 inputs.append(candidate)
                 together = joint
         return np.array(inputs)
-
-
-def _groups(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield each distinct row of a bool matrix with the indices of the rows that equal it."""
-    if len(rows) and (rows == rows[:1]).all():
-        yield rows[0], np.arange(len(rows))
-        return
-    distinct, inverse = np.unique(rows, axis=0, return_inverse=True)
-    inverse = inverse.reshape(-1)
-    order = np.argsort(inverse, kind="stable")
-    yield from zip(distinct, np.split(order, np.cumsum(np.bincount(inverse))[:-1]), strict=True)
 
 
 def _shape(scene: Scene, together: np.ndarray, markers: np.ndarray, minimum: int) -> np.ndarray | None:

@@ -158,4 +158,4 @@ class BoneLengths:
         diagonal[self.rows] += weighted @ seen
         right[self.rows] += (weighted @ offset[..., None])[..., 0]
         solved = block_tridiagonal.solve(diagonal, self.below, right)
-        return solved.solution, solved.diagonal[self.rows]
+        return solved.solution, solved.inverse_diagonal[self.rows]

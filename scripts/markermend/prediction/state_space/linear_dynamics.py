@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics import block_tridiagonal
+from markermend.numerics.interpolation import interpolate_missing
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ class LinearDynamics:
             + (len(observed) - 1) * np.linalg.slogdet(self.drive)[1]
             + solved.log_determinant
         )
-        return States(solved.solution, solved.diagonal, solved.below, float(-twice / 2))
+        return States(solved.solution, solved.inverse_diagonal, solved.inverse_below, float(-twice / 2))
 
     def positions(self, states: np.ndarray) -> np.ndarray:
         """Where the markers are expected (n, markers, 3) at states (n, d)."""
@@ -137,7 +138,7 @@ def maximise(observed: np.ndarray, states: States, *, floor: float) -> LinearDyn
 
 def _first_guess(observed: np.ndarray, *, hidden: int, lag: int, floor: float) -> States:
     """States of unit variance, taken to be known exactly."""
-    columns = [_bridged(column) for column in observed.reshape(len(observed), -1).T]
+    columns = [interpolate_missing(column) for column in observed.reshape(len(observed), -1).T]
     matrix = np.stack(columns, axis=1)
     later = matrix[np.minimum(np.arange(len(matrix)) + lag, len(matrix) - 1)]
     both = np.concatenate([matrix, later], axis=1)
@@ -146,9 +147,3 @@ def _first_guess(observed: np.ndarray, *, hidden: int, lag: int, floor: float) -
     mean = vectors[:, : max(1, min(hidden, real))] * np.sqrt(len(matrix))
     frames, size = mean.shape
     return States(mean, np.zeros((frames, size, size)), np.zeros((frames - 1, size, size)), -np.inf)
-
-
-def _bridged(column: np.ndarray) -> np.ndarray:
-    """A copy with straight lines over what is missing."""
-    known = np.flatnonzero(~np.isnan(column))
-    return np.interp(np.arange(len(column)), known, column[known])

@@ -95,8 +95,8 @@ def test_cyclic_reduction_equals_the_dense_inverse(blocks):
     assert all(np.array_equal(a, b) for a, b in zip(given, (diagonal, below, right), strict=True))
     assert np.allclose(solved.solution.reshape(-1), np.linalg.solve(dense, right.reshape(-1)))
     assert np.isclose(solved.log_determinant, np.linalg.slogdet(dense)[1])
-    assert all(np.allclose(solved.diagonal[t], inverse[t, :, t]) for t in range(blocks))
-    assert all(np.allclose(solved.below[t], inverse[t + 1, :, t]) for t in range(blocks - 1))
+    assert all(np.allclose(solved.inverse_diagonal[t], inverse[t, :, t]) for t in range(blocks))
+    assert all(np.allclose(solved.inverse_below[t], inverse[t + 1, :, t]) for t in range(blocks - 1))
 
 
 @pytest.mark.parametrize("frames", [1, 2, 30])
