@@ -129,14 +129,16 @@ def high_pass(signal: np.ndarray, window: int, order: int) -> np.ndarray:
         raise ValueError(f"window {window} is not odd or not above the order {order}")
 
     def run_high_pass(run: np.ndarray) -> np.ndarray:
+        rest: np.ndarray
         if len(run) < window:
-            rest: np.ndarray = run - smoothing_matrix(len(run), min(order, len(run) - 1)) @ run
+            rest = run - smoothing_matrix(len(run), min(order, len(run) - 1)) @ run
             return rest
         matrix, half = smoothing_matrix(window, order), window // 2
         smooth: np.ndarray = ndimage.convolve1d(run, matrix[half])
         smooth[:half] = matrix[:half] @ run[:window]
         smooth[-half:] = matrix[-half:] @ run[-window:]
-        return run - smooth
+        rest = run - smooth
+        return rest
 
     return per_run(run_high_pass, signal)
 

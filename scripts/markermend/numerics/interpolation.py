@@ -65,7 +65,8 @@ def interpolate_missing(values: np.ndarray) -> np.ndarray:
         Vector (n,) without NaN.
     """
     known = np.flatnonzero(~np.isnan(values))
-    return np.interp(np.arange(len(values)), known, values[known])
+    filled: np.ndarray = np.interp(np.arange(len(values)), known, values[known])
+    return filled
 
 
 def bridge_linear(signal: np.ndarray, max_gap: int) -> np.ndarray:
