@@ -4,14 +4,11 @@ Reads: 06_repaired.parquet, mesh.json.
 Writes: 07_filled.parquet.
 """
 
-from dataclasses import replace
-
 from markermend.command.stage import Stage, boolean, mapping, objects, optional
 from markermend.core import decisions
-from markermend.filling.ensemble import Ensemble
 from markermend.filling.fill import fill_gaps
 from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import FAMILIES, REGISTRY, members
+from markermend.prediction.registry import FAMILIES
 from markermend.storage import mesh_file, stage_files
 
 STAGE = Stage("fill", __doc__)
@@ -39,25 +36,16 @@ for family, whose in FAMILIES.items():
 
 def work(call):
     restored = stage_files.read_recording(call.repaired)
-    body = mesh_file.read(call.mesh, restored.facts["recording"])
-    settings = {name: call.options[name] for name in FAMILIES}
-    own = {name: value for name, value in call.options.items() if name not in settings}
-    names, most, decided = (own.pop(name) for name in ("members", "trial_frames", "decisions"))
-    averaging = EnsembleOptions(**own.pop("ensemble"))
-    wanted = {entry["value"] for entry in decided if entry["decision"] == "method"} & {*REGISTRY, *settings["variants"]}
-
-    def together(names, options):
-        return Ensemble(members(names, settings), members(names, settings, most_frames=most), options)
-
+    predictors = {name: call.options[name] for name in FAMILIES}
+    own = {name: value for name, value in call.options.items() if name not in predictors}
+    decided = decisions.read(own.pop("decisions"), restored.first_frame)
     filled = fill_gaps(
         restored,
-        body.neighbour_indices(restored.markers),
-        relatives=body.relative_indices(restored.markers),
-        ensemble=together(names, averaging),
-        options=FillOptions(**own),
-        decisions=decisions.read(decided, restored.first_frame),
-        alone={name: together([name], replace(averaging, longest_s={})) for name in sorted(wanted)},
-    )
+        mesh_file.read(call.mesh, restored.facts["recording"]),
+        options=FillOptions(**{**own, "ensemble": EnsembleOptions(**own["ensemble"])}),
+        predictors=predictors,
+        decisions=decided,
+    ).recording
     stage_files.write_recording(call.filled, filled, call.facts)
     return f"{len(filled.facts['fills'])} gaps filled, {len(filled.facts['gaps_left'])} left"
 

@@ -15,14 +15,15 @@ import numpy as np
 
 from benchmarks.support.defaults import CONFIG, MESH
 from markermend.core.recording import MEASURED, MISSING, Restored
-from markermend.filling.ensemble import Ensemble
-from markermend.filling.fill import fill_gaps
+from markermend.filling.ensembles import make_ensembles
+from markermend.filling.fill import fill_scene
 from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
 from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import FAMILIES, members
+from markermend.prediction.registry import FAMILIES
+from markermend.prediction.scene import Scene
 
 LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "ends": True, "protect": [], "seen_share": 0.0, "border_s": 0.0}
 LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
@@ -40,15 +41,19 @@ def load(folder, name):
 
 
 @cache
-def ensemble(names, changes=()):
-    """The averaging of the config over the named members, with changed settings (dotted name, value) of the ensemble."""
+def lifted(names, changes=()):
+    """The options of the config with the limits lifted, and the ensemble over the named members that they describe.
+
+    changes: changed settings (dotted name, value) of the ensemble.
+    """
     fill = copy.deepcopy(CONFIG["fill"])
     for name, value in changes:
         *path, last = name.split(".")
         reduce(dict.__getitem__, path, fill["ensemble"])[last] = value
-    settings = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
-    brief = members(names, settings, most_frames=fill["trial_frames"])
-    return Ensemble(members(names, settings), brief, EnsembleOptions(**fill["ensemble"]))
+    predictors = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
+    own = {name: fill[name] for name in ("reuse", "trial_frames")}
+    options = FillOptions(**LIFTED, **own, members=names, ensemble=EnsembleOptions(**fill["ensemble"]))
+    return options, make_ensembles(options, predictors)
 
 
 def fill_gapped(whole, gaps, neighbours, names, changes=()):
@@ -62,8 +67,8 @@ def fill_gapped(whole, gaps, neighbours, names, changes=()):
     restored = Restored(
         whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
     )
-    options = FillOptions(**LIFTED, reuse=CONFIG["fill"]["reuse"])
-    return fill_gaps(restored, neighbours, ensemble=ensemble(names, changes), options=options)
+    options, ensembles = lifted(names, changes)
+    return fill_scene(restored, Scene(positions, whole.rate, neighbours), ensembles, options).recording
 
 
 def fill_case(folder, case, names, changes=()):

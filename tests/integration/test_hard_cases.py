@@ -7,16 +7,15 @@ import numpy as np
 import pytest
 
 from markermend.core.recording import FILLED, MISSING, Recording, Restored
-from markermend.filling.fill import fill_gaps
 from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.mesh.inference import infer_mesh
 from markermend.mesh.pair_statistics import thin
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
-from support import bodies
+from support import bodies, fillings
 from support.c3d_files import write
-from support.fillings import CONFIG, ensemble, fill_options, restored, rigid_body
+from support.fillings import CONFIG, restored, rigid_body
 from support.paths import PROJECT
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -32,19 +31,14 @@ class Outcome(NamedTuple):
     left: dict[str, str]
 
 
-def fill(whole, gaps, *, members=None, averaging=None, **options):
+def fill(whole, gaps, **options):
     """Make gaps (marker, start, stop), infer the mesh, fill, and check what must hold whatever happens."""
     positions = whole.positions.copy()
     for marker, start, stop in gaps:
         positions[start:stop, marker] = np.nan
     gapped = restored(positions, markers=whole.markers, rate=whole.rate)
     mesh = mesh_of(gapped)
-    result = fill_gaps(
-        gapped,
-        mesh.neighbour_indices(whole.markers),
-        ensemble=ensemble(members, **(averaging or {})),
-        options=fill_options(**options),
-    )
+    result = fillings.fill(gapped, mesh.neighbour_indices(whole.markers), **options).recording
     missing = gapped.missing
     assert np.array_equal(result.positions[~missing], positions[~missing])
     open_ = result.missing
@@ -158,7 +152,7 @@ def test_all_markers_lost(chain):
 
 def test_a_marker_seen_rarely(chain):
     gaps = [(5, start, start + 75) for start in range(10, 1460, 100)]
-    left_open(fill(chain, gaps), "marker seen in 25% of the frames, 30% needed")
+    left_open(fill(chain, gaps), "marker seen in 25% of the frames (fill.seen_share: 0.3)")
     filled_well(fill(chain, gaps, seen_share=0.2), gaps=15, error=2)
 
 
@@ -194,7 +188,7 @@ def test_nobody_else_is_used(chain):
     own = [(3, 500, 560), (12, 900, 1000)]
     alone, together = fill(chain, own), fill(both, own)
     deserted = fill(both, own + [(m, 450, 1100) for m in range(20, 40)])
-    assert set(deserted.left.values()) == {"gap of 6.50 s, longest to fill 2 s"}
+    assert set(deserted.left.values()) == {"gap of 6.50 s (fill.max_gap_s: 2)"}
     filled_well(alone, gaps=2, error=1)
     for done in (together, deserted):
         assert np.array_equal(done.result.positions[:, :20], alone.result.positions)
@@ -241,7 +235,7 @@ def test_metres_are_filled_alike(chain, tmp_path):
 def test_few_frames(chain, frames, gap):
     done = fill(first(chain, frames=frames), [gap])
     if frames < 50:
-        left_open(done, "not seen for 0.02 s on both sides")
+        left_open(done, "not seen on both sides for long enough (fill.border_s: 0.02)")
     else:
         filled_well(done, gaps=1, error=3)
 
@@ -259,13 +253,13 @@ def test_islands_of_a_sample_or_two(chain, between):
     gaps = [(9, start, start + 24) for start in range(600, 600 + 5 * (24 + between), 24 + between)]
     done = fill(chain, gaps)
     if between == 1:
-        left_open(done, "not seen for 0.02 s on both sides")
+        left_open(done, "not seen on both sides for long enough (fill.border_s: 0.02)")
         done = fill(chain, gaps, border_s=0.0)
     filled_well(done, gaps=5, error=2)
 
 
 def test_a_marker_that_is_hardly_there(chain):
-    left_open(fill(chain, [(9, 100, 1430)]), "marker seen in 11% of the frames, 30% needed")
+    left_open(fill(chain, [(9, 100, 1430)]), "marker seen in 11% of the frames (fill.seen_share: 0.3)")
     filled_well(fill(chain, [(9, 100, 1430)], seen_share=0.0, max_gap_s=None), gaps=1, error=3)
     done = fill(chain, [(9, 20, 1480)], seen_share=0.0, max_gap_s=None)
     left_open(done, "no method could fill it; fewest neighbours seen: 0")

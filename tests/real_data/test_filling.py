@@ -4,8 +4,7 @@ import ezc3d
 import numpy as np
 import pytest
 
-from markermend.filling.fill import fill_gaps
-from support.fillings import ensemble, fill_options, neighbours, restored
+from support.fillings import fill, neighbours, restored
 
 pytestmark = pytest.mark.data
 
@@ -28,7 +27,7 @@ def test_the_shoulder_of_the_tennis_serve(data):
     positions, gapped_names, _ = load(data / "raw" / "kinematics_tennis_serve_nan.c3d")
     truth = truth[:, [names.index(name) for name in gapped_names]]
     recording = restored(positions, markers=gapped_names, rate=rate)
-    result = fill_gaps(recording, neighbours(positions), ensemble=ensemble(), options=fill_options(max_error_mm=None))
+    result = fill(recording, neighbours(positions), max_error_mm=None).recording
     assert len(result.facts["fills"]) == 10
     missing = recording.missing
     assert np.array_equal(result.positions[~missing], positions[~missing])
@@ -48,7 +47,7 @@ def test_half_a_second_on_a_moving_body(data, file, marker):
     positions = truth[1000:2500].copy()
     positions[500:560, [marker, marker + 1, marker - 9]] = np.nan
     recording = restored(positions, markers=names, rate=rate)
-    result = fill_gaps(recording, neighbours(positions), ensemble=ensemble(), options=fill_options())
+    result = fill(recording, neighbours(positions)).recording
     distance = np.linalg.norm(result.positions - truth[1000:2500], axis=2)[recording.missing]
     assert len(result.facts["fills"]) == 3
     assert distance.mean() < 15
@@ -59,8 +58,8 @@ def test_a_marker_never_seen_is_reported_and_ends_stay_open(data):
     positions, names, rate = load(data / "raw" / "nick_freeform_001.c3d")
     positions = positions[:600]
     recording = restored(positions, markers=names, rate=rate)
-    quick = ensemble(["local_ridge", "spline"], pseudo_gaps=1)
-    result = fill_gaps(recording, neighbours(positions), ensemble=quick, options=fill_options(max_gap_s=0.1))
+    quick = {"members": ["local_ridge", "spline"], "averaging": {"pseudo_gaps": 1}}
+    result = fill(recording, neighbours(positions), max_gap_s=0.1, **quick).recording
     reasons = {entry["marker"]: entry["reason"] for entry in result.facts["gaps_left"]}
     clavicle = next(name for name in names if name.endswith("CLAV"))
     assert reasons[clavicle] == "never seen"

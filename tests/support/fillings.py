@@ -5,13 +5,16 @@ import yaml
 
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.ensemble import Ensemble
+from markermend.filling.ensembles import make_ensembles
+from markermend.filling.fill import fill_scene
 from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.prediction.registry import FAMILIES, members
 from markermend.prediction.scene import Scene
 from support.paths import PROJECT
 
 CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
-OWN = ("max_gap_s", "max_gap_s_of", "ends", "seen_share", "border_s", "max_error_mm", "max_altered_share")
+LIMITS = ("max_gap_s", "max_gap_s_of", "ends", "seen_share", "border_s", "max_error_mm", "max_altered_share")
+OWN = (*LIMITS, "reuse", "members", "trial_frames")
 
 
 def settings():
@@ -26,17 +29,29 @@ def predictor(name):
     return members([name], settings())[0]
 
 
+def ensemble_options(**changed):
+    """The default options of the averaging, with some changed."""
+    return EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed})
+
+
 def ensemble(names=None, **changed):
-    """The default ensemble, with other members or some settings changed."""
+    """The default ensemble, with other members or some options changed."""
     names = names or CONFIG["fill"]["members"]
     brief = members(names, settings(), most_frames=CONFIG["fill"]["trial_frames"])
-    return Ensemble(members(names, settings()), brief, EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed}))
+    return Ensemble(members(names, settings()), brief, ensemble_options(**changed))
 
 
-def fill_options(**changed):
-    """The default rules of what may be filled, with some changed."""
-    own = {name: CONFIG["fill"][name] for name in (*OWN, "reuse")}
-    return FillOptions(**{"protect": [], **own, **changed})
+def fill_options(averaging=None, **changed):
+    """The default options of filling, with some of them, or of the averaging, changed."""
+    own = {name: CONFIG["fill"][name] for name in OWN}
+    return FillOptions(**{"protect": [], **own, "ensemble": ensemble_options(**(averaging or {})), **changed})
+
+
+def fill(recording, near, *, decisions=(), **changed):
+    """Fill a recording with given neighbours, with some options of filling or of the averaging changed."""
+    options = fill_options(**changed)
+    seen = Scene(recording.positions, recording.rate, near)
+    return fill_scene(recording, seen, make_ensembles(options, settings(), decisions), options, decisions)
 
 
 def neighbours(positions):

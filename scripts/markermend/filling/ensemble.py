@@ -1,8 +1,7 @@
-"""Probabilistic model averaging: several predictors of one gap, weighted by how likely and how good each is.
+"""An ensemble of predictors fills a gap with the weighted mean of their predictions.
 
-The likelihood of a member's positions comes from their distances to the marker's references (tits2018). How good it is
-for this marker and this length is measured on pseudo-gaps: stretches of the same marker, hidden together with the
-markers that the real gap misses. They also calibrate the error that is stated for every sample.
+Members are weighted by their errors on pseudo-gaps, by the likelihood of the distances to the marker's references
+(tits2018), or both. Pseudo-gaps also calibrate the standard deviation that is stated for every filled sample.
 """
 
 from __future__ import annotations
@@ -14,39 +13,35 @@ from functools import partial
 
 import numpy as np
 
-from markermend.filling.constraints import constrain_time
+from markermend.filling.candidates import Candidates, predict_candidates
 from markermend.filling.distance_likelihood import Distances
+from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
 from markermend.filling.member_weights import (
-    Trust,
+    MemberWeights,
+    deviation_scale,
     expected_errors,
-    shares,
+    inverse_power_weights,
     squared_errors,
-    stated_scale,
     typical_errors,
 )
-from markermend.filling.model_averaging import weighted_mean
-from markermend.filling.pseudo_gaps import pseudo_gaps
+from markermend.filling.model_averaging import mixture_deviation, weighted_mean
+from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import DistanceOptions, EnsembleOptions
-from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Predictor, Scene, Trainable
-
-
-@dataclass(frozen=True)
-class Sort:
-    """What gaps of a marker have in common: about their length, whether they are at the start or end, who is missing."""
-
-    marker: int
-    size: int
-    ends: tuple[bool, bool]
-    absent: frozenset[int]
 
 
 @dataclass(frozen=True)
 class Filling:
     """What to write into a gap of n frames.
 
-    positions: (n, 3), mm, NaN where no member can tell. deviation: (n,), mm, standard deviation of each axis. weights:
-    the members' mean shares.
+    Attributes
+    ----------
+    positions : ndarray, shape (n, 3)
+        Positions, mm; NaN where no member has a prediction.
+    deviation : ndarray, shape (n,)
+        Standard deviation of each axis, mm; NaN where unknown.
+    weights : dict of str to float
+        Mean weight of each member that has any, by its name; the sum is 1.
     """
 
     positions: np.ndarray
@@ -55,152 +50,214 @@ class Filling:
 
 
 @dataclass(frozen=True)
-class _Candidates:
-    """What the members say on one gap: positions (members, n, 3) after the time constraint, errors (members, n), mm."""
+class _Average:
+    """Weighted mean (n, 3), mm, its stated standard deviation (n,) per axis, mm, and the members' mean weights."""
 
     positions: np.ndarray
-    errors: np.ndarray
+    deviation: np.ndarray
+    weights: np.ndarray
 
 
 class Ensemble:
-    """Predictors that fill gaps together."""
+    """Predictors that fill gaps together.
+
+    Parameters
+    ----------
+    members : sequence of Predictor
+        The predictors.
+    trial_members : sequence of Predictor
+        What stands for each member on pseudo-gaps, such as the same predictor with less training; names as in members.
+    options : EnsembleOptions
+        How they are weighted.
+
+    Raises
+    ------
+    ValueError
+        Where the names of the trial members differ from those of the members.
+    """
 
     def __init__(
         self, members: Sequence[Predictor], trial_members: Sequence[Predictor], options: EnsembleOptions
     ) -> None:
-        """trial_members: what stands for each member on pseudo-gaps, such as the same with less training."""
         if [member.name for member in members] != [member.name for member in trial_members]:
             raise ValueError("trial members differ from the members")
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
-        self._judging = DistanceOptions(**options.distances)  # type: ignore[arg-type]
+        self._distance_options = DistanceOptions(**options.distances)  # type: ignore[arg-type]
 
-    def sort(self, scene: Scene, marker: int, start: int, stop: int, known: Collection[Sort]) -> Sort:
-        """The sort of gap that this is: what try_out tells of one holds for all of its sort.
+    def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
+        """Find the kind of a gap; the result of `evaluate` for one gap holds for all gaps of its kind.
 
-        known: the sorts of before. Where these are many of the marker, it is the one most alike of those.
+        Parameters
+        ----------
+        scene : Scene
+            The recording.
+        gap : Gap
+            The gap.
+        known : collection of GapKind
+            Kinds of earlier gaps, which stand in for a new one where the marker has many.
+
+        Returns
+        -------
+        GapKind
+            The kind, one of `known` or a new one.
         """
-        near = np.asarray(scene.neighbours[marker], int)[: self.options.similar_neighbours]
-        absent = np.flatnonzero(~scene.present[start:stop, near].all(axis=0))
-        size = math.floor(math.log(stop - start, self.options.similar_length))
-        ends = start == 0, stop == len(scene.positions)
-        own = Sort(marker, size, ends, frozenset(near[absent].tolist()))
-        before = [sort for sort in known if sort.marker == marker]
-        alike = [sort for sort in before if sort.ends == ends]
-        if own in known or len(before) < self.options.most_sorts or not alike:
-            return own
-        return min(alike, key=lambda sort: (abs(sort.size - size), len(sort.absent ^ own.absent), sorted(sort.absent)))
+        options = self.options
+        own = gap_kind(scene, gap, length_ratio=options.similar_length, neighbours=options.similar_neighbours)
+        return known_kind(own, known, max_kinds=options.most_sorts)
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
-        """Let the members that learn faster together learn for each scene and marker."""
+        """Train the members that are trained faster for several markers at once.
+
+        Parameters
+        ----------
+        jobs : sequence of tuple
+            Scenes and the markers that will be filled in them.
+        """
         _train(self.members, jobs)
 
-    def try_out(self, scene: Scene, marker: int, start: int, stop: int) -> Trust:
-        """Measure on pseudo-gaps what to think of the members on gaps such as [start, stop)."""
-        hidden = scene.without(marker, start, stop)
-        options = self.options
+    def evaluate(self, scene: Scene, gap: Gap) -> MemberWeights:
+        """Measure the errors of the members on pseudo-gaps.
+
+        Parameters
+        ----------
+        scene : Scene
+            The recording; the samples of the gap are not used.
+        gap : Gap
+            The gap to imitate.
+
+        Returns
+        -------
+        MemberWeights
+            Weights of the members, and how far the stated standard deviations hold.
+        """
+        hidden, options = scene.without(gap.marker, gap.start, gap.stop), self.options
         trials = pseudo_gaps(
             hidden,
-            marker,
-            start,
-            stop,
+            gap,
             count=options.pseudo_gaps,
-            share=options.hidden_share,
-            company=options.similar_neighbours,
+            hidden_share=options.hidden_share,
+            neighbours=options.similar_neighbours,
         )
-        _train(self.trial_members, list({id(trial.scene): (trial.scene, marker) for trial in trials}.values()))
-        tried = [self._candidates(self.trial_members, trial.scene, marker, trial.start, trial.stop) for trial in trials]
+        _train(self.trial_members, list({id(trial.scene): (trial.scene, gap.marker) for trial in trials}.values()))
+        candidates = [self._candidates(self.trial_members, trial.scene, trial.gap) for trial in trials]
         errors = squared_errors(
-            [trial.truth for trial in trials], [each.positions for each in tried], len(self.members)
+            [trial.truth for trial in trials], [each.positions for each in candidates], len(self.members)
         )
-        distances = self._distances(hidden, marker)
-        ratios, missed, prior = np.full(len(trials), np.nan), [], options.prior
-        for k, (trial, candidates) in enumerate(zip(trials, tried, strict=True)):
-            others = self._trust(np.delete(errors, k, axis=0))
-            guess, stated, _ = self._average(trial.scene, distances, trial.start, candidates, others)
-            missed.append(np.linalg.norm(guess - trial.truth, axis=1) / stated)
-            known = missed[-1][~np.isnan(missed[-1])]
-            ratios[k] = (known**2).mean() / 3 if len(known) else np.nan
-        scaled = [values / stated_scale(np.delete(ratios, k), prior) for k, values in enumerate(missed)]
-        # Tried on shorter stretches only, errors are taken to grow as a random walk does.
-        beyond = math.sqrt((stop - start) / (trials[0].stop - trials[0].start)) if trials else 1.0
-        return replace(self._trust(errors), scale=beyond * stated_scale(ratios, prior), missed=tuple(scaled))
+        missed = self._cross_validate(self._distances(hidden, gap.marker), trials, candidates, errors)
+        ratios = np.array([_mean_square(each) for each in missed])
+        # Without their own factor: each pseudo-gap is judged by the factor of the others.
+        scaled = [each / deviation_scale(np.delete(ratios, k), options.prior) for k, each in enumerate(missed)]
+        # Where pseudo-gaps are shorter than the gap, errors are taken to grow as a random walk does.
+        growth = math.sqrt(gap.length / trials[0].gap.length) if trials else 1.0
+        scale = growth * deviation_scale(ratios, options.prior)
+        return replace(self._weights(errors), deviation_scale=scale, standardized_errors=tuple(scaled))
 
-    def fill(self, scene: Scene, marker: int, start: int, stop: int, trust: Trust) -> Filling:
-        """Fill one gap. The marker's samples in [start, stop) are not looked at."""
-        hidden = scene.without(marker, start, stop)
-        candidates = self._candidates(self.members, hidden, marker, start, stop)
-        distances = self._distances(hidden, marker)
-        positions, stated, means = self._average(hidden, distances, start, candidates, trust)
-        deviation = np.where(np.isnan(positions).any(axis=1), np.nan, stated * trust.scale)
+    def fill(self, scene: Scene, gap: Gap, weights: MemberWeights) -> Filling:
+        """Fill one gap.
+
+        Parameters
+        ----------
+        scene : Scene
+            The recording; the samples of the gap are not used.
+        gap : Gap
+            The gap.
+        weights : MemberWeights
+            Result of `evaluate` for the kind of the gap.
+
+        Returns
+        -------
+        Filling
+            Positions, their standard deviation, and the weights used.
+        """
+        hidden = scene.without(gap.marker, gap.start, gap.stop)
+        candidates = self._candidates(self.members, hidden, gap)
+        observed = hidden.positions[gap.start : gap.stop]
+        average = self._average(candidates, weights, self._distances(hidden, gap.marker), observed)
+        unknown = np.isnan(average.positions).any(axis=1)
+        deviation = np.where(unknown, np.nan, average.deviation * weights.deviation_scale)
         if scene.inherited_std is not None:
-            deviation = np.hypot(deviation, self._inherited(hidden, marker, start, stop, scene.inherited_std))
-        named = {member.name: float(share) for member, share in zip(self.members, means, strict=True) if share > 0}
-        return Filling(positions, deviation, named)
+            inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self._distance_options.references)
+            deviation = np.hypot(deviation, inherited)
+        shares = zip(self.members, average.weights, strict=True)
+        return Filling(
+            average.positions, deviation, {member.name: float(share) for member, share in shares if share > 0}
+        )
 
-    def _inherited(self, scene: Scene, marker: int, start: int, stop: int, doubt: np.ndarray) -> np.ndarray:
-        """Mean doubt (n,), mm, of the nearest neighbours seen in each frame: what filled neighbours have in common."""
-        near = np.asarray(scene.neighbours[marker], int)
-        seen = scene.present[start:stop, near]
-        used = seen & (np.cumsum(seen, axis=1) <= self._judging.references)
-        return np.where(used, doubt[start:stop, near], 0.0).sum(axis=1) / np.maximum(used.sum(axis=1), 1)
+    def _candidates(self, members: Sequence[Predictor], scene: Scene, gap: Gap) -> Candidates:
+        """Predict a gap with every member."""
+        options = self.options
+        return predict_candidates(members, scene, gap, max_duration_s=options.longest_s, fallback=options.fallback)
 
-    def _candidates(
-        self, members: Sequence[Predictor], scene: Scene, marker: int, start: int, stop: int
-    ) -> _Candidates:
-        """Ask every member."""
-        positions = np.full((len(members), stop - start, 3), np.nan)
-        errors = np.full((len(members), stop - start), np.nan)
-        borders = np.full((2, 3), np.nan)
-        for side, frame in enumerate((start - 1, stop)):
-            if 0 <= frame < len(scene.positions):
-                borders[side] = scene.positions[frame, marker]
-        body = [member.name not in KINDS for member in members]
-        for k, member in sorted(enumerate(members), key=lambda pair: pair[1].name in self.options.fallback):
-            if stop - start > self.options.longest_s.get(member.name, np.inf) * scene.rate:
-                continue
-            if member.name in self.options.fallback and not np.isnan(positions[body]).any(axis=(1, 2)).all():
-                continue
-            predicted = member.predict(scene, marker, start, stop)
-            course = predicted.positions if member.continuous else constrain_time(predicted.positions, borders)
-            positions[k], errors[k] = course[1:-1], predicted.error[1:-1]
-        return _Candidates(positions, errors)
-
-    def _trust(self, errors: np.ndarray) -> Trust:
-        """What to think of the members after errors on pseudo-gaps as from squared_errors."""
+    def _weights(self, errors: np.ndarray) -> MemberWeights:
+        """Weigh the members by their errors on pseudo-gaps, the result of squared_errors."""
         options, typical = self.options, typical_errors(errors)
         if options.weights in ("pma", "equal"):
-            return Trust(typical, np.ones(len(typical)), 1.0, ())
-        weights = shares(typical, power=options.power, worst=options.worst, least=options.error_mm)
-        return Trust(typical, weights, 1.0, ())
+            return MemberWeights(typical, np.ones(len(typical)))
+        weights = inverse_power_weights(
+            typical, power=options.power, max_ratio=options.worst, min_error_mm=options.error_mm
+        )
+        return MemberWeights(typical, weights)
 
-    def _distances(self, scene: Scene, marker: int) -> Distances:
-        """What distances of the marker to others usually are."""
-        return scene.cached((self, "distances", marker), partial(Distances.learn, scene, marker, self._judging))
+    def _distances(self, scene: Scene, marker: int) -> Distances | None:
+        """Distances of the marker to its references; None where neither the weights nor a constraint use them."""
+        if self.options.weights not in ("pma", "both") and not self._distance_options.spacing_rounds:
+            return None
+        learn = partial(Distances.learn, scene, marker, self._distance_options)
+        return scene.cached((self, "distances", marker), learn)
+
+    def _cross_validate(
+        self,
+        distances: Distances | None,
+        trials: Sequence[PseudoGap],
+        candidates: Sequence[Candidates],
+        errors: np.ndarray,
+    ) -> list[np.ndarray]:
+        """Errors on each pseudo-gap in stated standard deviations, with weights from the other pseudo-gaps alone."""
+        missed = []
+        for k, (trial, own) in enumerate(zip(trials, candidates, strict=True)):
+            others = self._weights(np.delete(errors, k, axis=0))
+            observed = trial.scene.positions[trial.gap.start : trial.gap.stop]
+            average = self._average(own, others, distances, observed)
+            missed.append(np.linalg.norm(average.positions - trial.truth, axis=1) / average.deviation)
+        return missed
 
     def _average(
-        self,
-        scene: Scene,
-        distances: Distances,
-        start: int,
-        candidates: _Candidates,
-        trust: Trust,
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Weighted mean (n, 3), its stated standard deviation (n,) per axis, and the members' mean shares."""
-        body = scene.positions[start : start + candidates.positions.shape[1]]
-        weights = np.broadcast_to(trust.shares[:, None], candidates.errors.shape)
-        if self.options.weights in ("pma", "both"):
-            weights = weights * distances.likelihood(candidates.positions, body)
-        positions, weights = weighted_mean(candidates.positions, weights)
-        errors = np.maximum(expected_errors(candidates.errors, trust.typical, weights), self.options.error_mm)
-        # The variance of a mixture: what the members state, and how far apart they are.
-        apart = ((np.nan_to_num(candidates.positions) - positions) ** 2).mean(axis=2)
-        variance = (weights * (errors**2 + np.where(weights > 0, apart, 0))).sum(axis=0)
-        return distances.constrained(positions, body), np.sqrt(variance), weights.mean(axis=1)
+        self, candidates: Candidates, members: MemberWeights, distances: Distances | None, observed: np.ndarray
+    ) -> _Average:
+        """Average the candidates; observed: positions (n, markers, 3), mm, of all markers during the gap."""
+        weights = np.broadcast_to(members.weights[:, None], candidates.errors.shape)
+        if distances is not None and self.options.weights in ("pma", "both"):
+            weights = weights * distances.likelihood(candidates.positions, observed)
+        mean, weights = weighted_mean(candidates.positions, weights)
+        errors = expected_errors(candidates.errors, members.typical_errors, weights)
+        errors = np.maximum(errors, self.options.error_mm)
+        deviation = mixture_deviation(candidates.positions, mean, errors, weights)
+        placed = mean if distances is None else distances.constrained(mean, observed)
+        return _Average(placed, deviation, weights.mean(axis=1))
+
+
+def _mean_square(missed: np.ndarray) -> float:
+    """Mean square per axis of the known among standardized distances (n,); NaN where none is known."""
+    known = missed[~np.isnan(missed)]
+    return float((known**2).mean() / 3) if len(known) else np.nan
+
+
+def _inherited_deviation(scene: Scene, gap: Gap, deviation: np.ndarray, neighbours: int) -> np.ndarray:
+    """Inherited standard deviation (n,), mm: the mean of those of the nearest neighbours seen in each frame.
+
+    deviation: (frames, markers), mm, of samples filled earlier. It is the error that filled neighbours have in common.
+    """
+    near = np.asarray(scene.neighbours[gap.marker], int)
+    seen = scene.present[gap.start : gap.stop, near]
+    used = seen & (np.cumsum(seen, axis=1) <= neighbours)
+    total = np.where(used, deviation[gap.start : gap.stop, near], 0.0).sum(axis=1)
+    inherited: np.ndarray = total / np.maximum(used.sum(axis=1), 1)
+    return inherited
 
 
 def _train(members: Sequence[Predictor], jobs: Sequence[tuple[Scene, int]]) -> None:
-    """Let those of the members that can learn for all jobs at once."""
+    """Train those of the members that can be trained for all jobs at once."""
     for member in members:
         if isinstance(member, Trainable):
             member.train(jobs)

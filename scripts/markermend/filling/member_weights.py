@@ -1,4 +1,4 @@
-"""How far to trust each of several predictors, and the error that they state, after trying them on hidden stretches."""
+"""Weights of the members of an ensemble, and the errors that they state, from their errors on pseudo-gaps."""
 
 from __future__ import annotations
 
@@ -10,71 +10,143 @@ import numpy as np
 
 
 @dataclass(frozen=True)
-class Trust:
-    """What pseudo-gaps tell about the members.
+class MemberWeights:
+    """What pseudo-gaps say about the members of an ensemble.
 
-    typical: (members,), mm, root mean square distance to the truth, NaN where unknown. shares: (members,), weights that
-    follow from it. scale: factor on the stated standard deviation. missed: for each pseudo-gap, by how many standard
-    deviations each sample was missed, had only the other pseudo-gaps been known.
+    Attributes
+    ----------
+    typical_errors : ndarray, shape (members,)
+        Root mean square distance to the truth, mm; NaN where unknown.
+    weights : ndarray, shape (members,)
+        Weights that follow from these errors, the largest 1.
+    deviation_scale : float
+        Factor on the standard deviation that the ensemble states.
+    standardized_errors : tuple of ndarray
+        For each pseudo-gap, distances (n,) to the truth in stated standard deviations, where weights and factor were
+        estimated from the other pseudo-gaps alone; NaN where nothing was predicted.
     """
 
-    typical: np.ndarray
-    shares: np.ndarray
-    scale: float
-    missed: tuple[np.ndarray, ...]
+    typical_errors: np.ndarray
+    weights: np.ndarray
+    deviation_scale: float = 1.0
+    standardized_errors: tuple[np.ndarray, ...] = ()
 
 
-def squared_errors(truths: Sequence[np.ndarray], guesses: Sequence[np.ndarray], members: int) -> np.ndarray:
-    """Sum of squared distances to the truth, mm^2, and samples that a member told: (pseudo-gaps, 2, members).
+def squared_errors(truths: Sequence[np.ndarray], predictions: Sequence[np.ndarray], members: int) -> np.ndarray:
+    """Sum the squared errors of every member on every pseudo-gap.
 
-    truths: for each pseudo-gap (n, 3), mm. guesses: for each (members, n, 3), NaN where a member tells nothing.
+    Parameters
+    ----------
+    truths : sequence of ndarray, shape (n, 3)
+        True positions during each pseudo-gap, mm.
+    predictions : sequence of ndarray, shape (members, n, 3)
+        Predictions of each pseudo-gap, mm; NaN where a member has none.
+    members : int
+        Number of members.
+
+    Returns
+    -------
+    ndarray, shape (pseudo-gaps, 2, members)
+        Sum of squared distances to the truth, mm^2, and number of samples that the member predicted.
     """
     errors = np.zeros((len(truths), 2, members))
-    for k, (truth, guess) in enumerate(zip(truths, guesses, strict=True)):
-        square = ((guess - truth) ** 2).sum(axis=2)
+    for k, (truth, predicted) in enumerate(zip(truths, predictions, strict=True)):
+        square = ((predicted - truth) ** 2).sum(axis=2)
         errors[k] = np.nansum(square, axis=1), np.count_nonzero(~np.isnan(square), axis=1)
     return errors
 
 
 def typical_errors(errors: np.ndarray) -> np.ndarray:
-    """Root mean square distance to the truth (members,), mm, over the pseudo-gaps of squared_errors; NaN = unknown."""
+    """Compute the root mean square distance to the truth of every member.
+
+    Parameters
+    ----------
+    errors : ndarray, shape (pseudo-gaps, 2, members)
+        Result of `squared_errors`.
+
+    Returns
+    -------
+    ndarray, shape (members,)
+        Root mean square distance, mm; NaN for a member that predicted no sample.
+    """
     square, count = errors.sum(axis=0)
-    return np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
+    typical: np.ndarray = np.where(count > 0, np.sqrt(square / np.maximum(count, 1)), np.nan)
+    return typical
 
 
-def shares(typical: np.ndarray, *, power: float, worst: float, least: float) -> np.ndarray:
-    """Weights (members,), the largest 1, that fall with a power of the typical errors (members,), mm.
+def inverse_power_weights(typical: np.ndarray, *, power: float, max_ratio: float, min_error_mm: float) -> np.ndarray:
+    """Weigh members by an inverse power of their typical errors.
 
-    Members worse than the best by the factor `worst`, or never tried, get none; where none was tried all are alike.
-    least: errors below it, mm, count as this.
+    Parameters
+    ----------
+    typical : ndarray, shape (members,)
+        Typical errors, mm; NaN where unknown.
+    power : float
+        Weights fall with this power of the error.
+    max_ratio : float
+        Members whose error exceeds the smallest by more than this factor get no weight.
+    min_error_mm : float
+        Smaller errors count as this, mm.
+
+    Returns
+    -------
+    ndarray, shape (members,)
+        Weights, the largest 1; 0 for members with unknown error, and 1 for all where every error is unknown.
     """
     known = np.isfinite(typical)
     if not known.any():
         return np.ones(len(typical))
-    floored = np.maximum(np.where(known, typical, np.inf), least)
+    floored = np.maximum(np.where(known, typical, np.inf), min_error_mm)
     weights = (floored.min() / floored) ** power
-    return np.where(floored <= worst * floored.min(), weights, 0)
+    return np.where(floored <= max_ratio * floored.min(), weights, 0)
 
 
-def stated_scale(ratios: np.ndarray, prior: float) -> float:
-    """Factor on stated deviations: by how much pseudo-gaps were missed, mean squares (n,); prior: weight of no change."""
+def deviation_scale(ratios: np.ndarray, prior: float) -> float:
+    """Estimate the factor by which stated standard deviations are too small.
+
+    Parameters
+    ----------
+    ratios : ndarray, shape (pseudo-gaps,)
+        Mean square of the standardized error per axis on each pseudo-gap; NaN where unknown.
+    prior : float
+        Weight of the prior factor 1, in pseudo-gaps.
+
+    Returns
+    -------
+    float
+        The factor.
+    """
     known = ratios[~np.isnan(ratios)]
-    whole = prior + len(known)
-    return math.sqrt((prior + known.sum()) / whole) if whole else 1.0
+    total = prior + len(known)
+    return math.sqrt((prior + known.sum()) / total) if total else 1.0
 
 
 def expected_errors(stated: np.ndarray, typical: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Standard deviation per axis (members, n), mm, of members some of which do not state it (NaN).
+    """Complete the errors that members state.
 
-    These are taken to err as much as on pseudo-gaps, typical (members,), and when those that state something do. A
-    member that was never tried either is taken to be as good as the worst of the others; NaN where nothing is known.
+    A member that states no error is expected to err as much as on pseudo-gaps, with the relative variation over the
+    frames that the other members state. A member without pseudo-gaps is expected to err as much as the worst other.
+
+    Parameters
+    ----------
+    stated : ndarray, shape (members, n)
+        Stated standard deviations per axis, mm; NaN where a member states none.
+    typical : ndarray, shape (members,)
+        Typical errors on pseudo-gaps, mm; NaN where unknown.
+    weights : ndarray, shape (members, n)
+        Weights of the members.
+
+    Returns
+    -------
+    ndarray, shape (members, n)
+        Standard deviations per axis, mm; NaN where nothing is known of any member.
     """
     usual = (typical / np.sqrt(3))[:, None]
-    told = np.where(np.isnan(stated) | np.isnan(usual), 0.0, weights)
-    known = told.sum(axis=0) > 0
-    share = told / np.where(known, told.sum(axis=0), 1.0)
-    course = np.where(known, (share * np.nan_to_num(stated)).sum(axis=0), 1.0)
-    level = np.where(known, (share * np.nan_to_num(usual)).sum(axis=0), 1.0)
-    errors = np.where(np.isnan(stated), usual * course / np.maximum(level, 1e-9), stated)
+    counted = np.where(np.isnan(stated) | np.isnan(usual), 0.0, weights)
+    known = counted.sum(axis=0) > 0
+    share = counted / np.where(known, counted.sum(axis=0), 1.0)
+    now = np.where(known, (share * np.nan_to_num(stated)).sum(axis=0), 1.0)
+    on_average = np.where(known, (share * np.nan_to_num(usual)).sum(axis=0), 1.0)
+    errors = np.where(np.isnan(stated), usual * now / np.maximum(on_average, 1e-9), stated)
     worst = np.nan_to_num(errors).max(axis=0)
     return np.where(np.isnan(errors), np.where(worst > 0, worst, np.nan), errors)

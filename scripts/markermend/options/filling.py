@@ -18,6 +18,8 @@ class FillOptions:
     fewer of the frames are left alone. border_s: how long the marker must be seen without a break on either side, s.
     max_error_mm: gaps whose expected error (68 %) exceeds it stay open, None = any. max_altered_share: if more of the
     recording's samples were altered, nothing is filled. reuse: filled markers are references for later ones.
+    members: predictors that fill together. trial_frames: most training frames on pseudo-gaps. ensemble: how the members
+    are weighted.
     """
 
     max_gap_s: float | None
@@ -29,6 +31,9 @@ class FillOptions:
     max_error_mm: float | None
     max_altered_share: float
     reuse: bool
+    members: Sequence[str]
+    trial_frames: int
+    ensemble: EnsembleOptions
 
 
 @dataclass(frozen=True)

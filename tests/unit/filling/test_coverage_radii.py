@@ -3,44 +3,43 @@
 import numpy as np
 import pytest
 
-from markermend.filling.coverage_radii import radii
-from markermend.filling.fill import fill_gaps
+from markermend.filling.coverage_radii import coverage_radii
 from markermend.options.filling import RadiusOptions
-from support.fillings import ensemble, fill_options, neighbours, restored
+from support.fillings import fill, neighbours, restored
 
-BELIEVED = RadiusOptions(inner=1.4, outer=3.0, trials=10)
+PRIOR = RadiusOptions(inner=1.4, outer=3.0, trials=10)
 
 
 def test_without_pseudo_gaps_the_belief_stands():
-    assert radii([], BELIEVED) == pytest.approx((1.4, 3.0), rel=1e-4)
-    assert radii([np.full(5, np.nan)], BELIEVED) == pytest.approx((1.4, 3.0), rel=1e-4)
+    assert coverage_radii([], PRIOR) == pytest.approx((1.4, 3.0), rel=1e-4)
+    assert coverage_radii([np.full(5, np.nan)], PRIOR) == pytest.approx((1.4, 3.0), rel=1e-4)
 
 
 def test_many_pseudo_gaps_tell_the_quantiles():
     rng = np.random.default_rng(2)
     missed = [np.linalg.norm(rng.normal(0, 2, (50, 3)), axis=1) for _ in range(2000)]
-    inner, outer = radii(missed, BELIEVED)
+    inner, outer = coverage_radii(missed, PRIOR)
     assert inner == pytest.approx(2 * 1.872, rel=0.02)
     assert outer == pytest.approx(2 * 2.795, rel=0.02)
 
 
 def test_each_pseudo_gap_is_one_part_however_long():
     short, long = [np.full(1, 5.0)] * 60, [np.full(1000, 0.1)] * 40
-    inner, _ = radii([*short, *long], RadiusOptions(inner=1.4, outer=3.0, trials=1e-6))
+    inner, _ = coverage_radii([*short, *long], RadiusOptions(inner=1.4, outer=3.0, trials=1e-6))
     assert inner == pytest.approx(5.0, rel=1e-3)
 
 
 def test_few_pseudo_gaps_move_the_belief_a_little():
     few, many = ([np.full(10, 6.0)] * count for count in (2, 40))
-    believed, after_few, after_many = (radii(parts, BELIEVED)[0] for parts in ([], few, many))
+    believed, after_few, after_many = (coverage_radii(parts, PRIOR)[0] for parts in ([], few, many))
     assert believed < after_few < 1.5 * believed < after_many
 
 
 def test_units_do_not_matter():
     rng = np.random.default_rng(3)
     missed = [rng.lognormal(0, 0.7, 20) for _ in range(30)]
-    scaled = radii([1000 * part for part in missed], RadiusOptions(inner=1400, outer=3000, trials=10))
-    assert np.array(scaled) / 1000 == pytest.approx(radii(missed, BELIEVED), rel=1e-4)
+    scaled = coverage_radii([1000 * part for part in missed], RadiusOptions(inner=1400, outer=3000, trials=10))
+    assert np.array(scaled) / 1000 == pytest.approx(coverage_radii(missed, PRIOR), rel=1e-4)
 
 
 @pytest.mark.parametrize("wrong", [{"inner": 0}, {"outer": 1}, {"trials": 0}])
@@ -58,7 +57,7 @@ def test_stated_balls_hold_about_what_they_say(walker):
             start = int(rng.integers(50, 1100))
             positions[start : start + 50, marker] = np.nan
         gapped = np.isnan(positions[..., 0])
-        found = fill_gaps(restored(positions), neighbours(positions), ensemble=ensemble(), options=fill_options())
+        found = fill(restored(positions), neighbours(positions)).recording
         distance = np.linalg.norm(found.positions - truth, axis=2)[gapped]
         inside.append([(distance <= radius[gapped]).mean() for radius in (found.error, found.error95)])
     inner, outer = np.mean(inside, axis=0)

@@ -5,16 +5,28 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.changes import Outcome
+from markermend.core.decisions import EVER, Decision
+from markermend.core.reasons import Cause
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS
 from markermend.filling.fill import fill_gaps
-from support.fillings import ensemble, fill_options, neighbours, restored, rigid_body
+from markermend.mesh.inference import infer_mesh
+from support import bodies
+from support.fillings import fill as fill_with_defaults
+from support.fillings import fill_options, neighbours, restored, rigid_body, settings
+from support.paths import PROJECT
 
 QUICK = ["local_ridge", "local_interpolation", "spline"]
+MARKER, OTHER = 7, 12
+GAP = (MARKER, 200, 240)
 
 
-def fill(recording, near, members=QUICK, settings=None, **changed):
-    options = fill_options(**changed)
-    return fill_gaps(recording, near, ensemble=ensemble(members, **(settings or {})), options=options)
+def changes_of(recording, near, members=QUICK, **changed):
+    return fill_with_defaults(recording, near, members=members, **changed)
+
+
+def fill(recording, near, **changed):
+    return changes_of(recording, near, **changed).recording
 
 
 @pytest.fixture(scope="module")
@@ -31,12 +43,12 @@ def torso(person):
     return positions, person[1][:12], neighbours(positions)
 
 
-def gapped(person, *gaps):
+def gapped(person, *gaps, **facts):
     positions, markers, _ = person
     damaged = positions.copy()
     for marker, start, stop in gaps:
         damaged[start:stop, marker] = np.nan
-    return restored(damaged, markers=markers)
+    return restored(damaged, markers=markers, **facts)
 
 
 def reasons(result):
@@ -68,48 +80,38 @@ def test_a_complete_recording_comes_back_as_it_was(person):
 
 
 @pytest.mark.parametrize(
-    ("gap", "changed", "reason"),
+    ("gap", "changed", "cause", "setting"),
     [
-        ((7, 100, 350), {}, "gap of 2.50 s, longest to fill 2 s"),
-        ((7, 0, 20), {}, "at the recording's start"),
-        ((7, 590, 600), {}, "at the recording's end"),
-        ((7, 0, 600), {}, "never seen"),
-        ((7, 50, 500), {}, "marker seen in 25% of the frames, 30% needed"),
-        ((7, 200, 220), {"protect": ["?SI", "NECK", "*"]}, "protected marker"),
-        ((7, 200, 220), {"max_error_mm": 0.01}, "expected error"),
-        ((7, 1, 20), {"border_s": 0.05}, "not seen for 0.05 s on both sides"),
-        ((7, 200, 220), {"max_altered_share": 0.0001}, "nothing filled: 0% of the recording would be altered"),
+        ((7, 100, 350), {}, Cause.TOO_LONG, "fill.max_gap_s"),
+        ((7, 200, 220), {"max_error_mm": 0.01}, Cause.UNCERTAIN, "fill.max_error_mm"),
+        ((7, 200, 220), {"max_altered_share": 0.0001}, Cause.TOO_MUCH, "fill.max_altered_share"),
     ],
 )
-def test_what_stays_open_says_why(person, gap, changed, reason):
+def test_what_stays_open_has_the_limit_that_caused_it(person, gap, changed, cause, setting):
     recording = gapped(person, gap)
-    result = fill(recording, person[2], **changed)
-    assert reasons(result)[person[1][7]].startswith(reason)
-    assert np.array_equal(result.positions, recording.positions, equal_nan=True)
-    assert (result.origin[gap[1] : gap[2], 7] == MISSING).all()
-    assert np.isnan(result.error[gap[1] : gap[2], 7]).all()
+    result = changes_of(recording, person[2], **changed)
+    (change,) = result.changes
+    assert (change.outcome, change.classes, change.samples) == (Outcome.LEFT, ("gap",), gap[2] - gap[1])
+    assert (change.reason.cause, change.reason.limit.setting) == (cause, setting)
+    assert change.reason.limit.actual > change.reason.limit.value
+    assert change.reason.limit.text in change.reason.text
+    filled = result.recording
+    assert np.array_equal(filled.positions, recording.positions, equal_nan=True)
+    assert (filled.origin[gap[1] : gap[2], 7] == MISSING).all()
+    assert np.isnan(filled.error[gap[1] : gap[2], 7]).all()
 
 
-def test_a_marker_that_repair_took_away_was_seen(person):
-    recording = gapped(person, (7, 0, 600))
-    name = person[1][7]
-    result = fill(replace(recording, facts={"repairs_left": [{"marker": name}]}), person[2])
-    assert reasons(result) == {name: "nothing of it was left to learn from"}
-
-
-def test_a_static_recording_is_not_touched(person):
-    recording = gapped(person, (7, 200, 220))
-    result = fill(replace(recording, facts={"kind": "static"}), person[2])
-    assert reasons(result) == {person[1][7]: "static recording"}
-
-
-def test_the_longest_gap_may_differ_by_marker(person):
-    names = person[1]
-    recording = gapped(person, (7, 200, 260), (12, 200, 260))
-    result = fill(recording, person[2], max_gap_s=0.1, max_gap_s_of={names[7]: 1.0})
-    assert [entry["marker"] for entry in result.facts["fills"]] == [names[7]]
-    assert names[12] in reasons(result)
-    assert not fill(recording, person[2], max_gap_s=None).facts["gaps_left"]
+def test_a_change_states_how_a_gap_was_filled(person):
+    result = changes_of(gapped(person, (12, 220, 300), (7, 200, 240)), person[2])
+    assert [change.marker for change in result.changes] == sorted(person[1][m] for m in (7, 12))
+    for change in result.changes:
+        place = slice(change.start, change.stop), person[1].index(change.marker)
+        assert (change.outcome, change.samples, change.reason) == (Outcome.FILLED, change.stop - change.start, None)
+        assert change.expected_error_mm == result.recording.error[place].max()
+        assert change.expected_error95_mm == result.recording.error95[place].max()
+        weights = [own.weight for own in change.member_weights]
+        assert weights == sorted(weights, reverse=True) and sum(weights) == pytest.approx(1, abs=0.002)
+        assert change.method == ("ensemble" if len(weights) > 1 else change.member_weights[0].member)
 
 
 def test_ends_are_filled_on_request(person):
@@ -144,7 +146,7 @@ def test_no_marker_need_be_complete_and_reuse_is_optional(torso):
     everything = range(torso[0].shape[1])
     recording = gapped(torso, *((m, 20 + 10 * m, 32 + 10 * m) for m in everything))
     for reuse in (True, False):
-        result = fill(recording, torso[2], settings={"pseudo_gaps": 2}, reuse=reuse)
+        result = fill(recording, torso[2], averaging={"pseudo_gaps": 2}, reuse=reuse)
         assert len(result.facts["fills"]) == len(everything)
         assert np.linalg.norm((result.positions - torso[0])[recording.missing], axis=1).mean() < 8
 
@@ -171,3 +173,111 @@ def test_the_result_is_the_same_every_time(person):
     first, second = fill(recording, person[2]), fill(recording, person[2])
     assert np.array_equal(first.positions, second.positions)
     assert first.facts == second.facts
+
+
+def test_the_entry_function_takes_neighbours_from_the_mesh_and_members_from_the_options(person):
+    recording = gapped(person, (7, 200, 240))
+    mesh = infer_mesh([bodies.recording(person[1], person[0])], **bodies.options(PROJECT))
+    options = fill_options(members=["spline"])
+    result = fill_gaps(recording, mesh, options=options, predictors=settings())
+    assert [change.method for change in result.changes] == ["spline"]
+    near = mesh.neighbour_indices(recording.markers)
+    assert np.array_equal(result.recording.positions, fill(recording, near, members=["spline"]).positions)
+
+
+def fill_decided(person, recording, decisions=(), **changed):
+    return fill(recording, person[2], members=["local_ridge", "spline"], decisions=decisions, **changed)
+
+
+def decide(person, verb, value="", marker=MARKER, start=205, stop=206):
+    return Decision(person[1][marker], start, stop, verb, value, "why")
+
+
+class TestDecisions:
+    """A person's decisions: no limit holds against them, and no other gap changes by them."""
+
+    @pytest.mark.parametrize(
+        "limits",
+        [
+            {"max_gap_s": 0.1},
+            {"max_error_mm": 0.001},
+            {"max_altered_share": 0.00001},
+            {"seen_share": 0.99},
+            {"border_s": 2.5},
+        ],
+        ids=str,
+    )
+    def test_a_gap_that_a_person_accepts_is_filled_whatever_the_limits(self, person, limits):
+        recording = gapped(person, GAP)
+        assert fill_decided(person, recording, **limits).facts["gaps_left"]
+        result = fill_decided(person, recording, [decide(person, "accept", "gap")], **limits)
+        assert result.facts["gaps_left"] == []
+        assert result.facts["fills"][0]["decisions"] == ["accept gap (why)"]
+        assert np.linalg.norm((result.positions - person[0])[recording.missing], axis=1).max() < 30
+        assert (result.error[recording.missing] > 0).all()
+
+    @pytest.mark.parametrize("verb", ["reject gap", "method leave", "protect"])
+    def test_a_gap_that_a_person_leaves_stays_open(self, person, verb):
+        recording = gapped(person, GAP)
+        result = fill_decided(person, recording, [decide(person, *verb.split())])
+        assert np.array_equal(result.positions, recording.positions, equal_nan=True)
+        (left,) = result.facts["gaps_left"]
+        assert (left["reason"], left["decisions"]) == (f"a person decided: {verb} (why)", [f"{verb} (why)"])
+
+    def test_a_gap_is_filled_by_the_persons_method_alone_even_where_it_is_no_member(self, person):
+        recording = gapped(person, (MARKER, 200, 280))
+        for method in ("spline", "linear_regression"):
+            result = fill_decided(person, recording, [decide(person, "method", method)])
+            (entry,) = result.facts["fills"]
+            assert (entry["method"], entry["weights"], entry["decisions"]) == (
+                method,
+                {method: 1.0},
+                [f"method {method} (why)"],
+            )
+
+    def test_a_method_of_repair_says_nothing_about_gaps(self, person):
+        recording = gapped(person, GAP)
+        plain, result = (
+            fill_decided(person, recording),
+            fill_decided(person, recording, [decide(person, "method", "savitzky_golay")]),
+        )
+        assert np.array_equal(plain.positions, result.positions) and plain.facts == result.facts
+
+    @pytest.mark.parametrize("verb", ["accept gap", "method spline"])
+    def test_no_other_gap_changes_by_a_decision_to_fill(self, person, verb):
+        recording = gapped(person, GAP, (OTHER, 210, 260), (MARKER, 400, 430))
+        options = {"max_gap_s_of": {person[1][MARKER]: 0.35}}
+        plain = fill_decided(person, recording, **options)
+        result = fill_decided(person, recording, [decide(person, *verb.split())], **options)
+        assert len(plain.facts["fills"]) == 2 and len(result.facts["fills"]) == 3
+        others = np.ones(recording.missing.shape, bool)
+        others[GAP[1] : GAP[2], MARKER] = False
+        for one, other in ((plain.positions, result.positions), (plain.error, result.error)):
+            assert np.array_equal(one[others], other[others], equal_nan=True)
+
+    @pytest.mark.parametrize(
+        ("gap", "facts", "options"),
+        [((MARKER, 0, 600), {}, {}), (GAP, {"kind": "static"}, {}), (GAP, {}, {"protect": ["*"]})],
+        ids=["never seen", "static", "protected by a setting"],
+    )
+    def test_what_no_person_can_change(self, person, gap, facts, options):
+        recording = gapped(person, gap, **facts)
+        result = fill_decided(person, recording, [decide(person, "accept", "gap")], **options)
+        assert (result.origin[gap[1] : gap[2], MARKER] == MISSING).all() and not result.facts["fills"]
+
+    def test_decisions_on_other_markers_and_frames_change_nothing(self, person):
+        recording = gapped(person, GAP, (OTHER, 210, 260))
+        decided = [
+            Decision("nobody", -EVER, EVER, "accept", "gap"),
+            decide(person, "reject", "gap", start=0, stop=200),
+            decide(person, "method", "leave", start=240, stop=600),
+            decide(person, "reject"),
+        ]
+        plain, result = fill_decided(person, recording), fill_decided(person, recording, decided)
+        assert np.array_equal(plain.positions, result.positions) and plain.facts == result.facts
+
+    @pytest.mark.parametrize("most", [3.0, 1.0])
+    def test_a_confirmed_gap_is_filled_where_another_turns_out_too_uncertain(self, person, most):
+        recording = gapped(person, GAP, (OTHER, 210, 260), (MARKER, 400, 430))
+        result = fill_decided(person, recording, [decide(person, "accept", "gap")], max_error_mm=most)
+        assert (result.origin[GAP[1] : GAP[2], MARKER] == FILLED).all()

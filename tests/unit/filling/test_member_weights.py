@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from markermend.filling.member_weights import expected_errors, shares, squared_errors, stated_scale, typical_errors
+from markermend.filling.member_weights import (
+    deviation_scale,
+    expected_errors,
+    inverse_power_weights,
+    squared_errors,
+    typical_errors,
+)
 
 NAN = np.nan
 
@@ -19,16 +25,24 @@ def test_errors_are_summed_over_what_each_member_told():
 
 
 def test_shares_fall_with_a_power_of_the_error():
-    assert shares(np.array([1.0, 2.0, 4.0]), power=3, worst=3, least=0.1).tolist() == [1, 0.125, 0]
-    assert shares(np.array([1e-9, 0.1, NAN]), power=3, worst=3, least=0.1).tolist() == [1, 1, 0]
-    assert shares(np.array([NAN, NAN]), power=3, worst=3, least=0.1).tolist() == [1, 1]
+    assert inverse_power_weights(np.array([1.0, 2.0, 4.0]), power=3, max_ratio=3, min_error_mm=0.1).tolist() == [
+        1,
+        0.125,
+        0,
+    ]
+    assert inverse_power_weights(np.array([1e-9, 0.1, NAN]), power=3, max_ratio=3, min_error_mm=0.1).tolist() == [
+        1,
+        1,
+        0,
+    ]
+    assert inverse_power_weights(np.array([NAN, NAN]), power=3, max_ratio=3, min_error_mm=0.1).tolist() == [1, 1]
 
 
 def test_the_scale_lies_between_the_belief_and_what_was_found():
-    assert stated_scale(np.array([]), 2) == 1
-    assert stated_scale(np.array([NAN]), 0) == 1
-    assert stated_scale(np.array([4.0, NAN, 6.0]), 2) == pytest.approx(np.sqrt(12 / 4))
-    assert stated_scale(np.array([4.0, 6.0]), 0) == pytest.approx(np.sqrt(5))
+    assert deviation_scale(np.array([]), 2) == 1
+    assert deviation_scale(np.array([NAN]), 0) == 1
+    assert deviation_scale(np.array([4.0, NAN, 6.0]), 2) == pytest.approx(np.sqrt(12 / 4))
+    assert deviation_scale(np.array([4.0, 6.0]), 0) == pytest.approx(np.sqrt(5))
 
 
 def test_members_that_state_nothing_err_when_the_others_do():

@@ -1,0 +1,143 @@
+"""Fill gaps one after the other, and accept those whose calibrated error is within the limit."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from markermend.core.reasons import Cause, Limit, Reason
+from markermend.filling.coverage_radii import coverage_radii
+from markermend.filling.ensemble import Ensemble, Filling
+from markermend.filling.gap import Gap, GapKind
+from markermend.filling.growing_scene import GrowingScene
+from markermend.filling.member_weights import MemberWeights
+from markermend.options.filling import RadiusOptions
+from markermend.prediction.interpolation import KINDS
+from markermend.prediction.scene import Scene
+
+log = logging.getLogger("markermend")
+
+
+@dataclass(frozen=True)
+class FilledGaps:
+    """What became of gaps that were filled together.
+
+    Attributes
+    ----------
+    accepted : dict of Gap to Filling
+        The gaps that are filled.
+    refused : dict of Gap to Reason
+        The gaps that stay open, and why.
+    radii : tuple of float
+        Radii of the 68 and 95 % balls in units of the standard deviation of a filling.
+    """
+
+    accepted: dict[Gap, Filling]
+    refused: dict[Gap, Reason]
+    radii: tuple[float, float]
+
+
+class GapFiller:
+    """Fills the gaps of a recording with one ensemble.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        The predictors.
+    max_error_mm : float or None
+        Gaps whose expected error (68 %) exceeds it stay open, mm; None = any error is accepted.
+    reuse : bool
+        Whether filled samples are inputs for the gaps of other markers.
+    """
+
+    def __init__(self, ensemble: Ensemble, *, max_error_mm: float | None, reuse: bool) -> None:
+        self._ensemble, self._max_error_mm, self._reuse = ensemble, max_error_mm, reuse
+        self._radius_options = RadiusOptions(**ensemble.options.radius)
+        self._weights: dict[GapKind, MemberWeights] = {}
+
+    def fill(self, scene: GrowingScene, gaps: Sequence[Gap]) -> FilledGaps:
+        """Fill gaps in their order.
+
+        All gaps of a marker see the same scene, in which none of them is filled: they share what is learned from it,
+        and no marker learns from its own filled samples.
+
+        Parameters
+        ----------
+        scene : GrowingScene
+            The recording; filled gaps are added to it.
+        gaps : sequence of Gap
+            The gaps, those of a marker next to each other.
+
+        Returns
+        -------
+        FilledGaps
+            The gaps that are filled, and those that stay open.
+        """
+        filled: dict[Gap, Filling] = {}
+        refused: dict[Gap, Reason] = {}
+        for _, of_marker in groupby(gaps, key=lambda gap: gap.marker):
+            current, inputs = scene.current(), []
+            for gap in of_marker:
+                filling = self._ensemble.fill(current, gap, self._member_weights(current, gap))
+                reason = _failure(current, gap, filling)
+                if reason is not None:
+                    refused[gap] = reason
+                else:
+                    filled[gap] = filling
+                    inputs += [gap] * self._is_input(filling)
+                _report_progress(len(filled) + len(refused), len(gaps))
+            for gap in inputs:
+                scene.add(gap, filled[gap])
+        return self._calibrate(filled, refused)
+
+    def _member_weights(self, scene: Scene, gap: Gap) -> MemberWeights:
+        """Weights from pseudo-gaps, measured once for all gaps of a kind."""
+        kind = self._ensemble.kind(scene, gap, self._weights)
+        if kind not in self._weights:
+            self._weights[kind] = self._ensemble.evaluate(scene, gap)
+        return self._weights[kind]
+
+    def _is_input(self, filling: Filling) -> bool:
+        """Whether a filling serves as an input: not if it was interpolated in time alone, nor if it is too uncertain.
+
+        The radii are not calibrated before the last gap is filled: the prior one decides here.
+        """
+        from_neighbours = not set(filling.weights) <= set(KINDS)
+        return self._reuse and from_neighbours and self._excess(filling, self._radius_options.inner) is None
+
+    def _excess(self, filling: Filling, radius: float) -> Reason | None:
+        """Why a filling is too uncertain, given the radius of the 68 % ball; None where it is not."""
+        worst, most = radius * float(filling.deviation.max()), self._max_error_mm
+        if most is None or worst <= most:
+            return None
+        limit = Limit("fill.max_error_mm", most, worst)
+        return Reason(Cause.UNCERTAIN, f"expected error {worst:.3g} mm ({limit.text})", limit)
+
+    def _calibrate(self, filled: dict[Gap, Filling], refused: dict[Gap, Reason]) -> FilledGaps:
+        """Estimate the radii from all pseudo-gaps and refuse the gaps whose error exceeds the limit."""
+        errors = [part for weights in self._weights.values() for part in weights.standardized_errors]
+        radii = coverage_radii(errors, self._radius_options)
+        too_uncertain = {gap: why for gap, own in filled.items() if (why := self._excess(own, radii[0])) is not None}
+        accepted = {gap: filling for gap, filling in filled.items() if gap not in too_uncertain}
+        return FilledGaps(accepted, refused | too_uncertain, radii)
+
+
+def _failure(scene: Scene, gap: Gap, filling: Filling) -> Reason | None:
+    """Why a gap could not be filled; None where it could."""
+    if np.isnan(filling.positions).any():
+        near = scene.present[gap.start : gap.stop, scene.neighbours[gap.marker]]
+        fewest = int(near.sum(axis=1).min())
+        return Reason(Cause.NO_METHOD, f"no method could fill it; fewest neighbours seen: {fewest}")
+    if np.isnan(filling.deviation).any():
+        return Reason(Cause.NO_METHOD, "the expected error of a filling is unknown")
+    return None
+
+
+def _report_progress(done: int, total: int) -> None:
+    """Log every 50th gap."""
+    if done % 50 == 0:
+        log.info("%d of %d gaps", done, total)
