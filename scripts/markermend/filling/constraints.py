@@ -1,4 +1,4 @@
-"""What a filled trajectory must respect: continuity at the borders, and the usual distances to its references."""
+"""Constraints on a filled trajectory: continuity at the borders, and distances to the references as usual."""
 
 from __future__ import annotations
 
@@ -10,10 +10,24 @@ from markermend.numerics.kernel_density import Density
 
 
 def constrain_time(predicted: np.ndarray, borders: np.ndarray) -> np.ndarray:
-    """Subtract a ramp, so that a prediction meets the observed samples at both borders; source: tits2018 eq 16-19.
+    """Subtract a ramp from a prediction so that it meets the observed samples at both borders.
 
-    predicted: (n, 3) over [start - 1, stop + 1), mm. borders: (2, 3), observed positions at its first and last frame,
-    NaN where there is none (the end of a recording): then the other border's offset holds throughout.
+    Parameters
+    ----------
+    predicted : ndarray, shape (n, 3)
+        Positions from the frame before a gap to the frame after it, mm.
+    borders : ndarray, shape (2, 3)
+        Observed positions at the first and the last of these frames, mm; NaN beyond the ends of the recording, where
+        the offset at the other border holds throughout.
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+        The constrained positions, mm; as predicted where no border is known.
+
+    References
+    ----------
+    tits2018, eq 16-19.
     """
     offsets = predicted[[0, -1]] - borders
     known = ~np.isnan(offsets).any(axis=1)
@@ -21,7 +35,8 @@ def constrain_time(predicted: np.ndarray, borders: np.ndarray) -> np.ndarray:
         return predicted.copy()
     first, last = offsets[known][0], offsets[known][-1]
     share = np.linspace(0, 1, len(predicted))[:, None]
-    return predicted - (first + share * (last - first))
+    constrained: np.ndarray = predicted - (first + share * (last - first))
+    return constrained
 
 
 def constrain_spacing(
@@ -33,11 +48,29 @@ def constrain_spacing(
     high: float,
     rounds: int,
 ) -> np.ndarray:
-    """Project positions onto the shells in which their distances to the references usually lie; tits2018 eq 25-27.
+    """Project positions onto the shells in which their distances to the references usually lie.
 
-    positions: (n, 3), mm. references: (n, k, 3), NaN = not seen, then that reference does not count. densities: of the
-    k distances. The shell holds the distances between the quantiles `low` and `high`. One reference after the other, at
-    most `rounds` times, until every distance is usual.
+    Parameters
+    ----------
+    positions : ndarray, shape (n, 3)
+        Positions, mm; they are not modified.
+    references : ndarray, shape (n, k, 3)
+        Positions of the references, mm; one that is missing (NaN) does not count in that frame.
+    densities : sequence of Density
+        Densities of the k distances.
+    low, high : float
+        Probabilities of the quantiles between which a distance is usual.
+    rounds : int
+        Most projections onto each shell, one reference after the other; fewer where every distance is usual before.
+
+    Returns
+    -------
+    ndarray, shape (n, 3)
+        The projected positions, mm.
+
+    References
+    ----------
+    tits2018, eq 25-27.
     """
     placed = positions.copy()
     shells = [density.quantiles((low, high)) for density in densities]

@@ -1,6 +1,6 @@
-"""Distances of a marker to its references: how likely positions are by them, and positions moved to where they fit.
+"""Distances of a marker to its references: the likelihood of positions, and positions moved to usual distances.
 
-Both are constraints of tits2018 on what members say about a gap: the likelihood weighs them, the spacing bounds them.
+Both are constraints of tits2018 on the predictions for a gap: the likelihood weights them, the spacing bounds them.
 """
 
 from __future__ import annotations
@@ -19,8 +19,20 @@ from markermend.prediction.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class Distances:
-    """What distances of a marker to its first references (by index) usually are, in frames of a rate in Hz."""
+class DistanceModel:
+    """Densities of the distances between a marker and its references.
+
+    Attributes
+    ----------
+    options : DistanceOptions
+        How the densities are used.
+    rate : float
+        Frames per second, Hz.
+    references : ndarray of int, shape (k,)
+        Indices of the references, the steadiest distance first.
+    densities : sequence of Density
+        Densities of the k distances.
+    """
 
     options: DistanceOptions
     rate: float
@@ -28,8 +40,23 @@ class Distances:
     densities: Sequence[Density]
 
     @classmethod
-    def learn(cls, scene: Scene, marker: int, options: DistanceOptions) -> Distances:
-        """Learn from the frames that show both."""
+    def estimate(cls, scene: Scene, marker: int, options: DistanceOptions) -> DistanceModel:
+        """Estimate the densities from the frames in which the marker and a reference are seen.
+
+        Parameters
+        ----------
+        scene : Scene
+            The recording.
+        marker : int
+            Index of the marker.
+        options : DistanceOptions
+            Number of references and of frames.
+
+        Returns
+        -------
+        DistanceModel
+            Without references where none is seen often enough.
+        """
         ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
         chosen = ranked[: max(options.references, options.spacing_references)]
         densities = []
@@ -39,28 +66,62 @@ class Distances:
             densities.append(kernel_density(distance, max_samples=options.frames))
         return cls(options, scene.rate, chosen, densities)
 
-    def likelihood(self, positions: np.ndarray, body: np.ndarray) -> np.ndarray:
-        """How likely positions (members, n, 3) are, (members, n); body: (n, markers, 3), all markers meanwhile; mm."""
+    def likelihood(self, positions: np.ndarray, observed: np.ndarray) -> np.ndarray:
+        """Compute the likelihood of positions from their distances to the references.
+
+        Parameters
+        ----------
+        positions : ndarray, shape (members, n, 3)
+            Predictions of the marker, mm; NaN where a member has none.
+        observed : ndarray, shape (n, markers, 3)
+            Positions of all markers in the same frames, mm.
+
+        Returns
+        -------
+        ndarray, shape (members, n)
+            Likelihoods; 1 where there are no references.
+
+        References
+        ----------
+        tits2018, eq 20-23.
+        """
         if not self.densities:
             return np.ones(positions.shape[:2])
         first, options = self.options.references, self.options
         return pma_likelihood(
             positions,
-            body[:, self.references[:first]],
+            observed[:, self.references[:first]],
             self.densities[:first],
             window=round(options.smoothing_s * self.rate),
             floor=options.floor,
         )
 
-    def constrained(self, positions: np.ndarray, body: np.ndarray) -> np.ndarray:
-        """Positions (n, 3) moved to where distances are not too rare; body: (n, markers, 3); mm."""
+    def constrain(self, positions: np.ndarray, observed: np.ndarray) -> np.ndarray:
+        """Move positions to where their distances to the references are usual.
+
+        Parameters
+        ----------
+        positions : ndarray, shape (n, 3)
+            Positions of the marker, mm; they are not modified.
+        observed : ndarray, shape (n, markers, 3)
+            Positions of all markers in the same frames, mm.
+
+        Returns
+        -------
+        ndarray, shape (n, 3)
+            The constrained positions, mm; `positions` itself where the constraint is off or there are no references.
+
+        References
+        ----------
+        tits2018, eq 25-27.
+        """
         if not self.options.spacing_rounds or not self.densities:
             return positions
-        most, options = self.options.spacing_references, self.options
+        count, options = self.options.spacing_references, self.options
         return constrain_spacing(
             positions,
-            body[:, self.references[:most]],
-            self.densities[:most],
+            observed[:, self.references[:count]],
+            self.densities[:count],
             low=options.spacing_low,
             high=options.spacing_high,
             rounds=options.spacing_rounds,

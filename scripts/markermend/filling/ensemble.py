@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from markermend.filling.candidates import Candidates, predict_candidates
-from markermend.filling.distance_likelihood import Distances
+from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
 from markermend.filling.member_weights import (
     MemberWeights,
@@ -199,16 +199,16 @@ class Ensemble:
         )
         return MemberWeights(typical, weights)
 
-    def _distances(self, scene: Scene, marker: int) -> Distances | None:
+    def _distances(self, scene: Scene, marker: int) -> DistanceModel | None:
         """Distances of the marker to its references; None where neither the weights nor a constraint use them."""
         if self.options.weights not in ("pma", "both") and not self._distance_options.spacing_rounds:
             return None
-        learn = partial(Distances.learn, scene, marker, self._distance_options)
+        learn = partial(DistanceModel.estimate, scene, marker, self._distance_options)
         return scene.cached((self, "distances", marker), learn)
 
     def _cross_validate(
         self,
-        distances: Distances | None,
+        distances: DistanceModel | None,
         trials: Sequence[PseudoGap],
         candidates: Sequence[Candidates],
         errors: np.ndarray,
@@ -223,7 +223,7 @@ class Ensemble:
         return missed
 
     def _average(
-        self, candidates: Candidates, members: MemberWeights, distances: Distances | None, observed: np.ndarray
+        self, candidates: Candidates, members: MemberWeights, distances: DistanceModel | None, observed: np.ndarray
     ) -> _Average:
         """Average the candidates; observed: positions (n, markers, 3), mm, of all markers during the gap."""
         weights = np.broadcast_to(members.weights[:, None], candidates.errors.shape)
@@ -233,7 +233,7 @@ class Ensemble:
         errors = expected_errors(candidates.errors, members.typical_errors, weights)
         errors = np.maximum(errors, self.options.error_mm)
         deviation = mixture_deviation(candidates.positions, mean, errors, weights)
-        placed = mean if distances is None else distances.constrained(mean, observed)
+        placed = mean if distances is None else distances.constrain(mean, observed)
         return _Average(placed, deviation, weights.mean(axis=1))
 
 

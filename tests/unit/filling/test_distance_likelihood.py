@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.filling.distance_likelihood import Distances
+from markermend.filling.distance_likelihood import DistanceModel
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import reference_markers
 from support.fillings import CONFIG, scene
@@ -23,7 +23,7 @@ def body(walker):
 def test_the_steadiest_markers_are_the_references(body):
     own = options(references=2, spacing_references=4)
     ranked, _ = reference_markers(scene(body), 9, frames=own.frames, minimum_frames=own.minimum_frames)
-    learned = Distances.learn(scene(body), 9, own)
+    learned = DistanceModel.estimate(scene(body), 9, own)
     assert learned.references.tolist() == ranked[:4].tolist()
     for reference, density in zip(learned.references, learned.densities, strict=True):
         usual = np.median(np.linalg.norm(body[:, 9] - body[:, reference], axis=1))
@@ -31,24 +31,24 @@ def test_the_steadiest_markers_are_the_references(body):
 
 
 def test_the_truth_is_likelier_than_what_lies_beside_it(body):
-    learned = Distances.learn(scene(body), 9, options())
+    learned = DistanceModel.estimate(scene(body), 9, options())
     likelihood = learned.likelihood(np.stack([body[:, 9], body[:, 9] + 60]), body)
     assert (likelihood[0] > 1e3 * likelihood[1]).all()
 
 
 def test_what_lies_far_off_is_brought_near_and_the_truth_hardly_moves(body):
-    learned = Distances.learn(scene(body), 9, options(spacing_rounds=5))
-    off = [np.linalg.norm(learned.constrained(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
+    learned = DistanceModel.estimate(scene(body), 9, options(spacing_rounds=5))
+    off = [np.linalg.norm(learned.constrain(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
     assert off[0].mean() < 1
     assert off[1].mean() < 0.9 * np.sqrt(3) * 60
-    unbound = Distances.learn(scene(body), 9, options())
-    assert np.array_equal(unbound.constrained(body[:, 9] + 60, body), body[:, 9] + 60)
+    unbound = DistanceModel.estimate(scene(body), 9, options())
+    assert np.array_equal(unbound.constrain(body[:, 9] + 60, body), body[:, 9] + 60)
 
 
 def test_without_references_nothing_is_judged(body):
     alone = body.copy()
     alone[40:, 9] = np.nan
-    learned = Distances.learn(scene(alone), 9, options(spacing_rounds=5))
+    learned = DistanceModel.estimate(scene(alone), 9, options(spacing_rounds=5))
     assert len(learned.references) == 0
     assert (learned.likelihood(body[None, :, 9] + 60, body) == 1).all()
-    assert np.array_equal(learned.constrained(body[:, 9] + 60, body), body[:, 9] + 60)
+    assert np.array_equal(learned.constrain(body[:, 9] + 60, body), body[:, 9] + 60)
