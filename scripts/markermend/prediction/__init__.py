@@ -1,1 +1,1 @@
-"""Where should a marker be, and how sure is that? One interface, used by detection, repair and filling."""
+"""Predictors: where a marker should be, given the rest of the body, and how large the error of that is."""

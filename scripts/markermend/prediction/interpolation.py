@@ -1,4 +1,4 @@
-"""Interpolation in time: a marker's own course on either side carries it across the gap. For short gaps only."""
+"""Interpolation in time: a short gap is bridged from the marker's own trajectory on either side."""
 
 from __future__ import annotations
 
@@ -13,39 +13,52 @@ KINDS = ("linear", "spline", "pchip", "makima")
 
 
 class Interpolation:
-    """One kind of interpolation as a predictor; states no error."""
+    """Interpolation of one kind as a predictor; it states no error.
+
+    Parameters
+    ----------
+    kind : str
+        One of KINDS; also the name of the predictor.
+    knots : int
+        Largest number of observed samples used on either side.
+
+    Raises
+    ------
+    ValueError
+        If the kind is unknown.
+    """
 
     continuous = True
 
     def __init__(self, kind: str, *, knots: int) -> None:
-        """kind: one of KINDS. knots: most observed samples used on either side."""
         if kind not in KINDS:
             raise ValueError(f"unknown interpolation {kind!r}: one of {', '.join(KINDS)}")
         self.name = kind
         self.knots = knots
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
-        """See Predictor. NaN throughout where the marker is not seen on both sides."""
+        """Interpolate between both sides of the gap; NaN if the marker is missing on one side. See `Predictor.predict`."""
+        prediction = Prediction.empty(start, stop)
         frames = np.arange(start - 1, stop + 1)
-        positions = np.full((len(frames), 3), np.nan)
         known = np.flatnonzero(scene.present[:, marker])
         before, after = known[known < start][-self.knots :], known[known >= stop][: self.knots]
         if len(before) and len(after):
             knots = np.concatenate([before, after])
             between = (frames >= before[-1]) & (frames <= after[0])
             curve = _curve(self.name, knots / scene.rate, scene.positions[knots, marker])
-            positions[between] = curve(frames[between] / scene.rate)
-        return Prediction(positions, np.full(len(frames), np.nan))
+            prediction.positions[between] = curve(frames[between] / scene.rate)
+        return prediction
 
 
 def _curve(kind: str, times: np.ndarray, values: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """The curve of a kind through values (n, 3) at n >= 2 times."""
+    """The curve of a kind through values (n, 3) at n >= 2 times, a function of times."""
     if kind == "linear":
-        return lambda wanted: np.stack([np.interp(wanted, times, axis) for axis in values.T], axis=1)
+        return lambda at: np.stack([np.interp(at, times, axis) for axis in values.T], axis=1)
     from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 
-    if kind == "spline":
-        return CubicSpline(times, values)
-    if kind == "pchip":
-        return PchipInterpolator(times, values)
-    return Akima1DInterpolator(times, values, method="makima")
+    curves: dict[str, Callable[[], Callable[[np.ndarray], np.ndarray]]] = {
+        "spline": lambda: CubicSpline(times, values),
+        "pchip": lambda: PchipInterpolator(times, values),
+        "makima": lambda: Akima1DInterpolator(times, values, method="makima"),
+    }
+    return curves[kind]()

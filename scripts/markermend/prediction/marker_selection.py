@@ -1,4 +1,4 @@
-"""References of a marker: whose distance to it varies least (tits2018 eq 1), and who can be used together."""
+"""Choice of frames and of markers to learn from: subsets of frames, reference markers, jointly observed markers."""
 
 from __future__ import annotations
 
@@ -8,45 +8,94 @@ import numpy as np
 
 from markermend.prediction.scene import Scene
 
-
-def evenly_spaced(frames: np.ndarray, most: int) -> np.ndarray:
-    """At most `most` of the frames, evenly spaced."""
-    if len(frames) <= most:
-        return frames
-    return frames[np.unique(np.linspace(0, len(frames) - 1, most).astype(int))]
+GOLDEN_RATIO = np.uint64(0x9E3779B97F4A7C15)
+"""The fractional part of the golden ratio, in units of 2^-64."""
 
 
-def pseudo_random_subset(frames: np.ndarray, most: int) -> np.ndarray:
-    """At most `most` of the frames, spread evenly but at irregular distances, so that some pairs are at every lag.
+def evenly_spaced(frames: np.ndarray, count: int) -> np.ndarray:
+    """Take evenly spaced frames.
 
-    Taken are the first by the fractional part of the golden ratio times the frame squared, which is as irregular as
-    chance (to 64 bits, by integers that wrap).
+    Parameters
+    ----------
+    frames : np.ndarray
+        Frames (n,).
+    count : int
+        Largest number of frames to take.
+
+    Returns
+    -------
+    np.ndarray
+        The chosen frames, in their order; all if there are no more than `count`.
     """
-    if len(frames) <= most:
+    if len(frames) <= count:
         return frames
-    drawn = frames.astype(np.uint64) ** 2 * np.uint64(0x9E3779B97F4A7C15)
-    return frames[np.sort(np.argpartition(drawn, most)[:most])]
+    chosen: np.ndarray = frames[np.unique(np.linspace(0, len(frames) - 1, count).astype(int))]
+    return chosen
+
+
+def pseudo_random_subset(frames: np.ndarray, count: int) -> np.ndarray:
+    """Take frames of even density at irregular distances, so that pairs of them lie at every lag.
+
+    A frame's rank is the fractional part of the golden ratio times its square (in 64-bit integers, which wrap), so the
+    choice depends on nothing but the frames.
+
+    Parameters
+    ----------
+    frames : np.ndarray
+        Frames (n,), ascending.
+    count : int
+        Largest number of frames to take.
+
+    Returns
+    -------
+    np.ndarray
+        The chosen frames, ascending; all if there are no more than `count`.
+    """
+    if len(frames) <= count:
+        return frames
+    rank = frames.astype(np.uint64) ** 2 * GOLDEN_RATIO
+    chosen: np.ndarray = frames[np.sort(np.argpartition(rank, count)[:count])]
+    return chosen
 
 
 def reference_markers(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rank a marker's neighbours by the standard deviation of their distance to it; source: tits2018 eq 1.
+    """Rank a marker's neighbours by the standard deviation of their distance to it.
 
-    Returns indices (k,) and deviations (k,), mm, ascending. At most `frames` frames are looked at; neighbours seen
-    together with the marker on fewer than `minimum_frames` of all are left out.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    marker : int
+        Index of the marker.
+    frames : int
+        Largest number of frames from which deviations are estimated.
+    minimum_frames : int
+        Neighbours observed together with the marker in fewer frames are left out.
+
+    Returns
+    -------
+    markers : np.ndarray
+        Indices of neighbours (k,), the steadiest distance first.
+    deviations : np.ndarray
+        Standard deviations of their distances (k,), mm, ascending.
+
+    References
+    ----------
+    tits2018 eq 1.
     """
-    key = "references", marker, frames, minimum_frames
-    return scene.cached(key, partial(_ranked, scene, marker, frames, minimum_frames))
+    key = "reference markers", marker, frames, minimum_frames
+    return scene.cached(key, partial(_rank_by_deviation, scene, marker, frames, minimum_frames))
 
 
-def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """See references."""
+def _rank_by_deviation(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
+    """See reference_markers."""
     near = np.asarray(scene.neighbours[marker], int)
-    seen = scene.present[:, marker]
-    joint = np.count_nonzero(scene.present[:, near] & seen[:, None], axis=0)
+    observed = scene.present[:, marker]
+    joint = np.count_nonzero(scene.present[:, near] & observed[:, None], axis=0)
     near = near[joint >= minimum_frames]
     if len(near) == 0:
         return near, np.zeros(0)
-    rows = evenly_spaced(np.flatnonzero(seen), frames)
+    rows = evenly_spaced(np.flatnonzero(observed), frames)
     distance = np.linalg.norm(scene.positions[np.ix_(rows, near)] - scene.positions[rows, marker][:, None], axis=2)
     known = ~np.isnan(distance)
     count = np.maximum(known.sum(axis=0), 1)
@@ -61,20 +110,38 @@ def _ranked(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tupl
 def jointly_observed(
     scene: Scene, marker: int, ranked: np.ndarray, *, share: float, minimum_frames: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of the ranked markers, in their order, those with which enough joint frames remain to learn from.
+    """Choose markers that are observed together with a marker in enough frames to learn from.
 
-    A marker is passed over if with it fewer than `share` of the frames that show `marker`, or fewer than
-    `minimum_frames`, would show all chosen ones. Returns indices (k,) and the joint frames, ascending; both empty where
-    the marker itself is seen too rarely.
+    The candidates are tried in their order. One is left out if, with it, too few frames would show all chosen markers.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    marker : int
+        Index of the marker.
+    ranked : np.ndarray
+        Indices of candidates (n,), the best first.
+    share : float
+        Least share of the marker's frames that shows all chosen markers.
+    minimum_frames : int
+        Least number of such frames.
+
+    Returns
+    -------
+    markers : np.ndarray
+        Indices of the chosen candidates (k,), in their order; none where the marker is observed too rarely.
+    frames : np.ndarray
+        The frames, ascending, that show the marker and all chosen ones; none likewise.
     """
     joint = scene.present[:, marker].copy()
-    enough = max(minimum_frames, int(np.ceil(share * np.count_nonzero(joint))))
+    required = max(minimum_frames, int(np.ceil(share * np.count_nonzero(joint))))
     if np.count_nonzero(joint) < minimum_frames:
         return np.zeros(0, int), np.zeros(0, int)
     chosen = []
-    for other in np.asarray(ranked, int).tolist():
-        together = joint & scene.present[:, other]
-        if np.count_nonzero(together) >= enough:
-            chosen.append(other)
+    for candidate in np.asarray(ranked, int).tolist():
+        together = joint & scene.present[:, candidate]
+        if np.count_nonzero(together) >= required:
+            chosen.append(candidate)
             joint = together
     return np.array(chosen, int), np.flatnonzero(joint)

@@ -1,4 +1,4 @@
-"""Predictions from a coordinate's own course, smoothed (skurowski2022 3.3.1): what is quicker than that is the residual."""
+"""Smoothers of each coordinate's own trajectory as predictors: the residual is what is faster (skurowski2022 3.3.1)."""
 
 from __future__ import annotations
 
@@ -9,14 +9,19 @@ from markermend.prediction.scene import Scene
 
 
 class MovingMedian:
-    """The median of a coordinate over a window about each frame (skurowski2022 eq 18)."""
+    """The moving median of each coordinate (skurowski2022 eq 18).
+
+    Parameters
+    ----------
+    window_s : float
+        Length of the window, s.
+    """
 
     def __init__(self, *, window_s: float) -> None:
-        """window_s: of the median."""
         self.window_s = window_s
 
     def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
-        """Observed minus smoothed, (frames, markers, 3), mm; NaN where missing and for markers not asked for."""
+        """Subtract the smoothed trajectory from the observed one. See `ResidualSource.residuals`."""
         window = intervals.samples(self.window_s, scene.rate, odd=True)
         out = np.full(scene.positions.shape, np.nan)
         for marker in range(scene.positions.shape[1]) if markers is None else markers:
@@ -25,15 +30,23 @@ class MovingMedian:
         return out
 
     def _high_pass(self, signal: np.ndarray, window: int) -> np.ndarray:
-        """Signal (frames,) less what is slow in it."""
-        return signal - filters.moving_median(signal, window)
+        """Signal (frames,) minus its smooth over a window of so many samples."""
+        rest: np.ndarray = signal - filters.moving_median(signal, window)
+        return rest
 
 
 class SavitzkyGolay(MovingMedian):
-    """The polynomial fitted to a coordinate over a window about each frame (skurowski2022 eq 6, 7)."""
+    """The Savitzky-Golay filter of each coordinate (skurowski2022 eq 6, 7).
+
+    Parameters
+    ----------
+    window_s : float
+        Length of the window, s; it is widened where the order needs more samples.
+    order : int
+        Order of the polynomial.
+    """
 
     def __init__(self, *, window_s: float, order: int) -> None:
-        """window_s, order: of the polynomial; the window is widened to what the order needs."""
         super().__init__(window_s=window_s)
         self.order = order
 
