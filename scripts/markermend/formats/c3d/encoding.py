@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 class Processor(enum.IntEnum):
@@ -18,7 +20,13 @@ class Processor(enum.IntEnum):
 
 @dataclass(frozen=True)
 class Coding:
-    """How the numbers of one processor are stored, and the way to and from float64."""
+    """How the numbers of one processor are stored, and the conversion from and to float64.
+
+    Attributes
+    ----------
+    processor : Processor
+        The processor that a file was written for.
+    """
 
     processor: Processor
 
@@ -28,43 +36,57 @@ class Coding:
         return ">" if self.processor is Processor.MIPS else "<"
 
     @property
-    def float_type(self) -> np.dtype:
-        """The stored type of a float: raw bits for DEC, which NumPy does not know."""
+    def float_type(self) -> np.dtype[Any]:
+        """The stored type of a float: raw bits for DEC, which NumPy does not support."""
         return np.dtype("<u4" if self.processor is Processor.DEC else f"{self.order}f4")
 
     @property
-    def integer_type(self) -> np.dtype:
+    def integer_type(self) -> np.dtype[Any]:
         """The stored type of a signed 16-bit integer."""
         return np.dtype(f"{self.order}i2")
 
     def decode_floats(self, stored: np.ndarray) -> np.ndarray:
-        """Stored floats (any shape, of float_type) as float64, exactly."""
+        """Decode stored floats (any shape, of float_type) into float64, exactly."""
         if self.processor is Processor.DEC:
             return decode_dec(stored)
         with np.errstate(invalid="ignore"):  # a signalling NaN is a NaN
             return stored.astype(np.float64)
 
     def encode_floats(self, values: np.ndarray) -> np.ndarray:
-        """Float64 values (any shape) as stored floats, to the nearest; what is too large becomes NaN or infinite."""
+        """Encode float64 values (any shape) to the nearest stored float; what is too large becomes NaN or infinite."""
         if self.processor is Processor.DEC:
             return encode_dec(values)
         with np.errstate(over="ignore"):
             return values.astype(self.float_type)
 
+    def encode_integers(self, values: ArrayLike) -> np.ndarray:
+        """Encode 16-bit integers, signed or unsigned."""
+        return np.asarray(np.asarray(values, np.int64) & 0xFFFF, f"{self.order}u2")
+
     def integers(self, data: bytes) -> np.ndarray:
-        """Bytes as unsigned 16-bit integers."""
+        """Decode bytes as unsigned 16-bit integers."""
         return np.frombuffer(data, f"{self.order}u2")
 
     def floats(self, data: bytes) -> np.ndarray:
-        """Bytes as float64."""
+        """Decode bytes as floats, into float64."""
         return self.decode_floats(np.frombuffer(data, self.float_type))
 
 
 def decode_dec(stored: np.ndarray) -> np.ndarray:
-    """DEC (VAX F) floats, as little-endian 32-bit words, in float64, exactly.
+    """Decode DEC (VAX F) floats exactly.
 
     The sixteen bits with sign and exponent come first. The value is 0.1mmm (binary) times 2**(exponent - 128);
     exponent 0 means zero, or NaN where the sign is set.
+
+    Parameters
+    ----------
+    stored : ndarray of uint32
+        Little-endian 32-bit words.
+
+    Returns
+    -------
+    ndarray of float64
+        The values, in the same shape.
     """
     bits = stored.astype(np.uint32)
     bits = (bits >> np.uint32(16)) | (bits << np.uint32(16))
@@ -76,9 +98,18 @@ def decode_dec(stored: np.ndarray) -> np.ndarray:
 
 
 def encode_dec(values: np.ndarray) -> np.ndarray:
-    """Float64 values as DEC (VAX F) floats in little-endian 32-bit words, to the nearest.
+    """Encode values as DEC (VAX F) floats, to the nearest.
 
-    What is too large, infinite or NaN becomes the reserved operand, which reads as NaN; what is too small becomes zero.
+    Parameters
+    ----------
+    values : ndarray of float64
+        Of any shape.
+
+    Returns
+    -------
+    ndarray of uint32
+        Little-endian 32-bit words. What is too large, infinite or NaN becomes the reserved operand, which reads as
+        NaN; what is too small becomes zero.
     """
     finite = np.isfinite(values)
     fraction, exponent = np.frexp(np.where(finite, np.abs(values), 0.0))

@@ -1,14 +1,12 @@
-"""The header and the parameter section of a C3D file, read without trust in either.
+"""The header and the parameter section of a C3D file; neither is assumed to be right.
 
-Our own parser checks every length against the bytes that are there. Only a section that it finds sound is handed to
-ezc3d, and without the data, since ezc3d reads whole files and trusts them. ezc3d does not know MIPS files.
+Our own parser checks every length against the bytes that are present. Only a section that it finds sound is handed to
+ezc3d, and without the data, since ezc3d reads whole files and relies on what they declare. It cannot read MIPS files.
 """
 
 from __future__ import annotations
 
 import math
-import struct
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,20 +15,41 @@ import numpy as np
 from markermend.core.recording import BadRecording
 from markermend.formats.c3d.encoding import Coding, Processor
 from markermend.formats.c3d.isolated_reader import strings_by_ezc3d
+from markermend.formats.c3d.parameter_records import (
+    UnsoundRecordError,
+    Values,
+    decode_record,
+    decode_values,
+    is_description,
+)
 
 BLOCK = 512
+"""Bytes of a block, in which header, parameters and data are measured."""
+
 KEY = 0x50
+"""The second byte of every C3D file."""
+
 LONGEST_SECTION = 4096 * BLOCK
 """More than the 255 blocks of the standard, for the files that exceed it."""
-
-LONGEST_DESCRIPTION = 127
-
-TEXT, BYTE, INTEGER, FLOAT = -1, 1, 2, 4
 
 
 @dataclass(frozen=True)
 class Header:
-    """The first block of a C3D file: what it says of the data, right or wrong."""
+    """The first block of a C3D file: what it declares, right or wrong.
+
+    Attributes
+    ----------
+    parameter_block, data_block : int
+        Where parameters and data begin, in blocks counted from 1.
+    points, analog : int
+        Points, and analog samples, per frame.
+    first_frame, last_frame : int
+        The capture program's numbers of the first and the last frame.
+    scale : float
+        Size of an integer step in the file's unit; negative for floating point data.
+    rate : float
+        In Hz.
+    """
 
     parameter_block: int
     points: int
@@ -44,36 +63,64 @@ class Header:
 
 @dataclass
 class Section:
-    """The parameters of a C3D file by group and name, both in capitals, as lists of strings or numbers.
+    """The parameters of a C3D file.
 
-    Integers are unsigned. sound: whether every record fits the section. exact: whether, besides, each is as long as its
-    contents, and no longer. end: where the records end, in bytes.
+    Attributes
+    ----------
+    coding : Coding
+        How numbers are stored in the file.
+    header : Header
+        The first block of the file.
+    groups : dict of str to dict of str to Values
+        Parameters by group and name, both in capitals; integers are unsigned.
+    sound : bool
+        Whether every record fits the section.
+    exact : bool
+        Whether, besides, each is as long as its contents, and no longer.
+    end : int
+        Where the records end, in bytes.
     """
 
     coding: Coding
     header: Header
-    groups: dict[str, dict[str, list]] = field(default_factory=dict)
+    groups: dict[str, dict[str, Values]] = field(default_factory=dict)
     sound: bool = True
     exact: bool = True
     end: int = 0
 
     def texts(self, group: str, name: str) -> list[str]:
-        """The strings of a parameter; empty where it is absent or of another type."""
+        """Give the strings of a parameter; none where it is absent or of another type."""
         values = self.groups.get(group, {}).get(name, [])
         return [value for value in values if isinstance(value, str)]
 
     def numbers(self, group: str, name: str) -> list[float]:
-        """The finite numbers of a parameter; empty where it is absent or of another type."""
+        """Give the finite numbers of a parameter; none where it is absent or of another type."""
         values = self.groups.get(group, {}).get(name, [])
         return [value for value in values if not isinstance(value, str) and math.isfinite(value)]
 
     def number(self, group: str, name: str) -> float | None:
-        """The first number of a parameter, or None."""
+        """Give the first number of a parameter, or None."""
         return next(iter(self.numbers(group, name)), None)
 
 
 def read_section(path: Path) -> Section:
-    """Read header and parameters; raises BadRecording where the file is not a C3D file at all."""
+    """Read the header and the parameters of a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Section
+        What could be read, with `sound` False where records are damaged.
+
+    Raises
+    ------
+    BadRecording
+        If it is not a C3D file at all.
+    """
     with open(path, "rb") as file:
         head = file.read(LONGEST_SECTION)
     if not head:
@@ -103,102 +150,33 @@ def _header(head: bytes, coding: Coding) -> Header:
 def _parse(head: bytes, start: int, section: Section) -> None:
     """Walk the chain of groups and parameters from `start` and put what is sound into the section."""
     names: dict[int, str] = {}
-    found: list[tuple[int, str, list]] = []
+    found: list[tuple[int, str, Values]] = []
     declared = max(section.header.data_block - 1, section.header.parameter_block - 1 + head[start - 2]) * BLOCK
     limit = min(declared, len(head))
     position: int | None = start
     while position is not None:
         section.end = position
         try:
-            identity, name, body, position = _record(head, position, limit, section.coding)
-        except _UnsoundError:
+            record = decode_record(head, position, limit, section.coding)
+        except UnsoundRecordError:
             section.sound = False
             break
-        if identity and position is None:
+        position = record.following
+        if record.identity and position is None:
             section.end = limit
         try:
-            if identity < 0:
-                names[-identity] = name
+            if record.identity < 0:
+                names[-record.identity] = record.name
                 length = 0
-            elif identity > 0:
-                values, length = _values(body, section.coding)
-                found.append((identity, name, values))
-            section.exact &= identity == 0 or _described(body[length:], whole=position is not None)
-        except _UnsoundError:
+            elif record.identity > 0:
+                values, length = decode_values(record.body, section.coding)
+                found.append((record.identity, record.name, values))
+            section.exact &= record.identity == 0 or is_description(record.body[length:], complete=position is not None)
+        except UnsoundRecordError:
             section.sound = False
     for identity, name, values in found:
         section.sound &= identity in names
         section.groups.setdefault(names.get(identity, ""), {}).setdefault(name, values)
-
-
-class _UnsoundError(Exception):
-    """A record that does not fit its section."""
-
-
-def _record(head: bytes, position: int, limit: int, coding: Coding) -> tuple[int, str, bytes, int | None]:
-    """One record: group number (negative for a group, 0 at the end), name, body, and where the next begins.
-
-    An offset of 0, or one that leaves the section, marks the last record.
-    """
-    if position + 2 > limit:
-        raise _UnsoundError
-    length, identity = struct.unpack_from("bb", head, position)
-    if length == 0 or identity == 0:
-        return 0, "", b"", None
-    at = position + 2 + abs(length)
-    if at + 2 > limit:
-        raise _UnsoundError
-    name = _text(head[position + 2 : at]).upper()
-    if not name.isprintable():
-        raise _UnsoundError
-    (offset,) = struct.unpack_from(f"{coding.order}H", head, at)
-    if offset == 0 or at + offset > limit:
-        return identity, name, head[at + 2 : limit], None
-    if offset == 1:
-        raise _UnsoundError
-    return identity, name, head[at + 2 : at + offset], at + offset
-
-
-def _described(rest: bytes, *, whole: bool) -> bool:
-    """Tell whether what follows the contents of a record is a description, and (`whole`) nothing else."""
-    if not rest or rest[0] > LONGEST_DESCRIPTION:
-        return False
-    return len(rest) == 1 + rest[0] if whole else len(rest) >= 1 + rest[0]
-
-
-def _values(body: bytes, coding: Coding) -> tuple[list, int]:
-    """The values of a parameter record (strings along the first dimension, or numbers), and how many bytes they take."""
-    if len(body) < 2 or len(body) < 2 + body[1]:
-        raise _UnsoundError
-    (kind,) = struct.unpack_from("b", body)
-    dimensions = list(body[2 : 2 + body[1]])
-    if kind not in (TEXT, BYTE, INTEGER, FLOAT) or len(dimensions) > 7:
-        raise _UnsoundError
-    size = math.prod(dimensions) * abs(kind)
-    length = 2 + len(dimensions) + size
-    data = body[2 + len(dimensions) : length]
-    if len(data) < size:
-        raise _UnsoundError
-    if kind == TEXT:
-        return list(_texts(data, dimensions[0] if dimensions else 1)), length
-    if kind == BYTE:
-        return list(data), length
-    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist(), length
-
-
-def _texts(data: bytes, width: int) -> Iterator[str]:
-    """Cut character data into strings of equal width."""
-    for start in range(0, len(data), max(width, 1)):
-        yield _text(data[start : start + width])
-
-
-def _text(data: bytes) -> str:
-    """Bytes as text, without trailing blanks: UTF-8 where that is what they are, Latin-1 otherwise."""
-    try:
-        text = data.decode()
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
-    return text.rstrip(" \0")
 
 
 def _without_data(head: bytes, section: Section) -> bytes:
