@@ -6,15 +6,14 @@ Writes: 03_noise.parquet.
 
 from markermend.command import detector
 from markermend.detection import noise
-from markermend.storage import stage_files
 
 STAGE = detector.stage("noise", __doc__, finds="heavy noise", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    given, _ = detector.arguments(call)
+    given, recorded_under = detector.arguments(call)
     found = noise.detect_noise(**given, settings=noise.settings(call.options))
-    stage_files.write_events(call.events, found, call.facts)
+    detector.write(call, found, recorded_under, {})
     return detector.result(found)
 
 

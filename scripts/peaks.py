@@ -6,15 +6,14 @@ Writes: 02_peaks.parquet.
 
 from markermend.command import detector
 from markermend.detection import peaks
-from markermend.storage import stage_files
 
 STAGE = detector.stage("peaks", __doc__, finds="isolated peaks", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    given, _ = detector.arguments(call)
+    given, recorded_under = detector.arguments(call)
     found = peaks.detect_peaks(**given, settings=peaks.settings(call.options))
-    stage_files.write_events(call.events, found, call.facts)
+    detector.write(call, found, recorded_under, {})
     return detector.result(found)
 
 

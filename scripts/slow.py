@@ -10,7 +10,6 @@ from markermend.detection import slow as detection_slow
 from markermend.detection.published import slow
 from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
-from markermend.storage import stage_files
 
 STAGE = detector.stage("slow", __doc__, finds="slow changes", presets=["default", "paper"])
 for name in LAGGED_REGRESSIONS:
@@ -18,12 +17,12 @@ for name in LAGGED_REGRESSIONS:
 
 
 def work(call):
-    given, _ = detector.arguments(call)
+    given, recorded_under = detector.arguments(call)
     settings = detection_slow.settings(call.options)
     if isinstance(settings, PublishedSlowOptions):
         given["predictor"] = slow.predictor(settings, call.options)
     found = detection_slow.detect_slow(**given, settings=settings)
-    stage_files.write_events(call.events, found, call.facts)
+    detector.write(call, found, recorded_under, {})
     return detector.result(found)
 
 

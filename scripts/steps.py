@@ -1,22 +1,20 @@
-"""Detect steps, and swapped labels.
+"""Detect steps.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 04_steps.parquet, with the jumps that have no counterpart among its facts.
 """
 
 from markermend.command import detector
-from markermend.detection import labels, steps
-from markermend.storage import stage_files
+from markermend.detection import steps
 
 STAGE = detector.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
 
 
 def work(call):
-    given, swapped = detector.arguments(call)
+    given, recorded_under = detector.arguments(call)
     found, left = steps.detect_steps(**given, settings=steps.settings(call.options))
-    found = labels.among(found, swapped)
-    stage_files.write_events(call.events, found, {**call.facts, "open_steps": [vars(step) for step in left]})
-    return f"{detector.result(found)}; {len(swapped) // 2} swaps among them; {len(left)} open steps"
+    detector.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
+    return f"{detector.result(found)}; {len(left)} open steps"
 
 
 def main(argv=None):

@@ -21,7 +21,7 @@ settings.load_profile("the same examples each time")
 
 
 class Contaminated(NamedTuple):
-    """The walker's recording with artifacts and gaps, what it was, and where they are: events per class, swaps as steps."""
+    """The walker's recording with artifacts and gaps, what it was, and where they are: events per class."""
 
     recording: Recording
     clean: Recording

@@ -12,8 +12,8 @@ leaves out (markermend.simulation.protocols.in_practice). Amplitudes are normal,
 
 Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
 What frozen and tails find is a class like the others, though the published damage has neither: a sample of a peak that
-they take away is found (`any`), but as what it is not. Swapped labels are told from the other steps. The preset `paper`
-is the published detector alone, without frozen, tails and swaps. Macro F1 is over the classes that were put in. RMSE is
+they take away is found (`any`), but as what it is not. The preset `paper`
+is the published detector alone, without labels, frozen and tails. Macro F1 is over the classes that were put in. RMSE is
 over the distorted samples that have a value after repair (the share that has none is told), and, as `all`, over all.
 
 Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its course and that
@@ -42,11 +42,12 @@ import numpy as np
 
 from benchmarks.support.defaults import CONFIG, PROJECT
 from benchmarks.support.detection_outcome import CLASSES, Outcome, print_outcome
-from markermend.core import events
+from markermend.core import events, labels
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.detection import frozen, labels, noise, peaks, steps, tails
+from markermend.detection import frozen, noise, peaks, steps, tails
 from markermend.detection import slow as detection_slow
+from markermend.detection.labels import detect_labels
 from markermend.detection.published import slow
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
@@ -75,21 +76,22 @@ def damage(clean: Recording, *, amplitude: float, share: float, seed: int, proce
 
 
 def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
-    """Find the events of each class as the workflow does: swaps undone, each detector after the ones before.
+    """Find the events of each class as the workflow does: label exchanges undone, each detector after the ones before.
 
     What frozen and tails find is missing for all that come later.
     """
     near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
-    scene, swapped = Scene(recording.positions, recording.rate, near, segment_mates=relatives), []
+    scene = Scene(recording.positions, recording.rate, near, segment_mates=relatives)
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
     claimed, found = np.zeros(recording.positions.shape, bool), {}
     if preset != "paper":
+        found["labels"] = detect_labels(scene, markers=recording.markers, settings=LabelsOptions(**config["labels"]))
+        positions = labels.undo_exchanges(scene.positions, found["labels"], recording.markers)
+        scene = replace(scene, positions=positions)
         for kind, (look, settings) in UNMEASURED.items():
             given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
             found[kind] = look(scene, settings=settings(**config[kind]), **given)
             claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=LabelsOptions(**config["swaps"]))
-        scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
     for kind, module in DETECTORS.items():
         settings = module.settings({**config[kind], "preset": preset})
         if isinstance(settings, PublishedSlowOptions):
@@ -98,7 +100,7 @@ def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
         result = getattr(module, f"detect_{kind}")(scene, settings=settings, **given)
         found[kind] = result[0] if kind == "steps" else result
         claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-    return {**found, "steps": labels.among(found["steps"], swapped)}
+    return found
 
 
 def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[np.ndarray, bool]:
@@ -114,14 +116,14 @@ def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[n
     return result.positions, refused
 
 
-def class_of(kind: str, partner: str | None) -> int:
+def class_of(kind: str) -> int:
     """Number of the class of an event of a detector; 0 is clean."""
-    return 1 + CLASSES.index("swaps" if partner else kind)
+    return 1 + CLASSES.index(kind)
 
 
 def classes(found: dict, recording: Recording) -> np.ndarray:
     """Class of each sample (frames, markers): 0 clean, else 1 + its place in CLASSES; the detector that was first wins."""
-    own = [(class_of(kind, event.partner), event) for kind in found for event in found[kind]]
+    own = [(class_of(kind), event) for kind in found for event in found[kind]]
     out = np.zeros(recording.missing.shape, int)
     for number in range(len(CLASSES), 0, -1):
         some = [event for other, event in own if other == number]
@@ -133,7 +135,7 @@ def forms(harm: Contamination, seen: np.ndarray, told: np.ndarray) -> Counter[tu
     """Artifacts and samples by class and form, and what was found of them. seen: which samples count; told: their classes."""
     count: Counter[tuple[str, str, str]] = Counter()
     for artifact in harm.artifacts:
-        number, m = class_of(artifact.kind, artifact.partner), harm.markers.index(artifact.marker)
+        number, m = class_of(artifact.kind), harm.markers.index(artifact.marker)
         own = told[artifact.start : artifact.stop, m][seen[artifact.start : artifact.stop, m]]
         key = CLASSES[number - 1], artifact.form
         count.update({(*key, "artifacts"): 1, (*key, "samples"): own.size})

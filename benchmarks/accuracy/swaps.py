@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.support.defaults import CONFIG
-from markermend.detection.labels import detect_swaps, undone
+from markermend.core.labels import undo_exchanges
+from markermend.detection.labels import detect_labels
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
 from markermend.options.detection import LabelsOptions
@@ -75,13 +76,13 @@ def main() -> None:
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
     arguments = parser.parse_args()
     config = CONFIG
-    settings = LabelsOptions(**config["swaps"])
+    settings = LabelsOptions(**config["labels"])
     tried: Counter[tuple[str, int, int]] = Counter()
     right: Counter[tuple[str, int, int]] = Counter()
     false = in_clean = 0
     for path in arguments.recordings:
         markers, scene = read(path, config)
-        in_clean += len(detect_swaps(scene, markers=markers, settings=settings))
+        in_clean += len(detect_labels(scene, markers=markers, settings=settings))
         some = scene.positions[:: max(1, len(scene.positions) // 50)]
         apart = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
         np.fill_diagonal(apart, np.nan)
@@ -93,13 +94,13 @@ def main() -> None:
                     if case is None:
                         continue
                     positions, original, ring, start, stop = case
-                    found = detect_swaps(replace(scene, positions=positions), markers=markers, settings=settings)
+                    found = detect_labels(replace(scene, positions=positions), markers=markers, settings=settings)
                     onward = [*ring[1:], ring[0]]
                     truth = {(markers[m], start, stop, markers[n]) for m, n in zip(ring, onward, strict=True)}
                     told = {(event.marker, event.start, event.stop, event.partner) for event in found}
                     key = kind, int(np.searchsorted(BANDS, apart[ring[0], ring[1]])), length
                     tried[key] += 1
-                    same = np.array_equal(undone(positions, found, markers), original, equal_nan=True)
+                    same = np.array_equal(undo_exchanges(positions, found, markers), original, equal_nan=True)
                     right[key] += truth == told and same
                     false += len(told - truth)
     for kind in arguments.kinds:

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-CLASSES = ("frozen", "tails", "swaps", "peaks", "noise", "steps", "slow")
-"""What is told apart, first found first; swaps are undone before peaks are looked for."""
+CLASSES = ("labels", "frozen", "tails", "peaks", "noise", "steps", "slow")
+"""What is told apart, first found first; label exchanges are undone before all else is looked for."""
 
 NAMES = ("clean", *CLASSES)
 

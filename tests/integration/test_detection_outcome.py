@@ -44,14 +44,15 @@ def test_a_sample_has_the_class_that_is_found_first():
     own = {
         "tails": [Event("A", 0, 10, 1.0)],
         "peaks": [Event("A", 5, 12, 1.0), Event("B", 3, 4, 1.0)],
-        "steps": [Event("B", 0, 6, 1.0), Event("C", 0, 2, 1.0, partner="B")],
+        "labels": [Event("C", 0, 2, 1.0, partner="B")],
+        "steps": [Event("B", 0, 6, 1.0)],
         "slow": [Event("C", 0, 4, 1.0)],
     }
     told = detection.classes(own, recording())
     names = [["clean", *CLASSES][number] for number in told[[0, 9, 11, 12], 0]]
     assert names == ["tails", "tails", "peaks", "clean"]
     assert [["clean", *CLASSES][number] for number in told[[2, 3], 1]] == ["steps", "peaks"]
-    assert [["clean", *CLASSES][number] for number in told[[1, 2, 4], 2]] == ["swaps", "slow", "clean"]
+    assert [["clean", *CLASSES][number] for number in told[[1, 2, 4], 2]] == ["labels", "slow", "clean"]
 
 
 def test_forms_count_what_was_found_and_found_right():
@@ -63,8 +64,8 @@ def test_forms_count_what_was_found_and_found_right():
     seen = np.ones(clean.missing.shape, bool)
     seen[28:30] = False
     told = np.zeros(clean.missing.shape, int)
-    told[20:24, 0] = detection.class_of("steps", None)
-    told[24:25, 0] = detection.class_of("peaks", None)
+    told[20:24, 0] = detection.class_of("steps")
+    told[24:25, 0] = detection.class_of("peaks")
     count = detection.forms(harm, seen, told)
     assert [count["steps", "alone", what] for what in ("artifacts", "samples", "any", "right")] == [1, 8, 5, 4]
     assert [count["steps", "together", what] for what in ("artifacts", "samples", "any", "right")] == [1, 10, 0, 0]

@@ -8,7 +8,7 @@ from markermend.formats import files
 from support.signals import CONFIG
 
 KNOWN = [
-    ("2022_01_0403.c3d", {"swaps": [("LTH1", 194, 801), ("LTH2", 194, 801), ("LTH1", 904, 936), ("LTH2", 904, 936)]}),
+    ("2022_01_0403.c3d", {"labels": [("LTH1", 194, 801), ("LTH2", 194, 801), ("LTH1", 904, 936), ("LTH2", 904, 936)]}),
     ("UNIPD_Walking2.c3d", {"steps": [("RCA", 78, 84)]}),
     ("flicker_ee8cdcfd_markers.trc", {"noise": [("RFHD", 0, 230), ("CLAV", 325, 360)]}),
 ]
@@ -26,5 +26,5 @@ def test_what_a_person_saw_is_found(data, name, known):
         for marker, start, stop in places:
             right = told[:, recording.markers.index(marker)] == 1 + detection.CLASSES.index(kind)
             assert right[start:stop].mean() > 0.8
-            if kind == "swaps":
+            if kind == "labels":
                 assert np.array_equal(np.flatnonzero(np.diff(right.astype(int))) + 1, [194, 801, 904, 936])

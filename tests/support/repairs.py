@@ -23,9 +23,10 @@ RIDGE = LocalRidgeOptions(
     novelty=20.0,
 )
 METHODS = {
+    "labels": ["exchange"],
     "peaks": ["spline"],
     "noise": ["local_ridge"],
-    "steps": ["swap", "separate_step", "local_ridge"],
+    "steps": ["separate_step", "local_ridge"],
     "slow": ["local_ridge"],
 }
 MARKER, START, STOP = "2b", 600, 640

@@ -18,7 +18,7 @@ from markermend.planning.config import flags
 from markermend.storage import atomic, mesh_file, stage_files
 from markermend.storage.folder_names import encode
 
-ORIGIN = {"peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
+ORIGIN = {"labels": "swap", "peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
 OPTIONS = {
     "plots": 100,
     "context_s": 0.5,

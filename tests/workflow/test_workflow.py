@@ -19,7 +19,7 @@ import yaml
 from support.workflow_runs import PROJECT, Project, write_recording
 
 STAGES = (
-    "ingest", "mesh", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
+    "ingest", "mesh", "labels", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
 )  # fmt: skip
 PER_RECORDING = {"ingest": {"recording", "subject", "kind", "rate"}}
 NO_OPTIONS = {"mesh": {"files"}}

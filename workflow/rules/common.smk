@@ -23,7 +23,7 @@ from markermend.core.artifacts import ARTIFACTS, CLASSES
 from markermend.planning import code_hashes, decision_table, run_facts, run_summary
 from markermend.planning import config as settings
 from markermend.planning import recordings as dataset
-from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import SHARED
 from markermend.storage.atomic import sha256, write_json, write_text
@@ -164,7 +164,7 @@ def rate(wildcards):
 
 def detection(stage):
     """What a detector's settings share with other stages."""
-    return ["local_ridge", *(["swaps"] if "preset" in config[stage] else []), *(LOOSE if stage == "slow" else [])]
+    return [] if stage == "labels" else ["local_ridge", *(LAGGED_REGRESSIONS if stage == "slow" else [])]
 
 
 def decided(wildcards):

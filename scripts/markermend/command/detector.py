@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +10,9 @@ import numpy as np
 
 from markermend.command import detector
 from markermend.command.stage import Stage, mapping
-from markermend.core import events
+from markermend.core import events, labels
 from markermend.core.events import Event
 from markermend.core.recording import Recording
-from markermend.detection import labels
-from markermend.options.detection import LabelsOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
@@ -37,9 +34,6 @@ def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) ->
     for preset in presets:
         command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
     command.option("local_ridge", mapping, "settings of the predictor")
-    command.option(
-        "swaps", mapping, "what counts as swapped labels, which are undone before anything else is looked for"
-    )
     return command
 
 
@@ -48,40 +42,54 @@ def files(name: str, description: str, *, finds: str) -> Stage:
     command = Stage(name, description)
     command.reads("markers", "trajectories as ingested")
     command.reads("mesh", "who the neighbours are")
-    command.reads("earlier", "events of the detectors before, whose samples are left out", many=True, optional=True)
+    command.reads(
+        "earlier", "events of the detectors before: labels to exchange, samples to leave out", many=True, optional=True
+    )
     command.writes("events", f"the {finds} found")
     return command
 
 
 def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
-    """What every detector is given, from a stage's files and options, and the swaps that were undone for it.
+    """What every detector is given, from a stage's files and options, and the label exchanges not undone for it.
 
-    The preset `paper` knows no swaps. Raises SetAside where the recording was set aside.
+    The published detectors (preset `paper`) look at the trajectories as recorded. Raises SetAside where the recording
+    was set aside.
     """
-    recording, scene, earlier = read(call.markers, call.mesh, call.earlier)
-    swapped: list[events.Event] = []
-    if call.options["preset"] != "paper":
-        settings = LabelsOptions(**call.options["swaps"])
-        swapped = labels.detect_swaps(scene, markers=recording.markers, settings=settings)
-        scene = replace(scene, positions=labels.undone(scene.positions, swapped, recording.markers))
+    as_recorded = call.options["preset"] == "paper"
+    recording, scene, earlier, exchanges = read(call.markers, call.mesh, call.earlier, as_recorded=as_recorded)
     predictor = LocalRidge(LocalRidgeOptions(**call.options["local_ridge"]))
-    return {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}, swapped
+    given = {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}
+    return given, exchanges if as_recorded else []
 
 
-def read(markers: Path, mesh_file: Path, earlier: list[Path]) -> tuple[Recording, Scene, np.ndarray]:
-    """Read a recording, its scene, and the mask, like its positions, of what earlier detectors claimed, but for swaps.
+def read(
+    markers: Path, mesh_file: Path, earlier: list[Path], *, as_recorded: bool = False
+) -> tuple[Recording, Scene, np.ndarray, list[Event]]:
+    """Read a recording, its scene, the mask, like its positions, of what earlier detectors claimed, and the exchanges.
 
-    Raises SetAside where an earlier stage set the recording aside.
+    The label exchanges among the earlier events are undone in the scene, unless it is wanted as recorded. Raises SetAside
+    where an earlier stage set the recording aside.
     """
     recording = stage_files.read_recording(markers)
     network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
     near, relatives = network.neighbour_indices(recording.markers), network.relative_indices(recording.markers)
-    scene = Scene(recording.positions, recording.rate, near, segment_mates=relatives)
-    claimed = np.zeros(recording.positions.shape, bool)
-    for path in earlier:
-        artifacts = [event for event in stage_files.read_events(path) if event.partner is None]
-        claimed |= events.coordinates(artifacts, recording.frames, recording.markers)
-    return recording, scene, claimed
+    found = [event for path in earlier for event in stage_files.read_events(path)]
+    exchanges = [event for event in found if event.partner is not None]
+    artifacts = [event for event in found if event.partner is None]
+    positions = recording.positions
+    if as_recorded:
+        artifacts = labels.follow(artifacts, found_under=exchanges, stated_under=())
+    else:
+        positions = labels.undo_exchanges(positions, exchanges, recording.markers)
+    scene = Scene(positions, recording.rate, near, segment_mates=relatives)
+    return recording, scene, events.coordinates(artifacts, recording.frames, recording.markers), exchanges
+
+
+def write(call: Any, found: list[Event], recorded_under: list[Event], facts: dict[str, Any]) -> None:
+    """Write findings under the right labels: those on trajectories as recorded go where the exchanges put them."""
+    if recorded_under:
+        found = labels.follow(found, found_under=(), stated_under=recorded_under)
+    stage_files.write_events(call.events, found, {**call.facts, **facts})
 
 
 def result(found: list[events.Event]) -> str:
@@ -102,7 +110,7 @@ def search(call: Any, detect: Callable[..., list[Event]], settings: type) -> str
     call: the stage's files and options. detect: the detector. settings: what its own options make. Raises SetAside where
     the recording was set aside.
     """
-    recording, scene, earlier = detector.read(call.markers, call.mesh, call.earlier)
+    recording, scene, earlier, _ = detector.read(call.markers, call.mesh, call.earlier)
     options = dict(call.options)
     predictor = LocalRidge(LocalRidgeOptions(**options.pop("local_ridge")))
     given = {"markers": recording.markers, "earlier": earlier, "predictor": predictor}

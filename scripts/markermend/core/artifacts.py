@@ -49,6 +49,7 @@ class ArtifactClass:
 
 
 ARTIFACTS = (
+    ArtifactClass("labels", "swap", "exchanged labels", "markers stand under each other's labels for a stretch", 2),
     ArtifactClass(
         "frozen",
         "frozen",
@@ -67,7 +68,7 @@ ARTIFACTS = (
     ),
     ArtifactClass("peaks", "peak", "isolated peaks", "a few frames jump away and back", 2),
     ArtifactClass("noise", "noise", "heavy noise", "a stretch that trembles far beyond the ordinary", 3),
-    ArtifactClass("steps", "step", "steps and label swaps", "a stretch stands aside from where it belongs", 4),
+    ArtifactClass("steps", "step", "steps", "a stretch stands aside from where it belongs", 4),
     ArtifactClass(
         "slow", "slow", "slow drifts", "a stretch leaves its place against the neighbours, and comes back", 5
     ),
@@ -80,9 +81,5 @@ CLASSES = tuple(artifact.stage for artifact in ARTIFACTS)
 BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact in ARTIFACTS}
 """The classes by their detectors."""
 
-STAGE_OF: Mapping[str, str] = {
-    name: stage
-    for artifact in ARTIFACTS
-    for name, stage in ((artifact.name, artifact.stage), *([("swap", "steps")] if artifact.stage == "steps" else []))
-}
-"""The detector of each class by the class's name; exchanged labels are found with the steps."""
+STAGE_OF: Mapping[str, str] = {artifact.name: artifact.stage for artifact in ARTIFACTS}
+"""The detector of each class by the class's name."""

@@ -170,7 +170,7 @@ def swapped(
     return found
 
 
-def detect_swaps(scene: Scene, *, markers: Sequence[str], settings: LabelsOptions) -> list[Event]:
+def detect_labels(scene: Scene, *, markers: Sequence[str], settings: LabelsOptions) -> list[Event]:
     """Find the swaps of a recording: one event for each marker, with that under whose label it is as partner.
 
     Two markers are each other's partners; three and more form a ring of partners. All have the same interval.
@@ -204,22 +204,3 @@ def detect_swaps(scene: Scene, *, markers: Sequence[str], settings: LabelsOption
             taken[start:stop, ring] = True
             found += [Event(markers[m], start, stop, max(1.0, score), "xyz", markers[under[m]]) for m in ring]
     return sorted(found, key=lambda event: event.order)
-
-
-def among(steps: Sequence[Event], swapped: Sequence[Event]) -> list[Event]:
-    """Swaps and steps together, sorted; a step that overlaps a swap of its marker goes, so that all stay disjoint."""
-
-    def free(step: Event) -> bool:
-        return not any(s.marker == step.marker and s.start < step.stop and step.start < s.stop for s in swapped)
-
-    return sorted([*filter(free, steps), *swapped], key=lambda event: event.order)
-
-
-def undone(positions: np.ndarray, found: Sequence[Event], markers: Sequence[str]) -> np.ndarray:
-    """Positions (frames, markers, 3) with the swaps among the findings undone, bit for bit; the rest as it is."""
-    out = positions.copy()
-    for event in found:
-        if event.partner is not None:
-            span = slice(event.start, event.stop)
-            out[span, markers.index(event.marker)] = positions[span, markers.index(event.partner)]
-    return out

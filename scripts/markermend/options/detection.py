@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class LabelsOptions:
-    """What counts as a swap (config section `swaps`).
+    """What counts as a label exchange (config section `labels`).
 
     ratio: what is left of an exchange's jump once it is undone is at most this part of it. jump: a step from frame to
     frame departs from the median over window_s by so many times the usual departure. floor_mm: and by at least so much.

@@ -12,8 +12,8 @@ class RepairOptions:
     """Settings of the repair (config section `repair`).
 
     methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`,
-    `separate_noise`, `separate_step`, `separate_slow` (part the marker's course from the artifact), `swap` (swap back
-    with the partner, before all other repairs) or `blank`. prefer: of two methods
+    `separate_noise`, `separate_step`, `separate_slow` (part the marker's course from the artifact), `exchange` (give exchanged
+    labels their own samples, before all other repairs) or `blank`. prefer: of two methods
     whose expected errors (68 %) differ by less than this factor the preferred one is taken, else the one that errs less.
     protect: marker name patterns never touched. max_altered_share: with more than this share of the seen samples found,
     nothing is repaired. max_repair_s: longer findings become missing. max_error_mm: likewise where the expected error

@@ -20,6 +20,9 @@ from markermend.planning.recordings import BadDataSet, Entry, read_table
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
 
+METHOD_NAMES = {"swap": "exchange"}
+"""Methods that changes.tsv calls otherwise than the config."""
+
 NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS}, "filled": GAP}
 """Classes by the names of their detectors, and what changes.tsv calls a gap that was filled."""
 
@@ -112,7 +115,7 @@ def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[st
 def value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
     """What the column value says to this decision. Raises Problem."""
     verb, value = row["decision"], row.get("value", "")
-    value = NAMES.get(value, value)
+    value = METHOD_NAMES.get(value, value) if verb == "method" else NAMES.get(value, value)
     if verb in ("protect", "missing") and value:
         raise Problem("value", f"{value!r}: {verb} takes no value")
     if verb in ("accept", "reject") and value and value not in (*STAGE_OF, GAP):

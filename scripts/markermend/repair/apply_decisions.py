@@ -13,6 +13,7 @@ from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, to
 from markermend.core.events import Event, tidy
 from markermend.core.recording import Recording
 from markermend.numerics.intervals import runs
+from markermend.repair.label_exchanges import concerned
 
 
 @dataclass(frozen=True)
@@ -32,22 +33,24 @@ def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions:
     """Apply the decisions to the findings of each detector, and take away what was declared missing.
 
     Rejected findings are dropped whole, and so are those on which a person set a class; findings that reach into
-    protected samples end there.
+    protected samples end there. A decision on one marker of a label exchange is about all of them.
     """
     decisions = [d for d in decisions if d.partner is None or d.partner in recording.markers]
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
     away = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
     remaining = replace(recording, positions=np.where(away[..., None], np.nan, recording.positions))
     judged = Judgement(remaining, {stage: [] for stage in CLASSES}, _declared(recording, away, decisions))
+    exchanges = found.get("labels", ())
     for stage, event in ((stage, event) for stage, events in found.items() for event in events):
-        against = _against(decisions, stage, event)
+        markers = concerned(event, exchanges)
+        against = _against(decisions, stage, event, markers)
         if against.left:
             judged.left.append(_entry(stage, event, event.start, event.stop, against))
         else:
-            _admit(judged, stage, event, protected, away, decisions)
+            _admit(judged, stage, event, markers, protected, away, decisions)
     for stage, events in _set(remaining, decisions).items():
         for event in events:
-            _admit(judged, stage, event, protected, away, decisions)
+            _admit(judged, stage, event, names(event), protected, away, decisions)
     return judged
 
 
@@ -55,32 +58,39 @@ def _admit(
     judged: Judgement,
     stage: str,
     event: Event,
+    markers: Sequence[str],
     protected: np.ndarray,
     away: np.ndarray,
     decisions: Iterable[Decision],
 ) -> None:
-    """Keep a finding where it may be repaired, and note where it may not. protected, away: bool (frames, markers)."""
-    concerned = [judged.recording.markers.index(name) for name in names(event)]
+    """Keep a finding on markers where it may be repaired, and note where not. protected, away: bool (frames, markers)."""
+    columns = [judged.recording.markers.index(name) for name in markers]
     span = slice(event.start, event.stop)
-    shut = np.asarray(protected[span, concerned].any(axis=1))
+    shut = np.asarray(protected[span, columns].any(axis=1))
     # A label swap takes missing samples along; any other finding ends where samples were taken away.
-    free = ~shut if event.partner else ~shut & ~away[span, concerned[0]]
+    free = ~shut if event.partner else ~shut & ~away[span, columns[0]]
     for start, stop in runs(free):
-        if judged.recording.missing[event.start + start : event.start + stop, concerned].all():
+        if judged.recording.missing[event.start + start : event.start + stop, columns].all():
             continue
         judged.found[stage].append(replace(event, start=event.start + start, stop=event.start + stop))
     for start, stop in runs(shut):
         place = event.start + start, event.start + stop
-        ruling = rule((d for d in decisions if d.verb == "protect"), (), names(event), *place)
+        ruling = rule((d for d in decisions if d.verb == "protect"), (), markers, *place)
         judged.left.append(_entry(stage, event, *place, ruling))
 
 
-def _against(decisions: Iterable[Decision], stage: str, event: Event) -> Ruling:
-    """Why a finding is dropped: rejected, left, or in the place of what a person says is of another class."""
+def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: Sequence[str]) -> Ruling:
+    """Why a finding on markers is dropped: rejected, left, or in the place of what a person says is of another class."""
     rest = [decision for decision in decisions if decision.verb != "protect"]
-    ruling = rule(rest, [kind_of(stage, event)], names(event), event.start, event.stop)
-    classes = [d for d in rest if d.verb == "class" and d.on(names(event), event.start, event.stop)]
+    ruling = rule(rest, [kind_of(stage, event)], markers, event.start, event.stop)
+    classes = [d for d in rest if d.verb == "class" and _replaces(d, markers, event)]
     return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=told(classes))
+
+
+def _replaces(decision: Decision, markers: Sequence[str], event: Event) -> bool:
+    """Whether a person set another class in the place of a finding on markers; an exchange of labels is about both."""
+    both = (replace(decision, marker=decision.partner), decision) if decision.partner else (decision,)
+    return any(one.on(markers, event.start, event.stop) for one in both)
 
 
 def _set(recording: Recording, decisions: Iterable[Decision]) -> dict[str, list[Event]]:

@@ -88,7 +88,7 @@ class Offers:
         measured, told = self.positions[start:stop, m], self._told(m, start, stop)
         expected, radius = told.positions, self.options.radius
         blur = radius["outer"] * float(np.sqrt(np.mean(told.error**2)))
-        proposals = [self._propose(method, m, start, stop) for method in methods if method not in ("swap", "blank")]
+        proposals = [self._propose(method, m, start, stop) for method in methods if method not in ("exchange", "blank")]
         return [
             Offer(
                 proposal,

@@ -18,7 +18,7 @@ from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.separation import COURSES, artifacts, averaged, pinned, separate
 
-METHODS = ("swap", *COURSES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
+METHODS = ("exchange", *COURSES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
 """The ways of repair by the names that a config may use."""
 
 

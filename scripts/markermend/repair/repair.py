@@ -1,6 +1,7 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Swapped labels are exchanged first; what else was found was found in trajectories without swaps. All methods of a class
+Labels are exchanged first; what else was found was found on trajectories with the exchanges undone, and follows its samples
+where one of them is not carried out. All methods of a class
 say what they would write and how surely; the surest is taken, provided that it changes more than it may err by, and that
 what leaves the neighbours aside brings the samples nearer to where these say they should be. Where none can be trusted, the samples become missing and say why; so do samples that nobody
 measured. Samples outside the intervals are returned bit for bit.
@@ -15,13 +16,15 @@ import numpy as np
 
 from markermend.core import events as finding
 from markermend.core.artifacts import ARTIFACTS
-from markermend.core.decisions import Decision, Ruling, kind_of, names, protecting, rule
+from markermend.core.decisions import Decision, Ruling, kind_of, protecting, rule
 from markermend.core.events import Event
+from markermend.core.labels import follow
 from markermend.core.recording import Recording, Restored
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.apply_decisions import judge
 from markermend.repair.candidates import Offers, choose
+from markermend.repair.label_exchanges import concerned, cycle_of
 from markermend.repair.methods import METHODS
 from markermend.repair.result import Restoration
 
@@ -44,7 +47,6 @@ def repair(
     with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
     """
     work = _Repairer(recording, found, neighbours, relatives, predictors, options, decisions)
-    work.swap_back()
     for marker, start, stop, members in work.findings():
         work.treat(marker, start, stop, members)
     return work.result.finished()
@@ -71,10 +73,24 @@ class _Repairer:
         self.predictors, self.options = predictors, options
         static = recording.facts.get("kind") == "static"
         self.decisions = [] if static else [*protecting(options.protect), *decisions]
+        self.exchanges = found.get("labels", ())
         judged = judge(recording, found, self.decisions)
         self._look_at(judged.recording, judged.found)
-        self.result = Restoration(judged.recording, judged.left, options.radius)
         self.refusal = "static recording: never repaired" if static else self._too_much()
+        cycles = self._cycles()
+        carried = [one for cycle, _, worse in cycles if worse is None for one in cycle]
+        if set(carried) != set(self.exchanges):
+            judged = judge(recording, self._followed(found, carried), self.decisions)
+        self.result = Restoration(judged.recording, judged.left, options.radius)
+        for cycle, ruling, worse in cycles:
+            if worse is None:
+                self.result.exchange(cycle, ruling)
+            for one in cycle if worse else ():
+                self.result.leave(one, ["labels"], f"no better with labels exchanged: {worse}", ruling, blank=False)
+        done = {(one.marker, one.start, one.stop) for cycle, _, _ in cycles for one in cycle}
+        left = [one for one in judged.found["labels"] if (one.marker, one.start, one.stop) not in done]
+        exchanged = replace(judged.recording, positions=self.result.positions.copy())
+        self._look_at(exchanged, {**judged.found, "labels": left})
 
     def _look_at(self, recording: Recording, found: Mapping[str, Sequence[Event]]) -> None:
         """Take the recording to repair and what was found in it; the scene is all that is not found."""
@@ -101,49 +117,36 @@ class _Repairer:
     def _ruling(self, members: Sequence[Member]) -> Ruling:
         """What the decisions come to for findings that overlap."""
         kinds = {kind_of(stage, event) for stage, event in members}
-        markers = dict.fromkeys(name for _, event in members for name in names(event))
+        markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.exchanges))
         start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
         return rule(self.decisions, kinds, markers, start, stop)
 
-    def swap_back(self) -> None:
-        """Give swapped markers that may be touched their own samples; all else is judged and repaired after that."""
+    def _cycles(self) -> list[tuple[list[Event], Ruling, str | None]]:
+        """The exchanges of labels that are wanted, cycle by cycle, each with why it is not carried out, or None."""
         done: set[tuple[str, int, int]] = set()
-        rest = []
-        usual = self.refusal is None and "swap" in self.options.methods.get("steps", ())
-        for event in self.found.get("steps", []):
-            ruling = self._ruling([("steps", event)])
-            wanted = ruling.method == "swap" if ruling.method else usual or ruling.confirmed
-            if event.partner not in self.recording.markers or not wanted:
-                rest.append(event)
-            elif (event.marker, event.start, event.stop) not in done:
-                ring = self._ring(event)
-                done |= {(one.marker, one.start, one.stop) for one in ring}
-                self._exchange(ring, ruling)
-        swapped = replace(self.recording, positions=self.result.positions.copy())
-        self._look_at(swapped, {**self.found, "steps": rest})
+        cycles = []
+        usual = self.refusal is None and "exchange" in self.options.methods.get("labels", ())
+        for event in self.found.get("labels", []):
+            ruling = self._ruling([("labels", event)])
+            wanted = ruling.method == "exchange" if ruling.method else usual or ruling.confirmed
+            new = (event.marker, event.start, event.stop) not in done
+            if event.partner in self.recording.markers and wanted and new:
+                cycle = cycle_of(event, self.found["labels"])
+                done |= {(one.marker, one.start, one.stop) for one in cycle}
+                cycles.append((cycle, ruling, None if ruling.confirmed else self._worse(cycle)))
+        return cycles
 
-    def _ring(self, event: Event) -> list[Event]:
-        """The swaps that belong together: from partner to partner and back to the first; at least a marker and its partner."""
-        along = {
-            e.marker: e for e in self.found["steps"] if e.partner and (e.start, e.stop) == (event.start, event.stop)
-        }
-        ring = [event]
-        while len(ring) <= len(along) and (onward := along.get(str(ring[-1].partner))) and onward is not event:
-            ring.append(onward)
-        closed = ring[-1].partner == event.marker
-        return ring if closed else [event, replace(event, marker=str(event.partner), partner=event.marker)]
-
-    def _exchange(self, ring: list[Event], ruling: Ruling) -> None:
-        """Give each marker of a ring the samples of its partner, unless that would leave them worse."""
+    def _worse(self, cycle: list[Event]) -> str | None:
+        """Why the markers of a cycle would be worse off with the samples of their partners, or None."""
         index = self.recording.markers.index
-        members, partners = [index(one.marker) for one in ring], [index(str(one.partner)) for one in ring]
-        start, stop = ring[0].start, ring[0].stop
-        worse = None if ruling.confirmed else self.offers.worse_swapped(members, partners, start, stop)
-        if worse is None:
-            self.result.exchange(ring, ruling)
-            return
-        for one in ring:
-            self.result.leave(one, ["steps"], f"no better with labels swapped: {worse}", ruling, blank=False)
+        members, partners = [index(one.marker) for one in cycle], [index(str(one.partner)) for one in cycle]
+        return self.offers.worse_swapped(members, partners, cycle[0].start, cycle[0].stop)
+
+    def _followed(self, found: Mapping[str, Sequence[Event]], carried: Sequence[Event]) -> dict[str, Sequence[Event]]:
+        """Findings under the labels that their samples have once the exchanges are carried out."""
+        rest = {stage: events for stage, events in found.items() if stage != "labels"}
+        moved = {s: follow(e, found_under=self.exchanges, stated_under=carried) for s, e in rest.items()}
+        return {"labels": self.exchanges, **moved}
 
     def findings(self) -> list[tuple[str, int, int, list[Member]]]:
         """The intervals to work on, by marker and time, each with the findings that overlap in it."""
@@ -200,7 +203,7 @@ class _Repairer:
         told = [
             f"{method}: {able[method] or 'less sure than another'}" if method in able else f"{method}: not applicable"
             for method in methods
-            if method != "swap"
+            if method != "exchange"
         ]
         reason = f"no repair can be trusted ({'; '.join(told)})" if told else f"no method for {stage}: treated as a gap"
         harmless = best is not None and best.doubt is not None

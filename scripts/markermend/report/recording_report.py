@@ -9,6 +9,7 @@ from typing import Any
 
 from markermend import __version__
 from markermend.core.events import Event
+from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
 from markermend.report import rendering, timeline
@@ -69,6 +70,7 @@ def read(call: Any) -> Evidence:
     meshes = stage_files.read_json(call.mesh)
     told = [stage_files.read_facts(path) for path in call.events]
     found = {facts["stage"]: stage_files.read_events(path) for facts, path in zip(told, call.events, strict=True)}
+    found = _as_repaired(found, after)
     changes = read_changes(call.changes.read_bytes().decode(), after)
     steps = [before.facts, meshes.get("facts", {}), *told, stage_files.read_facts(call.repaired), after.facts]
     return Evidence(
@@ -81,6 +83,17 @@ def read(call: Any) -> Evidence:
         certificate=certificate,
         stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
     )
+
+
+def _as_repaired(found: dict[str, list[Event]], after: Restored) -> dict[str, list[Event]]:
+    """Findings under the labels that their samples have after repair, which may leave an exchange of labels undone."""
+    swaps = [repair for repair in after.facts.get("repairs", ()) if repair["class"] == "swap"]
+    carried = [Event(one["marker"], one["start"], one["stop"], 1.0, partner=one["partner"]) for one in swaps]
+    exchanges = found.get("labels", [])
+    return {
+        stage: events if stage == "labels" else follow(events, found_under=exchanges, stated_under=carried)
+        for stage, events in found.items()
+    }
 
 
 def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ class Recipe:
 class Artifact:
     """One artifact as it was put in: class, marker, half-open interval, and its amplitude along x, y and z in mm.
 
-    For noise, and at the end of a tail, the amplitude is the standard deviation. A swap has class steps and a partner,
+    For noise, and at the end of a tail, the amplitude is the standard deviation. A swap has class labels and a partner,
     under whose label the marker's own samples are; neither it nor a frozen stretch has an amplitude. form: in which
     circumstances it was put in, such as "beside a gap", in a few words.
     """

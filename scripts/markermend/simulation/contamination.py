@@ -38,7 +38,7 @@ class Contamination:
 
     @property
     def events(self) -> dict[str, list[Event]]:
-        """The truth as sorted events per class; swaps are among the steps, one event for each of the two markers."""
+        """The truth as sorted events per class; label exchanges have one event for each marker."""
         found: dict[str, list[Event]] = {kind: [] for kind in CLASSES}
         for artifact in self.artifacts:
             found[artifact.kind].append(artifact.event)
@@ -135,7 +135,7 @@ class Contamination:
             self.positions[start:stop, onward] = self.positions[start:stop, ring]
             form = "for good" if at == "stop" else f"{markers} markers"
             for one, other in zip(ring.tolist(), onward.tolist(), strict=True):
-                self._note("steps", one, start, stop, np.zeros(3), form, self.markers[other])
+                self._note("labels", one, start, stop, np.zeros(3), form, self.markers[other])
 
     def gap(self, *, length: Draw, markers: Sequence[str] | int, at: str, count: int) -> None:
         """Remove the samples of some markers together.

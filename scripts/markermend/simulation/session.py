@@ -30,7 +30,7 @@ class Take:
     """One recording of the session.
 
     seen: what the file shall hold. clean: the complete trajectories. truth: where the two differ, events by class,
-    swaps among the steps, and gaps. storage: the C3D storage.
+    and gaps. storage: the C3D storage.
     """
 
     name: str

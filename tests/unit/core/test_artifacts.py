@@ -7,12 +7,12 @@ from markermend.core.recording import ORIGINS
 def test_every_stage_and_class_is_named_once():
     assert len({artifact.stage for artifact in ARTIFACTS}) == len({artifact.name for artifact in ARTIFACTS})
     assert tuple(BY_STAGE) == CLASSES
-    assert {name: STAGE_OF[name] for name in STAGE_OF if name != "swap"} == {a.name: a.stage for a in ARTIFACTS}
+    assert {a.name: a.stage for a in ARTIFACTS} == STAGE_OF
 
 
 def test_files_are_an_interface():
     assert [artifact.events_file for artifact in ARTIFACTS] == [
-        "02_frozen.parquet", "02_tails.parquet", "02_peaks.parquet",
+        "02_labels.parquet", "02_frozen.parquet", "02_tails.parquet", "02_peaks.parquet",
         "03_noise.parquet", "04_steps.parquet", "05_slow.parquet",
     ]  # fmt: skip
 

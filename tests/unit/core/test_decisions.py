@@ -46,8 +46,8 @@ def test_one_frame_in_common_is_enough(start, stop, shares):
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
     kinds = [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in CLASSES]
-    assert kinds == ["frozen", "tail", "peak", "noise", "step", "slow"]
-    assert kind_of("steps", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
+    assert kinds == ["swap", "frozen", "tail", "peak", "noise", "step", "slow"]
+    assert kind_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
 
 
 @pytest.mark.parametrize("kind", [*STAGE_OF, GAP])

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.core.events import Event
+from markermend.core.labels import undo_exchanges
 from markermend.detection import labels
 from markermend.formats import files
 from markermend.options.detection import LabelsOptions
@@ -16,12 +16,12 @@ from markermend.simulation.artifact_models import integers
 from markermend.simulation.contamination import Contamination
 from support.signals import CONFIG, neighbours
 
-SETTINGS = LabelsOptions(**CONFIG["swaps"])
+SETTINGS = LabelsOptions(**CONFIG["labels"])
 
 
 def find(recording):
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
-    return labels.detect_swaps(scene, markers=recording.markers, settings=SETTINGS)
+    return labels.detect_labels(scene, markers=recording.markers, settings=SETTINGS)
 
 
 def intervals(found):
@@ -55,7 +55,7 @@ def test_found_with_partner_and_exact_bounds(walker, length, within):
         harm = Contamination(clean.positions, clean.markers, margin=20, alone=True, rng=rng)
         harm.swap(length=integers(length, length), within=within, count=2)
         found = find(replace(clean, positions=harm.positions))
-        assert intervals(found) == intervals(harm.events["steps"])
+        assert intervals(found) == intervals(harm.events["labels"])
         assert all(event.score > 1 and event.axes == "xyz" for event in found)
 
 
@@ -79,8 +79,7 @@ def test_a_swap_with_a_missing_partner(walker, length):
 
 
 def test_other_artifacts_are_no_swaps(contaminated):
-    truth = [event for event in contaminated.events["steps"] if event.partner]
-    assert intervals(find(contaminated.recording)) == intervals(truth)
+    assert intervals(find(contaminated.recording)) == intervals(contaminated.events["labels"])
 
 
 def test_a_step_to_where_another_marker_is_is_no_swap(walker):
@@ -105,7 +104,7 @@ def test_markers_that_change_places_in_a_ring(walker, ring, span):
     recording, told = turned(walker.recording, ring, *span)
     found = find(recording)
     assert intervals(found) == told
-    assert np.array_equal(labels.undone(recording.positions, found, recording.markers), walker.recording.positions)
+    assert np.array_equal(undo_exchanges(recording.positions, found, recording.markers), walker.recording.positions)
 
 
 def test_a_ring_that_turns_on_and_on(walker):
@@ -113,22 +112,16 @@ def test_a_ring_that_turns_on_and_on(walker):
     twice, more = turned(once, ("LTIB", "LKNE", "LTHI"), 450, 480)
     found = find(twice)
     assert intervals(found) == sorted(told + more)
-    assert np.array_equal(labels.undone(twice.positions, found, twice.markers), walker.recording.positions)
+    assert np.array_equal(undo_exchanges(twice.positions, found, twice.markers), walker.recording.positions)
 
 
 def test_a_ring_is_undone_by_the_repair(walker):
     recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
     options = RepairOptions(**CONFIG["repair"], protect=[])
     around = neighbours(recording.positions)
-    mended = repair(recording, found={"steps": find(recording)}, neighbours=around, predictors={}, options=options)
+    mended = repair(recording, found={"labels": find(recording)}, neighbours=around, predictors={}, options=options)
     assert np.array_equal(mended.positions, walker.recording.positions)
     assert sorted((e["marker"], e["start"], e["stop"], e["partner"]) for e in mended.facts["repairs"]) == told
-
-
-def test_of_a_step_and_a_swap_at_once_the_swap_is_told():
-    swap = [Event("A", 5, 9, 2.0, "xyz", "B"), Event("B", 5, 9, 2.0, "xyz", "A")]
-    steps = [Event("A", 8, 12, 3.0), Event("A", 9, 12, 3.0), Event("C", 5, 9, 3.0)]
-    assert labels.among(steps, swap) == [swap[0], steps[1], swap[1], steps[2]]
 
 
 def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
@@ -137,11 +130,11 @@ def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
     recording = exchange(clean, "LTHI", "LKNE", *spans)
     found = find(recording)
     before = recording.positions.copy()
-    assert np.array_equal(labels.undone(recording.positions, found, recording.markers), clean.positions)
+    assert np.array_equal(undo_exchanges(recording.positions, found, recording.markers), clean.positions)
     assert np.array_equal(recording.positions, before)
     options = RepairOptions(**CONFIG["repair"], protect=[])
     around = neighbours(recording.positions)
-    mended = repair(recording, found={"steps": found}, neighbours=around, predictors={}, options=options)
+    mended = repair(recording, found={"labels": found}, neighbours=around, predictors={}, options=options)
     assert np.array_equal(mended.positions, clean.positions)
 
 

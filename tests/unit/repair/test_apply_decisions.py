@@ -108,8 +108,8 @@ def test_nothing_decided_leaves_all_as_it_is():
 
 def test_a_protected_partner_ends_a_swap_on_both_markers():
     swap = [Event("A1", 5, 15, 2.0, "xyz", "B"), Event("B", 5, 15, 2.0, "xyz", "A1")]
-    judged = judge(recording(), {"steps": swap}, [Decision("B", 8, 10, "protect")])
-    places = [(event.marker, event.start, event.stop) for event in judged.found["steps"]]
+    judged = judge(recording(), {"labels": swap}, [Decision("B", 8, 10, "protect")])
+    places = [(event.marker, event.start, event.stop) for event in judged.found["labels"]]
     assert places == [("A1", 5, 8), ("A1", 10, 15), ("B", 5, 8), ("B", 10, 15)]
 
 
@@ -121,7 +121,7 @@ def test_an_artifact_where_nothing_was_measured_is_none():
 @pytest.mark.parametrize("partner", ["C", "A1"])
 def test_a_swap_needs_its_partner(partner):
     judged = judge(recording(), {"peaks": [Event("B", 5, 7, 2.0)]}, [Decision("B", 4, 9, "class", f"swap:{partner}")])
-    swaps = [(event.marker, event.partner, event.start, event.stop) for event in judged.found["steps"]]
+    swaps = [(event.marker, event.partner, event.start, event.stop) for event in judged.found["labels"]]
     assert swaps == ([] if partner == "C" else [("A1", "B", 4, 9), ("B", "A1", 4, 9)])
     assert bool(judged.found["peaks"]) == (partner == "C")
 

@@ -135,11 +135,11 @@ def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_
 
 def test_a_swap_that_is_none_is_left(clean):
     swap = [Event("2b", START, STOP, 1.0, "xyz", "3a"), Event("3a", START, STOP, 1.0, "xyz", "2b")]
-    result = mend(clean, {"steps": swap})
+    result = mend(clean, {"labels": swap})
     assert np.array_equal(result.positions, clean.positions)
     assert [left["marker"] for left in result.facts["repairs_left"]] == ["2b", "3a"]
-    assert all("no better with labels swapped" in left["reason"] for left in result.facts["repairs_left"])
-    wanted = mend(clean, {"steps": swap}, decisions=[Decision("2b", START, STOP, "accept", "swap")])
+    assert all("no better with labels exchanged" in left["reason"] for left in result.facts["repairs_left"])
+    wanted = mend(clean, {"labels": swap}, decisions=[Decision("2b", START, STOP, "accept", "swap")])
     assert len(wanted.facts["repairs"]) == 2
 
 
@@ -149,7 +149,7 @@ def test_a_swap_that_a_gap_interrupts_is_undone(clean):
     positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
     positions[START + 5 : STOP - 5, a] = np.nan
     swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
-    result = mend(bodies.recording(clean.markers, positions), {"steps": swap})
+    result = mend(bodies.recording(clean.markers, positions), {"labels": swap})
     assert len(result.facts["repairs"]) == 2
     assert np.array_equal(result.positions[:, a], clean.positions[:, a])
 

@@ -75,7 +75,7 @@ def test_swap_is_undone_bit_for_bit(clean):
     positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
     recording = bodies.recording(clean.markers, positions)
     events = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
-    result = mend(recording, {"steps": events})
+    result = mend(recording, {"labels": events})
     assert np.array_equal(result.positions, clean.positions)
     assert (result.origin[START:STOP, [a, b]] == ORIGINS.index("swap")).all()
     assert [(r["marker"], r["partner"], r["class"]) for r in result.facts["repairs"]] == [
@@ -90,7 +90,7 @@ def test_swap_with_a_missing_partner_moves_the_samples(clean):
     positions[START:STOP, b] = positions[START:STOP, a]
     positions[START:STOP, a] = np.nan
     recording = bodies.recording(clean.markers, positions)
-    result = mend(recording, {"steps": [Event("3a", START, STOP, 9.0, "xyz", "2b")]})
+    result = mend(recording, {"labels": [Event("3a", START, STOP, 9.0, "xyz", "2b")]})
     assert np.array_equal(result.positions[:, a], clean.positions[:, a])
     assert np.isnan(result.positions[START:STOP, b]).all()
     assert (result.origin[START:STOP, b] == MISSING).all()
@@ -102,7 +102,7 @@ def test_a_peak_within_a_swap_is_mended_after_the_swap(clean):
     positions[610:613, a] += 20.0
     positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
     swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
-    result = mend(bodies.recording(clean.markers, positions), {"peaks": [Event("2b", 610, 613, 5.0)], "steps": swap})
+    result = mend(bodies.recording(clean.markers, positions), {"peaks": [Event("2b", 610, 613, 5.0)], "labels": swap})
     assert error(clean, result).max() < 1
     assert (result.origin[610:613, a] == ORIGINS.index("peak")).all()
     others = np.delete(np.arange(len(positions)), slice(610, 613))
@@ -113,7 +113,7 @@ def test_a_peak_within_a_swap_is_mended_after_the_swap(clean):
 @pytest.mark.parametrize("protect", ["2b", "3a"])
 def test_a_swap_with_a_protected_marker_is_left(clean, protect):
     swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
-    result = mend(clean, {"steps": swap}, protect=[protect])
+    result = mend(clean, {"labels": swap}, protect=[protect])
     assert np.array_equal(result.positions, clean.positions)
     assert [left["reason"] for left in result.facts["repairs_left"]] == ["protected", "protected"]
 

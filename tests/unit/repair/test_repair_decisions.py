@@ -76,7 +76,7 @@ def test_what_a_person_rejects_stays_as_measured(drifting):
 
 
 def test_a_rejected_swap_stays_on_both_markers(clean):
-    result = mend(clean, {"steps": SWAP}, decisions=[decide("reject", "swap", marker="3a")])
+    result = mend(clean, {"labels": SWAP}, decisions=[decide("reject", "swap", marker="3a")])
     assert not changed(clean, result).any()
     assert [left["marker"] for left in result.facts["repairs_left"]] == ["2b", "3a"]
 

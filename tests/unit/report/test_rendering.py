@@ -283,7 +283,7 @@ def test_the_methods_text_follows_the_steps():
         "fill": {"weights": "pma", "max_gap_s": None},
     }
     whole = paragraph(ran, "dynamic", "1.0")
-    assert "steps and label swaps [2], in each coordinate by itself, as published." in whole["text"]
+    assert "steps [2], in each coordinate by itself, as published." in whole["text"]
     assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
     assert "Gaps were filled by averaging predictors, weighted by the likelihood" in whole["text"]
     assert whole["references"] == ["mesh", "artifacts", "averaging"]

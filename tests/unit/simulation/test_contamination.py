@@ -39,7 +39,7 @@ def test_truth_is_exact(contaminated):
     assert np.array_equal(np.isnan(damaged).any(axis=2), missing)
     assert np.array_equal((damaged != clean).any(axis=2), (artifacts == 1) | missing)
     assert {kind: len(found) for kind, found in contaminated.events.items()} == {
-        "frozen": 0, "peaks": 10, "noise": 4, "steps": 8, "slow": 4, "tails": 0,
+        "labels": 4, "frozen": 0, "peaks": 10, "noise": 4, "steps": 4, "slow": 4, "tails": 0,
     }  # fmt: skip
 
 
@@ -53,7 +53,7 @@ def test_axes_are_those_that_changed(contaminated):
 
 def test_swapped_markers_stand_in_each_others_place(contaminated):
     index = {marker: m for m, marker in enumerate(contaminated.clean.markers)}
-    swaps = [event for event in contaminated.events["steps"] if event.partner]
+    swaps = contaminated.events["labels"]
     assert len(swaps) == 4
     for event in swaps:
         span, mine, other = slice(event.start, event.stop), index[event.marker], index[event.partner]
@@ -110,7 +110,7 @@ def test_the_papers_procedure(share):
     found = masks(result, FRAMES)
     distorted = sum(mask.sum(axis=1) for mask in found.values())
     assert distorted.max() == 1
-    assert not found.pop("frozen").any() and not found.pop("tails").any()
+    assert not any(found.pop(kind).any() for kind in ("labels", "frozen", "tails"))
     for mask in found.values():
         assert mask.sum() == pytest.approx(share / 4 * FRAMES, abs=26)
     assert np.array_equal((result.positions != still()).any(axis=(1, 2)), distorted > 0)
@@ -199,7 +199,7 @@ def test_damage_in_practice_is_of_every_sort(practice):
         (kind, form) for kind in bulk for form in ("alone", "together", "combined", "beside a gap", "at an end")
     }
     assert forms - {(kind, form) for kind in bulk for form in ("alone", "together", "combined", "beside a gap", "at an end")} == {
-        ("peaks", "burst"), ("steps", "2 markers"), ("steps", "3 markers"), ("steps", "for good"),
+        ("peaks", "burst"), ("labels", "2 markers"), ("labels", "3 markers"), ("labels", "for good"),
         ("frozen", "alone"), ("tails", "beside a gap"),
     }  # fmt: skip
 

@@ -61,9 +61,9 @@ def test_a_subject_does_not_depend_on_the_others():
 def test_damage_is_of_every_sort():
     daily = list(session(seed=3, subject=1, duration=15.0, rate=100.0))[1]
     assert {kind: len(found) for kind, found in daily.truth.items()} == {
-        "frozen": 3, "peaks": 15, "noise": 5, "steps": 9, "slow": 5, "tails": 3, "gaps": 27,
+        "frozen": 3, "peaks": 15, "noise": 5, "labels": 4, "steps": 5, "slow": 5, "tails": 3, "gaps": 27,
     }  # fmt: skip
-    assert sum(event.partner is not None for event in daily.truth["steps"]) == 4
+    assert all(event.partner is not None for event in daily.truth["labels"])
     for kind, shortest, longest in (
         ("peaks", 1, 5),
         ("noise", 40, 100),

@@ -1,0 +1,63 @@
+"""What detectors are given: trajectories on which the exchanges of an earlier stage are undone, and no others."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import mesh as mesh_script
+from markermend.command import detector
+from markermend.core.events import Event
+from markermend.storage import stage_files
+from support.signals import CONFIG
+
+SPAN = slice(300, 380)
+EXCHANGES = [Event("LTHI", 300, 380, 3.0, partner="LKNE"), Event("LKNE", 300, 380, 3.0, partner="LTHI")]
+FROZEN = [Event("LTHI", 310, 320, 2.0)]
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory, walker):
+    """A recording with two labels exchanged, its mesh, and events of labels and frozen on it."""
+    folder = tmp_path_factory.mktemp("stage")
+    clean = walker.recording
+    pair = [clean.markers.index(name) for name in ("LTHI", "LKNE")]
+    positions = clean.positions.copy()
+    positions[SPAN, pair] = positions[SPAN, pair[::-1]]
+    facts = {"recording": "walk", "subject": "S", "kind": "dynamic"}
+    recording = replace(clean, positions=positions, facts=facts)
+    made = SimpleNamespace(clean=clean, recording=recording, pair=pair, markers=folder / "01_markers.parquet")
+    stage_files.write_recording(made.markers, recording, {})
+    made.mesh, made.labels, made.frozen = (folder / name for name in ("mesh.json", "l.parquet", "f.parquet"))
+    settings = {name: value for name, value in CONFIG["mesh"].items() if name != "files"}
+    words = [f"--{name.replace('_', '-')}={value}" for name, value in settings.items()]
+    mesh_script.main(["--markers", str(made.markers), "--mesh-files", "--mesh", str(made.mesh), *words])
+    stage_files.write_events(made.labels, EXCHANGES, {"stage": "labels"})
+    stage_files.write_events(made.frozen, FROZEN, {"stage": "frozen"})
+    return made
+
+
+def test_exchanges_of_the_stage_labels_are_undone(files):
+    _, scene, claimed, exchanges = detector.read(files.markers, files.mesh, [files.labels, files.frozen])
+    assert np.array_equal(scene.positions, files.clean.positions)
+    assert exchanges == sorted(EXCHANGES, key=lambda event: event.order)
+    assert claimed[310:320, files.pair[0]].all() and claimed.sum() == 30
+
+
+def test_without_that_stage_nothing_is_undone(files):
+    _, scene, _, exchanges = detector.read(files.markers, files.mesh, [files.frozen])
+    assert np.array_equal(scene.positions, files.recording.positions) and exchanges == []
+
+
+def test_as_recorded_what_was_claimed_follows_its_samples(files):
+    earlier = [files.labels, files.frozen]
+    _, scene, claimed, _ = detector.read(files.markers, files.mesh, earlier, as_recorded=True)
+    assert np.array_equal(scene.positions, files.recording.positions)
+    assert claimed[310:320, files.pair[1]].all() and claimed.sum() == 30
+
+
+def test_what_is_found_as_recorded_is_written_under_the_right_labels(files, tmp_path):
+    call = SimpleNamespace(events=tmp_path / "events.parquet", facts={"stage": "peaks"})
+    detector.write(call, [Event("LKNE", 310, 320, 2.0)], EXCHANGES, {})
+    assert stage_files.read_events(call.events) == FROZEN
