@@ -32,12 +32,12 @@ rule all:
 
 
 onstart:
-    write_lists()
+    plan.write_lists()
 
 
 onsuccess:
-    atexit.register(close)
+    atexit.register(plan.close)
 
 
 onerror:
-    atexit.register(close)
+    atexit.register(plan.close)

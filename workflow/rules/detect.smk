@@ -4,21 +4,21 @@ Reads: 01_markers.parquet, mesh.json, the events of the classes before.
 Writes: 02_labels.parquet, 02_frozen.parquet, 02_tails.parquet, 02_peaks.parquet, 03_noise.parquet, 04_steps.parquet, 05_slow.parquet.
 """
 
-for stage in DETECTORS:
+for stage in plan.detectors:
 
     rule:
         name:
             stage
         input:
-            markers=MARKERS,
-            mesh=MESH,
-            earlier=before(stage),
+            markers=files.markers,
+            mesh=files.mesh,
+            earlier=plan.events(before=stage),
         output:
-            events=EVENTS[stage],
+            events=files.events[stage],
         log:
-            f"{LOGS}/{stage}.log",
+            f"{files.logs}/{stage}.log",
         benchmark:
-            f"{LOGS}/{stage}.tsv"
+            f"{files.logs}/{stage}.tsv"
         group:
             "recording"
         conda:
@@ -28,9 +28,9 @@ for stage in DETECTORS:
             mem_mb=2000,
             runtime=10,
         params:
-            *code(stage),
-            options=options(stage, *detection(stage)),
-            failures=failures(stage),
+            *plan.code(stage),
+            options=plan.detector_options(stage),
+            failures=plan.failed(stage),
         message:
             "Detect {rule} in {wildcards.subject}/{wildcards.recording}"
         shell:

@@ -7,13 +7,13 @@ Writes: 01_markers.parquet for each recording, mesh.json for each subject.
 
 rule ingest:
     input:
-        source=source,
+        source=plan.source,
     output:
-        markers=MARKERS,
+        markers=files.markers,
     log:
-        f"{LOGS}/ingest.log",
+        f"{files.logs}/ingest.log",
     benchmark:
-        f"{LOGS}/ingest.tsv"
+        f"{files.logs}/ingest.tsv"
     group:
         "subject"
     conda:
@@ -23,15 +23,15 @@ rule ingest:
         mem_mb=2000,
         runtime=10,
     params:
-        *code("ingest"),
-        options=options("ingest"),
-        failures=failures("ingest"),
-        source=original,
-        source_hash=source_hash,
-        subject=subject_name,
-        recording=recording_name,
-        kind=kind,
-        rate=rate,
+        *plan.code("ingest"),
+        options=plan.options("ingest"),
+        failures=plan.failed("ingest"),
+        source=plan.original,
+        source_hash=plan.source_hash,
+        subject=plan.subject_flag,
+        recording=plan.recording_flag,
+        kind=plan.kind_flag,
+        rate=plan.rate_flag,
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
@@ -41,14 +41,14 @@ rule ingest:
 
 rule mesh:
     input:
-        markers=of_subject,
-        files=mesh_files,
+        markers=plan.subject_markers,
+        files=plan.mesh_files,
     output:
-        mesh=MESH,
+        mesh=files.mesh,
     log:
-        f"{SUBJECT}/logs/mesh.log",
+        f"{files.subject}/logs/mesh.log",
     benchmark:
-        f"{SUBJECT}/logs/mesh.tsv"
+        f"{files.subject}/logs/mesh.tsv"
     group:
         "subject"
     conda:
@@ -58,10 +58,10 @@ rule mesh:
         mem_mb=4000,
         runtime=20,
     params:
-        *code("mesh"),
-        options=options("mesh", without=["files"]),
-        failures=failures("mesh"),
-        list=MARKERS_LIST,
+        *plan.code("mesh"),
+        options=plan.options("mesh", without=["files"]),
+        failures=plan.failed("mesh"),
+        list=files.markers_list,
     message:
         "Infer the body mesh of {wildcards.subject}"
     shell:

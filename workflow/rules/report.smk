@@ -7,20 +7,20 @@ Writes: 08_qc.json and page.html for each recording; report/ with index.html, su
 
 rule qc:
     input:
-        markers=MARKERS,
-        mesh=MESH,
-        events=[EVENTS[stage] for stage in DETECTORS],
-        repaired=REPAIRED,
-        filled=FILLED,
-        changes=CHANGES,
-        certificate=CERTIFICATE,
+        markers=files.markers,
+        mesh=files.mesh,
+        events=plan.events(),
+        repaired=files.repaired,
+        filled=files.filled,
+        changes=files.changes,
+        certificate=files.certificate,
     output:
-        qc=QUALITY,
-        page=PAGE,
+        qc=files.quality,
+        page=files.page,
     log:
-        f"{LOGS}/qc.log",
+        f"{files.logs}/qc.log",
     benchmark:
-        f"{LOGS}/qc.tsv"
+        f"{files.logs}/qc.tsv"
     group:
         "recording"
     conda:
@@ -30,9 +30,9 @@ rule qc:
         mem_mb=2000,
         runtime=10,
     params:
-        *code("qc", "scripts/markermend/report/templates"),
-        options=options("qc"),
-        failures=failures("qc"),
+        *plan.code("qc", "report/templates"),
+        options=plan.options("qc"),
+        failures=plan.failed("qc"),
     message:
         "Judge {wildcards.subject}/{wildcards.recording}"
     shell:
@@ -43,15 +43,15 @@ rule qc:
 
 rule report:
     input:
-        qc=[QUALITY.format(subject=subject, recording=recording) for subject, recording in RECORDINGS],
+        qc=plan.quality_files,
     output:
-        index=f"{RESULTS}/report/index.html",
-        summary=f"{RESULTS}/report/summary.tsv",
-        script=f"{RESULTS}/report/plotly.min.js",
+        index=f"{files.report}/index.html",
+        summary=f"{files.report}/summary.tsv",
+        script=f"{files.report}/plotly.min.js",
     log:
-        f"{RESULTS}/report/logs/report.log",
+        f"{files.report}/logs/report.log",
     benchmark:
-        f"{RESULTS}/report/logs/report.tsv"
+        f"{files.report}/logs/report.tsv"
     conda:
         "../../envs/base.yaml"
     threads: 1
@@ -59,10 +59,10 @@ rule report:
         mem_mb=4000,
         runtime=20,
     params:
-        *code("report", "scripts/markermend/report/templates"),
-        options=options("report"),
-        failures=failures("report"),
-        list=QUALITY_LIST,
+        *plan.code("report", "report/templates"),
+        options=plan.options("report"),
+        failures=plan.failed("report"),
+        list=files.quality_list,
     message:
         "Write the report"
     shell:

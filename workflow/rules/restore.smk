@@ -7,15 +7,15 @@ Writes: 06_repaired.parquet, 07_filled.parquet, cleaned.* with changes.tsv and c
 
 rule repair:
     input:
-        markers=MARKERS,
-        mesh=MESH,
-        events=[EVENTS[stage] for stage in DETECTORS],
+        markers=files.markers,
+        mesh=files.mesh,
+        events=plan.events(),
     output:
-        repaired=REPAIRED,
+        repaired=files.repaired,
     log:
-        f"{LOGS}/repair.log",
+        f"{files.logs}/repair.log",
     benchmark:
-        f"{LOGS}/repair.tsv"
+        f"{files.logs}/repair.tsv"
     group:
         "recording"
     conda:
@@ -25,10 +25,10 @@ rule repair:
         mem_mb=4000,
         runtime=30,
     params:
-        *code("repair"),
-        options=options("repair", *SHARED, "protect"),
-        decisions=decided,
-        failures=failures("repair"),
+        *plan.code("repair"),
+        options=plan.options("repair", *SHARED, "protect"),
+        decisions=plan.decisions_flag,
+        failures=plan.failed("repair"),
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"
     shell:
@@ -38,27 +38,27 @@ rule repair:
 
 rule fill:
     input:
-        repaired=REPAIRED,
-        mesh=MESH,
+        repaired=files.repaired,
+        mesh=files.mesh,
     output:
-        filled=FILLED,
+        filled=files.filled,
     log:
-        f"{LOGS}/fill.log",
+        f"{files.logs}/fill.log",
     benchmark:
-        f"{LOGS}/fill.tsv"
+        f"{files.logs}/fill.tsv"
     group:
         "recording"
     conda:
-        "../../envs/torch.yaml" if set(config["fill"]["members"]) & set(NETWORKS) else "../../envs/base.yaml"
+        "../../envs/torch.yaml" if plan.trains_networks else "../../envs/base.yaml"
     threads: 1
     resources:
         mem_mb=4000,
         runtime=60,
     params:
-        *code("fill"),
-        options=options("fill", *SHARED, "protect"),
-        decisions=decided,
-        failures=failures("fill"),
+        *plan.code("fill"),
+        options=plan.options("fill", *SHARED, "protect"),
+        decisions=plan.decisions_flag,
+        failures=plan.failed("fill"),
     message:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
     shell:
@@ -66,26 +66,26 @@ rule fill:
         " --filled {output.filled:q} {params.options} {params.decisions:q} 2> {log:q}"
 
 
-for suffix in dataset.FORMATS:
+for suffix in FORMATS:
 
     rule:
         name:
             f"export_{suffix}"
         input:
-            source=source,
-            markers=MARKERS,
-            filled=FILLED,
+            source=plan.source,
+            markers=files.markers,
+            filled=files.filled,
         output:
-            cleaned=f"{HERE}/cleaned.{suffix}",
-            trc=[f"{HERE}/cleaned.trc"] if suffix in ("csv", "tsv") else [],
-            changes=CHANGES,
-            certificate=CERTIFICATE,
+            cleaned=f"{files.recording}/cleaned.{suffix}",
+            trc=[f"{files.recording}/cleaned.trc"] if suffix in ("csv", "tsv") else [],
+            changes=files.changes,
+            certificate=files.certificate,
         log:
-            f"{LOGS}/export.log",
+            f"{files.logs}/export.log",
         benchmark:
-            f"{LOGS}/export.tsv"
+            f"{files.logs}/export.tsv"
         wildcard_constraints:
-            subject=with_suffix(suffix),
+            subject=plan.subjects_of(suffix),
         group:
             "recording"
         conda:
@@ -95,11 +95,11 @@ for suffix in dataset.FORMATS:
             mem_mb=2000,
             runtime=10,
         params:
-            *code("export"),
-            options=options("export"),
-            failures=failures("export"),
-            source=original,
-            source_hash=source_hash,
+            *plan.code("export"),
+            options=plan.options("export"),
+            failures=plan.failed("export"),
+            source=plan.original,
+            source_hash=plan.source_hash,
         message:
             "Export {wildcards.subject}/{wildcards.recording}"
         shell:

@@ -1,0 +1,254 @@
+"""What a run consists of, for the rules to ask: recordings, result files, and what each command depends on.
+
+Reads: the recordings' folder or table, the decisions, failures.tsv among the results, the code of the stages.
+Writes: lists of files beside the results, and the facts of the run.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Protocol
+
+import markermend
+from markermend.core.artifacts import CLASSES
+from markermend.planning import code_hashes, config_schema, data_set, run_facts, run_summary
+from markermend.planning import config as planning_config
+from markermend.planning.data_set import Folders, nameable
+from markermend.planning.recordings import Entry
+from markermend.planning.result_files import ResultFiles
+from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
+from markermend.storage.atomic import sha256, write_json, write_text
+
+LIBRARY = Path(markermend.__file__).parent
+"""The folder of the package."""
+
+
+class Wildcards(Protocol):
+    """What a job is about. A job for all recordings of a subject has no recording."""
+
+    subject: str
+    recording: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One run: its recordings, what people decided about them, and what each stage's command is made of.
+
+    Methods that take wildcards are input and parameter functions of rules.
+
+    Parameters
+    ----------
+    config
+        The config, checked.
+    project
+        The folder of the Snakefile.
+    files
+        Names of the result files.
+    entries
+        The recordings, by the names of their folders.
+    meshes
+        Mesh files that the user supplies, by the names of the subjects' folders.
+    decisions
+        What a person decided about each recording, by the names of its folders.
+    failures
+        How often each stage failed so far, by subject, recording and stage.
+    warnings
+        What to tell the user before anything runs.
+    started
+        When the run began, with its time zone.
+    """
+
+    config: Mapping[str, Any]
+    project: Path
+    files: ResultFiles
+    entries: Mapping[Folders, Entry]
+    meshes: Mapping[str, list[str]]
+    decisions: Mapping[Folders, list[dict[str, Any]]]
+    failures: Counter[tuple[str, str, str]]
+    warnings: Sequence[str] = ()
+    started: datetime = field(default_factory=lambda: datetime.now(UTC))
+
+    @property
+    def detectors(self) -> list[str]:
+        """The detectors that run, in their strict order."""
+        return [stage for stage in CLASSES if stage in self.config["detect"]]
+
+    @cached_property
+    def subjects(self) -> dict[str, list[str]]:
+        """Folder names of the recordings of each subject."""
+        found: dict[str, list[str]] = {}
+        for subject, recording in self.entries:
+            found.setdefault(subject, []).append(recording)
+        return found
+
+    @property
+    def trains_networks(self) -> bool:
+        """Whether neural networks help to fill, which need torch."""
+        return not set(NETWORKS).isdisjoint(self.config["fill"]["members"])
+
+    @property
+    def quality_files(self) -> list[str]:
+        """The quality file of every recording."""
+        return [self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.entries]
+
+    def events(self, before: str | None = None) -> list[str]:
+        """Events files of the detectors that run: all, or those of the detectors before one."""
+        stages = self.detectors if before is None else self.detectors[: self.detectors.index(before)]
+        return [self.files.events[stage] for stage in stages]
+
+    def entry(self, wildcards: Wildcards) -> Entry:
+        """The recording that a job is about."""
+        return self.entries[wildcards.subject, wildcards.recording]
+
+    def original(self, wildcards: Wildcards) -> str:
+        """Path of the original file."""
+        return self.entry(wildcards).source
+
+    def source(self, wildcards: Wildcards) -> str | list[str]:
+        """The original file as an input, where its name can be one."""
+        path = self.original(wildcards)
+        return path if nameable(path) else []
+
+    def source_hash(self, wildcards: Wildcards) -> str | None:
+        """In place of the input: the content of an original whose name cannot be one, or that it is not there."""
+        path = self.original(wildcards)
+        if nameable(path):
+            return None
+        return sha256(Path(path)) if os.path.exists(path) else "not there"
+
+    def subject_flag(self, wildcards: Wildcards) -> str:
+        """The subject's own name, as a flag."""
+        return f"--subject={self.entry(wildcards).subject}"
+
+    def recording_flag(self, wildcards: Wildcards) -> str:
+        """The recording's own name, as a flag."""
+        return f"--recording={self.entry(wildcards).recording}"
+
+    def kind_flag(self, wildcards: Wildcards) -> str:
+        """The recording's kind as the table of recordings has it, as a flag."""
+        return f"--kind={self.entry(wildcards).kind}"
+
+    def rate_flag(self, wildcards: Wildcards) -> str:
+        """The recording's rate as the table of recordings has it, as a flag."""
+        return f"--rate={planning_config.text(self.entry(wildcards).rate)}"
+
+    def decisions_flag(self, wildcards: Wildcards) -> str:
+        """The decisions on the recording, as a flag: other recordings' lines in the table rerun nothing."""
+        decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
+        return f"--decisions={planning_config.text(decided)}"
+
+    def subject_markers(self, wildcards: Wildcards) -> list[str]:
+        """The ingested trajectories of each of the subject's recordings."""
+        subject = wildcards.subject
+        return [self.files.markers.format(subject=subject, recording=recording) for recording in self.subjects[subject]]
+
+    def mesh_files(self, wildcards: Wildcards) -> list[str]:
+        """Mesh files that the user supplies for the subject: those in the table of recordings, else the config's."""
+        return self.meshes[wildcards.subject]
+
+    def subjects_of(self, suffix: str) -> str:
+        """A constraint on the subject that only recordings of one format meet; it looks ahead at the recording."""
+        folders = ["/".join(pair) for pair, entry in self.entries.items() if entry.format == suffix]
+        return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
+
+    def code(self, stage: str, *extra: str) -> list[str]:
+        """The stage's script and modules by content, one entry each: an edit reruns the stages that use the module.
+
+        extra: files of the package that the stage reads besides, relative to the package.
+        """
+        return code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
+
+    def options(self, stage: str, *shared: str, without: Sequence[str] = ()) -> Callable[[Wildcards], str]:
+        """The stage's section of the config as flags, with the sections that it shares with other stages.
+
+        A function, so that Snakemake leaves braces in values as they are.
+        """
+        section = {**self.config[stage], **{name: self.config[name] for name in shared}}
+        flags = planning_config.flags(section, without)
+
+        def of_stage(wildcards: Wildcards) -> str:
+            return flags
+
+        return of_stage
+
+    def detector_options(self, stage: str) -> Callable[[Wildcards], str]:
+        """A detector's section of the config as flags, with the sections that it shares with other stages."""
+        swaps = ["swaps"] if "preset" in self.config[stage] else []
+        return self.options(stage, "local_ridge", *swaps, *(LOOSE if stage == "slow" else []))
+
+    def failed(self, stage: str) -> Callable[[Wildcards], int]:
+        """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
+
+        def of_stage(wildcards: Wildcards) -> int:
+            subject, recording = getattr(wildcards, "subject", "report"), getattr(wildcards, "recording", "")
+            return self.failures[subject, recording, stage]
+
+        return of_stage
+
+    def write_lists(self) -> None:
+        """Write the lists of files that meshes and the report are made of: a command line has no room for thousands."""
+        write_text(Path(self.files.quality_list), "".join(f"{path}\n" for path in self.quality_files))
+        for subject, names in self.subjects.items():
+            lines = [self.files.markers.format(subject=subject, recording=name) + "\n" for name in names]
+            write_text(Path(self.files.markers_list.format(subject=subject)), "".join(lines))
+
+    def close(self) -> None:
+        """Write the facts of the run, and print its summary."""
+        folder = Path(self.files.report)
+        facts = run_facts.run_facts(
+            self.project, config=self.config, recordings=len(self.entries), started=self.started
+        )
+        write_json(folder / "provenance.json", facts)
+        print(run_summary.summary(map(Path, self.quality_files), folder / "index.html"), file=sys.stderr)
+
+
+def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
+    """Plan a run.
+
+    Parameters
+    ----------
+    config
+        The config as Snakemake read it; values from the command line are brought into its types in place.
+    project
+        The folder of the Snakefile.
+    deployed
+        Whether stages run in environments of their own.
+
+    Returns
+    -------
+    Plan
+        The recordings and what their commands depend on.
+
+    Raises
+    ------
+    BadDataSet
+        Where the config, the recordings, the decisions or the mesh files cannot be used.
+    OSError
+        Where a file cannot be read.
+    """
+    planning_config.prepare(config)
+    config_schema.check(config, project / "workflow/schemas/config.schema.yaml", where="The config")
+    planning_config.judge(config, deployed=deployed)
+    results = planning_config.folder(config["results"])
+    entries = data_set.find_recordings(config["recordings"], results, schemas=project / "workflow/schemas")
+    meshes = data_set.supplied_meshes(entries, config["mesh"]["files"])
+    decisions, warnings = data_set.find_decisions(config, list(entries.values()), project=project)
+    return Plan(
+        config=config,
+        project=project,
+        files=ResultFiles(results),
+        entries=entries,
+        meshes=meshes,
+        decisions=decisions,
+        failures=planning_config.failures(results),
+        warnings=warnings,
+    )

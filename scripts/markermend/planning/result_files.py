@@ -1,0 +1,98 @@
+"""The names of the files in a folder of results, with wildcards where subjects and recordings differ."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from markermend.core.artifacts import BY_STAGE
+
+
+@dataclass(frozen=True)
+class ResultFiles:
+    """Names of result files, as patterns with the wildcards `{subject}` and `{recording}`.
+
+    The names below a recording's folder are an interface for users' scripts: they stay, and new ones may be added.
+
+    Parameters
+    ----------
+    results
+        Absolute path of the folder of results, without braces.
+    """
+
+    results: str
+
+    @property
+    def subject(self) -> str:
+        """The folder of a subject."""
+        return f"{self.results}/{{subject}}"
+
+    @property
+    def recording(self) -> str:
+        """The folder of a recording."""
+        return f"{self.subject}/{{recording}}"
+
+    @property
+    def logs(self) -> str:
+        """The folder of a recording's logs and benchmarks."""
+        return f"{self.recording}/logs"
+
+    @property
+    def mesh(self) -> str:
+        """The body meshes of a subject."""
+        return f"{self.subject}/mesh.json"
+
+    @property
+    def markers(self) -> str:
+        """Trajectories as ingested."""
+        return f"{self.recording}/01_markers.parquet"
+
+    @property
+    def events(self) -> Mapping[str, str]:
+        """The events of each detector, by its stage, in their strict order."""
+        return {stage: f"{self.recording}/{artifact.events_file}" for stage, artifact in BY_STAGE.items()}
+
+    @property
+    def repaired(self) -> str:
+        """Trajectories after repair."""
+        return f"{self.recording}/06_repaired.parquet"
+
+    @property
+    def filled(self) -> str:
+        """Trajectories after repair and filling."""
+        return f"{self.recording}/07_filled.parquet"
+
+    @property
+    def changes(self) -> str:
+        """The table of changes, for people."""
+        return f"{self.recording}/changes.tsv"
+
+    @property
+    def certificate(self) -> str:
+        """What changed in the file, and that nothing else did."""
+        return f"{self.recording}/certificate.json"
+
+    @property
+    def quality(self) -> str:
+        """A recording in numbers."""
+        return f"{self.recording}/08_qc.json"
+
+    @property
+    def page(self) -> str:
+        """A recording's page of the report."""
+        return f"{self.recording}/page.html"
+
+    @property
+    def report(self) -> str:
+        """The folder of the report."""
+        return f"{self.results}/report"
+
+    @property
+    def markers_list(self) -> str:
+        """The list of files that a subject's meshes are inferred from."""
+        return f"{self.subject}/logs/recordings.txt"
+
+    @property
+    def quality_list(self) -> str:
+        """The list of files that the report is made of."""
+        return f"{self.report}/logs/recordings.txt"

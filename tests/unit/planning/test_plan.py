@@ -1,0 +1,165 @@
+"""The plan of a run, asked as the rules ask it but without Snakemake."""
+
+import json
+import re
+import shlex
+from types import SimpleNamespace
+
+import pytest
+
+from markermend.core.artifacts import CLASSES
+from markermend.planning.plan import make_plan
+from markermend.planning.recordings import BadDataSet
+from support.paths import PROJECT
+
+TABLE = """recording\tsubject\tfile\tkind\trate
+walk\tS 1\twalk.c3d\tauto\t
+run\tS 1\trun.trc\tdynamic\t120
+{x}\tS2\t{x}.csv\tauto\t
+"""
+
+
+@pytest.fixture
+def plan(tmp_path, config):
+    """A plan of three recordings of two subjects, of three formats."""
+    (tmp_path / "recordings.tsv").write_text(TABLE)
+    for name in ("walk.c3d", "run.trc", "{x}.csv"):
+        (tmp_path / name).write_text(name)
+    config.update(recordings=str(tmp_path / "recordings.tsv"), results=str(tmp_path / "out"))
+    return make_plan(config, PROJECT, deployed=False)
+
+
+def job(subject="S%201", recording="walk"):
+    return SimpleNamespace(subject=subject, recording=recording)
+
+
+def test_recordings_are_known_by_their_folders(plan):
+    assert plan.subjects == {"S%201": ["run", "walk"], "S2": ["%7Bx%7D"]}
+    assert plan.entry(job()).recording == "walk"
+    assert [path.rpartition("out/")[2] for path in plan.quality_files] == [
+        "S%201/run/08_qc.json",
+        "S%201/walk/08_qc.json",
+        "S2/%7Bx%7D/08_qc.json",
+    ]
+
+
+def test_an_original_is_an_input_or_is_known_by_its_content(plan, tmp_path):
+    assert plan.source(job()) == plan.original(job()) == str(tmp_path / "walk.c3d")
+    assert plan.source_hash(job()) is None
+    strange = job("S2", "%7Bx%7D")
+    assert plan.source(strange) == [] and plan.original(strange) == str(tmp_path / "{x}.csv")
+    before = plan.source_hash(strange)
+    (tmp_path / "{x}.csv").write_text("edited")
+    assert re.fullmatch("[0-9a-f]{64}", before) and plan.source_hash(strange) != before
+    (tmp_path / "{x}.csv").unlink()
+    assert plan.source_hash(strange) == "not there"
+
+
+def test_what_the_table_says_of_a_recording_becomes_flags(plan):
+    run = job(recording="run")
+    flags = [flag(run) for flag in (plan.subject_flag, plan.recording_flag, plan.kind_flag, plan.rate_flag)]
+    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120.0"]
+    assert plan.rate_flag(job()) == "--rate=none"
+
+
+def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
+    path = tmp_path / "decisions.tsv"
+    path.write_text("recording\tmarker\tfirst_frame\tlast_frame\tdecision\nrun\tM1\t3\t5\treject\n")
+    decided = make_plan({**config, "decisions": str(path)}, PROJECT, deployed=False)
+    assert plan.decisions_flag(job()) == decided.decisions_flag(job()) == "--decisions=[]"
+    name, _, value = decided.decisions_flag(job(recording="run")).partition("=")
+    assert name == "--decisions" and [line["marker"] for line in json.loads(value)] == ["M1"]
+
+
+def test_a_mesh_is_made_of_all_recordings_of_its_subject(plan, tmp_path):
+    markers = plan.subject_markers(SimpleNamespace(subject="S%201"))
+    assert markers == [f"{tmp_path}/out/S%201/{name}/01_markers.parquet" for name in ("run", "walk")]
+    assert plan.mesh_files(SimpleNamespace(subject="S%201")) == []
+
+
+def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
+    assert plan.detectors == list(CLASSES)
+    assert plan.events() == [plan.files.events[stage] for stage in CLASSES]
+    assert plan.events(before=CLASSES[0]) == []
+    some = make_plan({**config, "detect": ["slow", "peaks"]}, PROJECT, deployed=False)
+    assert some.detectors == ["peaks", "slow"]
+    assert some.events(before="slow") == [plan.files.events["peaks"]]
+
+
+def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan):
+    found = {
+        suffix: [
+            folders
+            for folders in plan.entries
+            if re.match(rf"(?P<subject>{plan.subjects_of(suffix)})/(?P<recording>[^/]+)/", "/".join(folders) + "/")
+        ]
+        for suffix in ("c3d", "trc", "csv", "tsv")
+    }
+    assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
+
+
+def test_options_are_flags_of_the_section_and_of_those_it_shares(plan, config):
+    flags = dict(flag[2:].split("=", 1) for flag in shlex.split(plan.options("repair", "protect")(job())))
+    assert set(flags) == {name.replace("_", "-") for name in (*config["repair"], "protect")}
+    without = plan.options("mesh", without=["files"])(job())
+    assert "--files" not in without and "--frames=" in without
+
+
+def test_every_detector_gets_its_section(plan, config):
+    for stage in CLASSES:
+        names = {flag[2:].partition("=")[0] for flag in shlex.split(plan.detector_options(stage)(job()))}
+        assert {name.replace("_", "-") for name in config[stage]} < names
+
+
+def test_code_is_the_script_its_modules_and_what_else_it_reads(plan):
+    names = {entry.partition(":")[0] for entry in plan.code("qc", "report/templates")}
+    assert {"qc.py", "markermend/report/rendering.py", "markermend/report/templates/page.html.j2"} <= names
+    assert "markermend/report/templates/page.html.j2" not in {
+        entry.partition(":")[0] for entry in plan.code("fill", "report/rendering.py")
+    }
+
+
+def test_a_failure_counts_for_what_the_job_is_about(tmp_path, plan, config):
+    for place, text in {"S%201/walk": "fill\tx\nfill\ty\n", "S%201": "mesh\tx\n", "report": "report\tx\n"}.items():
+        (tmp_path / "out" / place).mkdir(parents=True, exist_ok=True)
+        (tmp_path / "out" / place / "failures.tsv").write_text(text)
+    again = make_plan(config, PROJECT, deployed=False)
+    assert plan.failed("fill")(job()) == 0
+    assert again.failed("fill")(job()) == 2 and again.failed("fill")(job(recording="run")) == 0
+    assert again.failed("mesh")(SimpleNamespace(subject="S%201")) == 1
+    assert again.failed("report")(SimpleNamespace()) == 1
+
+
+def test_lists_name_the_files_that_meshes_and_the_report_are_made_of(tmp_path, plan):
+    plan.write_lists()
+    assert (tmp_path / "out/S2/logs/recordings.txt").read_text() == f"{tmp_path}/out/S2/%7Bx%7D/01_markers.parquet\n"
+    assert (tmp_path / "out/S%201/logs/recordings.txt").read_text().count("\n") == 2
+    assert (tmp_path / "out/report/logs/recordings.txt").read_text().splitlines() == plan.quality_files
+
+
+def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan, capsys):
+    quality = {"status": "set aside", "subject": "S 1", "recording": "run", "reason": "empty"}
+    path = tmp_path / "out/S%201/run/08_qc.json"
+    path.parent.mkdir(parents=True)
+    path.write_text(json.dumps(quality))
+    plan.close()
+    text = capsys.readouterr().err
+    assert text.startswith("3 recordings: 1 set aside, 2 unfinished") and "set aside: S 1/run: empty" in text
+    facts = json.loads((tmp_path / "out/report/provenance.json").read_text())
+    assert facts["recordings"] == 3 and facts["config"]["results"] == str(tmp_path / "out")
+    assert "markermend/filling/fill.py" in str(facts["code"]["fill"])
+
+
+def test_networks_are_trained_only_where_they_are_members(plan, config):
+    assert not plan.trains_networks
+    config["fill"]["members"] = [*config["fill"]["members"], "network_lstm"]
+    assert make_plan(config, PROJECT, deployed=True).trains_networks
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [("surprise", 1, "surprise"), ("recordings", 7, "Snakemake understood 7"), ("results", "a{b}", "pattern")],
+)
+def test_what_cannot_be_used_is_named(plan, config, key, value, words):
+    with pytest.raises(BadDataSet, match=words):
+        make_plan({**config, key: value}, PROJECT, deployed=False)
