@@ -24,7 +24,7 @@ from markermend.planning import config as planning_config
 from markermend.planning.data_set import Folders, nameable
 from markermend.planning.recordings import Entry
 from markermend.planning.result_files import ResultFiles
-from markermend.prediction.lagged_regression.predictor import LOOSE
+from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.storage.atomic import sha256, write_json, write_text
 
@@ -183,7 +183,7 @@ class Plan:
     def detector_options(self, stage: str) -> Callable[[Wildcards], str]:
         """A detector's section of the config as flags, with the sections that it shares with other stages."""
         swaps = ["swaps"] if "preset" in self.config[stage] else []
-        return self.options(stage, "local_ridge", *swaps, *(LOOSE if stage == "slow" else []))
+        return self.options(stage, "local_ridge", *swaps, *(LAGGED_REGRESSIONS if stage == "slow" else []))
 
     def failed(self, stage: str) -> Callable[[Wildcards], int]:
         """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
