@@ -182,8 +182,8 @@ class Plan:
 
     def detector_options(self, stage: str) -> Callable[[Wildcards], str]:
         """A detector's section of the config as flags, with the sections that it shares with other stages."""
-        swaps = ["swaps"] if "preset" in self.config[stage] else []
-        return self.options(stage, "local_ridge", *swaps, *(LAGGED_REGRESSIONS if stage == "slow" else []))
+        regressions = LAGGED_REGRESSIONS if stage == "slow" else ()
+        return self.options(stage, *([] if stage == "labels" else ["local_ridge", *regressions]))
 
     def failed(self, stage: str) -> Callable[[Wildcards], int]:
         """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
