@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from markermend.core.artifacts import ARTIFACTS
@@ -18,89 +18,167 @@ REFERENCES = {
 """What is cited, by the key that a sentence uses."""
 
 PRESETS = {
-    "default": "in the residual of each marker against a prediction from its neighbours on the body",
-    "coordinates": "in each coordinate by itself",
-    "paper": "in each coordinate by itself, as published",
+    "default": "in the residual of each marker from a prediction by its neighbours on the body",
+    "coordinates": "in each coordinate separately",
+    "paper": "in each coordinate separately, as published",
 }
 """Where the detectors look, by their option `preset`."""
 
+PSEUDO_GAPS = "pseudo-gaps, stretches of similar length of the same marker that were hidden for this purpose"
+
 WEIGHTS = {
-    "error": "weighted by their errors on gaps of the same length made elsewhere on the same marker",
-    "pma": "weighted by the likelihood of the distances between markers that they lead to",
-    "both": "weighted by their errors on gaps of the same length made elsewhere on the same marker, and by the likelihood "
-    "of the distances between markers that they lead to",
-    "equal": "all weighted alike",
+    "error": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}.",
+    "pma": "The weights are the likelihoods of the distances between markers that each predictor leads to.",
+    "both": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}, and are multiplied by the likelihoods "
+    "of the distances between markers that each predictor leads to.",
+    "equal": "All predictors have equal weights.",
 }
-"""How the predictors are weighted, by the fill stage's option `weights`."""
+"""How the predictors are weighted, by the option `weights` of the averaging."""
 
 LIMITS = {
     "max_gap_s": "of at most {:g} s",
     "max_repair_s": "in stretches of at most {:g} s",
     "max_error_mm": "with an expected error of at most {:g} mm",
 }
-"""Options that say how far a stage may go."""
+"""Options that limit a stage."""
+
+Stages = Mapping[str, Mapping[str, Any]]
+"""The options of each stage that ran, by its name, as the footers of its files state them."""
 
 
-def paragraph(stages: Mapping[str, Mapping[str, Any]], kind: str | None, version: str) -> dict[str, Any]:
+class Citations:
+    """Numbers of the references in the order in which a text cites them.
+
+    Attributes
+    ----------
+    keys : list of str
+        The keys of REFERENCES that are cited so far.
+    """
+
+    def __init__(self) -> None:
+        self.keys: list[str] = []
+
+    def cite(self, key: str) -> str:
+        """Cite a reference.
+
+        Parameters
+        ----------
+        key : str
+            A key of REFERENCES.
+
+        Returns
+        -------
+        str
+            The number in brackets.
+        """
+        if key not in self.keys:
+            self.keys.append(key)
+        return f"[{self.keys.index(key) + 1}]"
+
+
+def paragraph(stages: Stages, kind: str | None, version: str) -> dict[str, Any]:
     """Write what was done to a recording.
 
-    stages: the options of each stage that ran, by its name. kind: "static" recordings are only checked. Returns `text`
-    and `references`, the keys of REFERENCES in the order of citation; equal steps give equal text.
+    Parameters
+    ----------
+    stages : mapping of str to mapping
+        The options of each stage that ran, by its name.
+    kind : str or None
+        Kind of the recording; those of kind `static` are only checked.
+    version : str
+        Version of the program.
+
+    Returns
+    -------
+    dict
+        `text`, and `references`: the keys of REFERENCES in the order of citation. Equal steps give equal text.
     """
-    cited: list[str] = []
-
-    def cite(key: str) -> str:
-        cited.append(key)
-        return f"[{len(cited)}]"
-
-    told = [
-        f"Marker trajectories were processed with markermend {version}. Samples that the capture program marked as "
-        "invalid were taken as missing; unlabelled trajectories, model outputs and analog data were left alone."
+    citations = Citations()
+    sentences = [
+        f"Marker trajectories were processed with markermend {version}. Samples that the capture program had marked as "
+        "invalid were treated as missing; unlabelled trajectories, model outputs and analog data were left unchanged."
     ]
     if kind == "static":
-        told.append("Static recordings were checked only: nothing in them was repaired or filled.")
-        return {"text": " ".join(told), "references": cited}
-    if "mesh" in stages:
-        told.append(
-            "A functional body mesh, rigid segments of markers in a tree, was inferred from each subject's recordings "
-            f"{cite('mesh')}."
+        sentences.append("Static recordings were only checked: nothing in them was repaired or filled.")
+    else:
+        sentences += [*_mesh(stages, citations), *_artifacts(stages, citations), *_unmeasured(stages)]
+        sentences += [*_filling(stages, citations), *_decisions(stages)]
+        sentences.append(
+            "Changed samples, and no others, were overwritten in a copy of each file, which was then compared with the "
+            "original byte by byte."
         )
-    if sought := [artifact for artifact in ARTIFACTS if artifact.stage in stages and not artifact.unmeasured]:
-        classes = ", ".join(artifact.plural for artifact in sought)
-        places = dict.fromkeys(PRESETS.get(stages[artifact.stage].get("preset", ""), "") for artifact in sought)
-        where = " or ".join(place for place in places if place)
-        told.append(f"Artifacts were sought in the order {classes} {cite('artifacts')}{', ' if where else ''}{where}.")
-        if "repair" in stages:
-            told.append(
-                f"They were repaired by class{limits(stages['repair'])}; samples for which no repair could be trusted "
-                "were set to missing."
-            )
-    unmeasured = [f"{a.plural} ({a.unmeasured})" for a in ARTIFACTS if a.unmeasured and a.stage in stages]
-    if unmeasured:
-        told.append(f"Taken as missing, too, were {' and '.join(unmeasured)}.")
-    if "fill" in stages:
-        told.append(_filling(stages["fill"], cite("averaging")))
-    if stages.get("fill", {}).get("decisions"):
-        told.append("Where a person reviewed findings and gaps, the decision of that person stood over these rules.")
-    told.append(
-        "Changed samples, and only those, were overwritten in a copy of each file, which was then compared with the "
-        "original byte by byte."
-    )
-    return {"text": " ".join(told), "references": cited}
-
-
-def _filling(options: Mapping[str, Any], citation: str) -> str:
-    """Tell how gaps were filled."""
-    members = [name.replace("_", " ") for name in options.get("members", ())]
-    named = f" ({', '.join(members)})" if members else ""
-    weights = WEIGHTS.get(options.get("weights", ""), "")
-    return (
-        f"Gaps{limits(options)} were filled by averaging predictors{named}{', ' if weights else ''}{weights} {citation}; "
-        "the expected error of each filled sample was calibrated on such gaps."
-    )
+    return {"text": " ".join(sentences), "references": citations.keys}
 
 
 def limits(options: Mapping[str, Any]) -> str:
-    """Name the limits among a stage's options, with a leading space; nothing where there are none."""
-    told = [phrase.format(options[key]) for key, phrase in LIMITS.items() if isinstance(options.get(key), int | float)]
-    return f" {' and '.join(told)}" if told else ""
+    """Name the limits of a stage.
+
+    Parameters
+    ----------
+    options : mapping of str
+        The options of the stage.
+
+    Returns
+    -------
+    str
+        The limits, with a space before them; empty where there are none.
+    """
+    phrases = [
+        phrase.format(options[key]) for key, phrase in LIMITS.items() if isinstance(options.get(key), int | float)
+    ]
+    return f" {' and '.join(phrases)}" if phrases else ""
+
+
+def _mesh(stages: Stages, citations: Citations) -> Iterator[str]:
+    """How the mesh was inferred."""
+    if "mesh" in stages:
+        yield (
+            "A functional body mesh (rigid segments of markers, connected in a tree) was inferred from each subject's "
+            f"recordings {citations.cite('mesh')}."
+        )
+
+
+def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
+    """Which artifacts were detected, where, and how they were repaired."""
+    sought = [artifact for artifact in ARTIFACTS if artifact.stage in stages and not artifact.unmeasured]
+    if not sought:
+        return
+    classes = ", ".join(artifact.plural for artifact in sought)
+    places = dict.fromkeys(PRESETS.get(stages[artifact.stage].get("preset", ""), "") for artifact in sought)
+    where = " or ".join(place for place in places if place)
+    yield f"Artifacts were detected in the order {classes} {citations.cite('artifacts')}{', ' if where else ''}{where}."
+    if "repair" in stages:
+        yield (
+            f"They were repaired by class{limits(stages['repair'])}; samples without a reliable repair were set to "
+            "missing."
+        )
+
+
+def _unmeasured(stages: Stages) -> Iterator[str]:
+    """Which samples counted as missing because nobody measured them."""
+    found = [f"{a.plural} ({a.unmeasured})" for a in ARTIFACTS if a.unmeasured and a.stage in stages]
+    if found:
+        text = " and ".join(found)
+        yield f"{text[0].upper()}{text[1:]} were treated as missing."
+
+
+def _filling(stages: Stages, citations: Citations) -> Iterator[str]:
+    """How gaps were filled."""
+    if "fill" not in stages:
+        return
+    options = stages["fill"]
+    members = [name.replace("_", " ") for name in options.get("members", ())]
+    named = f" ({', '.join(members)})" if members else ""
+    yield (
+        f"Gaps{limits(options)} were filled with the weighted mean of several predictors{named} "
+        f"{citations.cite('averaging')}."
+    )
+    if (weights := options.get("ensemble", {}).get("weights")) in WEIGHTS:
+        yield WEIGHTS[weights]
+    yield "The expected error of each filled sample was calibrated on pseudo-gaps."
+
+
+def _decisions(stages: Stages) -> Iterator[str]:
+    """Whether a person decided anything."""
+    if stages.get("fill", {}).get("decisions"):
+        yield "Where a person had reviewed findings and gaps, the decisions of that person took precedence."

@@ -17,7 +17,6 @@ import report as report_script
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.report import rendering
-from markermend.report.methods_text import paragraph
 from markermend.storage import atomic, stage_files
 from markermend.storage.folder_names import encode
 from support import report_files
@@ -273,24 +272,6 @@ def test_methods_are_told_once_for_equal_steps(made):
     texts = rendering.methods([base, static, base])
     assert [text["recordings"] for text in texts] == [2, 1]
     assert "isolated peaks" in texts[0]["text"] and "at most 2 s" in texts[0]["text"]
-
-
-def test_the_methods_text_follows_the_steps():
-    ran = {
-        "mesh": {},
-        "steps": {"preset": "paper"},
-        "repair": {"max_error_mm": 20},
-        "fill": {"weights": "pma", "max_gap_s": None},
-    }
-    whole = paragraph(ran, "dynamic", "1.0")
-    assert "steps [2], in each coordinate by itself, as published." in whole["text"]
-    assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
-    assert "Gaps were filled by averaging predictors, weighted by the likelihood" in whole["text"]
-    assert whole["references"] == ["mesh", "artifacts", "averaging"]
-    only_filled = paragraph({"fill": {}}, "dynamic", "1.0")
-    assert "Artifacts" not in only_filled["text"] and only_filled["references"] == ["averaging"]
-    static = paragraph(ran, "static", "1.0")
-    assert "checked only" in static["text"] and static["references"] == []
 
 
 def test_a_linked_finding_has_its_data_under_the_same_name(made):

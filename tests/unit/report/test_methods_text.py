@@ -1,0 +1,86 @@
+"""The methods paragraph: one sentence per step that ran, from the options that the stages' files state."""
+
+import json
+
+import pytest
+
+import fill
+from markermend.command.stage import flag
+from markermend.planning import config
+from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, limits, paragraph
+from markermend.storage import stage_files
+from support.fillings import CONFIG, restored, rigid_body
+
+NAMES = ("A", "B", "C", "D")
+
+
+def fill_file(folder, **averaging):
+    """The options in the footer of a fill file that the stage wrote."""
+    positions = rigid_body(frames=120, markers=4)
+    recording = restored(positions, markers=NAMES, recording="walk", kind="dynamic")
+    stage_files.write_recording(folder / "06.parquet", recording, {"stage": "repair", "options": {}})
+    ranked = {name: [other for other in NAMES if other != name] for name in NAMES}
+    body = {"recordings": ["walk"], "markers": NAMES, "segments": [], "predictors": ranked, "neighbours": ranked}
+    (folder / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
+    own = {**CONFIG["fill"], "ensemble": {**CONFIG["fill"]["ensemble"], **averaging}}
+    given = {**CONFIG, **own, "decisions": []}
+    options = [f"{flag(name)}={config.text(given[name])}" for name in fill.STAGE.options]
+    files = ["--repaired", folder / "06.parquet", "--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    fill.main([*map(str, files), *options])
+    return stage_files.read_facts(folder / "07.parquet")["options"]
+
+
+@pytest.mark.parametrize("weights", WEIGHTS)
+def test_the_weights_of_a_real_fill_file_are_stated(weights, tmp_path):
+    options = fill_file(tmp_path, weights=weights)
+    text = paragraph({"fill": options}, "dynamic", "1.0")["text"]
+    assert WEIGHTS[weights] in text
+    assert not any(other in text for key, other in WEIGHTS.items() if key != weights)
+    assert "of at most 2 s and with an expected error of at most 50 mm" in text
+    assert ", ".join(name.replace("_", " ") for name in CONFIG["fill"]["members"]) in text
+    assert "person" not in text
+
+
+def test_the_text_follows_the_steps():
+    ran = {
+        "mesh": {},
+        "steps": {"preset": "paper"},
+        "repair": {"max_error_mm": 20},
+        "fill": {"ensemble": {"weights": "pma"}, "max_gap_s": None},
+    }
+    whole = paragraph(ran, "dynamic", "1.0")
+    assert "steps [2], in each coordinate separately, as published." in whole["text"]
+    assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
+    assert "Gaps were filled with the weighted mean of several predictors [3]." in whole["text"]
+    assert whole["references"] == ["mesh", "artifacts", "averaging"]
+    only_filled = paragraph({"fill": {}}, "dynamic", "1.0")
+    assert "Artifacts" not in only_filled["text"] and only_filled["references"] == ["averaging"]
+    static = paragraph(ran, "static", "1.0")
+    assert "only checked" in static["text"] and static["references"] == []
+    assert paragraph(ran, "dynamic", "1.0") == whole
+
+
+def test_unmeasured_samples_and_decisions_have_a_sentence_of_their_own():
+    text = paragraph({"frozen": {}, "tails": {}, "fill": {"decisions": [{"decision": "accept"}]}}, None, "1")["text"]
+    assert "Frozen markers (" in text and ") were treated as missing." in text
+    assert "the decisions of that person took precedence" in text
+
+
+def test_several_presets_are_named_once_each():
+    ran = {"peaks": {"preset": "default"}, "noise": {"preset": "default"}, "slow": {"preset": "coordinates"}}
+    text = paragraph(ran, "dynamic", "1")["text"]
+    assert text.count("by its neighbours on the body or in each coordinate separately") == 1
+
+
+def test_limits_are_joined_and_absent_ones_left_out():
+    assert (
+        limits({"max_gap_s": 2.0, "max_error_mm": 50}) == " of at most 2 s and with an expected error of at most 50 mm"
+    )
+    assert limits({"max_gap_s": None}) == limits({}) == ""
+    assert all("{:g}" in phrase for phrase in LIMITS.values())
+
+
+def test_a_reference_keeps_its_number():
+    citations = Citations()
+    assert [citations.cite(key) for key in ("averaging", "mesh", "averaging")] == ["[1]", "[2]", "[1]"]
+    assert set(citations.keys) <= set(REFERENCES)
