@@ -84,3 +84,11 @@ def neighbours(positions):
     low, middle, high = np.nanpercentile(distance, [5, 50, 95], axis=0)
     order = np.argsort(np.nan_to_num((high - low) * middle, nan=np.inf), axis=1, kind="stable")
     return [row[row != m][:30] for m, row in enumerate(order)]
+
+
+def gappy(seed, frames=80):
+    """Noise with missing samples and ties."""
+    rng = np.random.default_rng(seed)
+    values = rng.normal(0, 1, frames).round(1)
+    values[rng.random(frames) < 0.15] = np.nan
+    return values

@@ -1,4 +1,4 @@
-"""Kriging against a plain Gaussian process, the autocovariance against loops, and the fit on a known process."""
+"""Kriging: against the dense conditional Gaussian; autocovariance: against loops; the fit: on a known process."""
 
 import numpy as np
 import pytest
@@ -6,42 +6,9 @@ import pytest
 from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise_variance
 from markermend.prediction.marker_selection import pseudo_random_subset
 from support.fillings import CONFIG
+from support.naive import numerics as naive
 
 SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
-
-
-def naive_autocovariance(residual, lags):
-    """Mean product over all pairs of known samples, lag by lag."""
-    out = []
-    for lag in lags:
-        products = [
-            (residual[i] * residual[i + lag]).mean()
-            for i in range(len(residual) - lag)
-            if np.isfinite(residual[i]).all() and np.isfinite(residual[i + lag]).all()
-        ]
-        out.append(np.mean(products) if products else np.nan)
-    return np.array(out)
-
-
-def naive_gaussian_process(covariance, known, values, wanted):
-    """Condition sample by sample, with the covariance written out."""
-
-    def kernel(a, b):
-        total = 0.0
-        for k, scale in enumerate(covariance.scales_s):
-            once, twice = np.sqrt(3) * abs(a - b) / scale, np.sqrt(5) * abs(a - b) / scale
-            total += covariance.weights[1 + k] * (1 + once) * np.exp(-once)
-            total += covariance.weights[1 + len(covariance.scales_s) + k] * (1 + twice + twice**2 / 3) * np.exp(-twice)
-        return total
-
-    between = np.array([[kernel(a, b) + covariance.weights[0] * (a == b) for b in known] for a in known])
-    inverse = np.linalg.inv(between)
-    mean, variance = [], []
-    for w in wanted:
-        across = np.array([kernel(w, b) for b in known])
-        mean.append(across @ inverse @ values)
-        variance.append(kernel(w, w) + covariance.weights[0] - across @ inverse @ across)
-    return np.array(mean), np.array(variance)
 
 
 @pytest.fixture
@@ -54,7 +21,7 @@ def test_autocovariance_equals_loops_with_missing_samples():
     residual = np.random.default_rng(1).normal(size=(80, 3)).cumsum(axis=0)
     residual[[3, 4, 30, 77]] = np.nan
     lags = np.array([0, 1, 2, 5, 19, 60])
-    assert np.allclose(autocovariance(residual, lags), naive_autocovariance(residual, lags))
+    assert np.allclose(autocovariance(residual, lags), naive.autocovariance(residual, lags))
 
 
 def test_a_lag_without_pairs_gets_nothing():
@@ -83,23 +50,12 @@ def test_nothing_known_is_no_covariance():
     assert fitted(np.zeros(1))[0] == 0 and fitted.noise < 1e-6
 
 
-def test_scattered_frames_are_spread_evenly_and_at_every_distance():
-    frames = np.arange(7, 50_007)
-    chosen = pseudo_random_subset(frames, 2500)
-    assert len(chosen) == 2500 and (np.diff(chosen) > 0).all() and np.isin(chosen, frames).all()
-    assert np.ptp(np.histogram(chosen, bins=25, range=(7, 50_007))[0]) < 60  # 100 each
-    seen = np.isin(frames, chosen)
-    pairs = np.array([np.count_nonzero(seen[lag:] & seen[:-lag]) for lag in range(1, 250)])
-    assert pairs.min() > 60 and abs(pairs.mean() - 125) < 10
-    assert np.array_equal(pseudo_random_subset(frames[:9], 9), frames[:9])
-
-
-def test_kriging_equals_the_gaussian_process(covariance):
+def test_kriging_equals_the_conditional_gaussian(covariance):
     known = np.array([0.0, 0.01, 0.04, 0.5, 0.53])
     values = np.random.default_rng(2).normal(size=(5, 3))
     wanted = np.linspace(0.05, 0.45, 9)
     mean, variance = krige(covariance, observed_s=known, values=values, target_s=wanted)
-    expected, spread = naive_gaussian_process(covariance, known, values, wanted)
+    expected, spread = naive.conditional_gaussian(covariance, known, values, wanted)
     # The jitter that keeps the system regular is a hundred-thousandth of the variance.
     assert np.allclose(mean, expected, atol=1e-3)
     assert np.allclose(variance, spread, atol=1e-3)
@@ -147,24 +103,24 @@ def test_an_exact_model_leaves_a_covariance_that_can_be_inverted():
 
 
 def drift(seconds=40, rate=100.0):
-    """A smooth course (frames, 3) of 10 mm that turns within about a second."""
+    """A smooth trajectory (frames, 3) of 10 mm that turns within about a second."""
     t = np.arange(0, seconds, 1 / rate)[:, None]
     return 10 * np.sin(2 * np.pi * np.array([0.3, 0.7, 1.1]) * t + np.arange(3))
 
 
-def test_the_white_noise_on_a_smooth_course_is_told():
+def test_the_white_noise_on_a_smooth_trajectory_is_estimated():
     residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
     residual[np.random.default_rng(6).choice(4000, 30)] += 100
     assert white_noise_variance(drift()) < 1e-3
     assert white_noise_variance(residual) == pytest.approx(0.2**2, rel=0.3)
 
 
-def test_scattered_frames_tell_the_noise_while_enough_lie_side_by_side():
+def test_a_subset_of_frames_gives_the_noise_while_enough_lie_side_by_side():
     residual = drift() + np.random.default_rng(5).normal(0, 0.2, (4000, 3))
     sparse, sparser = np.full_like(residual, np.nan), np.full_like(residual, np.nan)
-    for thinned, most in ((sparse, 1000), (sparser, 100)):
-        chosen = pseudo_random_subset(np.arange(4000), most)
-        thinned[chosen] = residual[chosen]
+    for kept, count in ((sparse, 1000), (sparser, 100)):
+        chosen = pseudo_random_subset(np.arange(4000), count)
+        kept[chosen] = residual[chosen]
     assert white_noise_variance(sparse) == pytest.approx(0.2**2, rel=0.5)
     assert white_noise_variance(sparser) == 0
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimise
-from support import naive
+from support.naive import numerics as naive
 
 OPTIONS = DescentOptions(iterations=1000, gradient_tolerance=1e-8, probe=1e-6, patience=5)
 

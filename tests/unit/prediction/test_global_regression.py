@@ -35,14 +35,6 @@ def test_equals_least_squares(walker):
     assert np.abs(found - expected).max() < 0.1
 
 
-def test_deviations_are_those_of_the_distance(walker):
-    positions = walker.recording.positions[:400]
-    ranked, deviation = reference_markers(scene(positions), 9, frames=1000, minimum_frames=60)
-    for reference, value in zip(ranked[:5], deviation[:5], strict=True):
-        assert value == pytest.approx(np.linalg.norm(positions[:, 9] - positions[:, reference], axis=1).std())
-    assert (np.diff(deviation) >= 0).all()
-
-
 @pytest.mark.parametrize("centring", ["complete", "available"])
 def test_both_centrings_find_the_marker(walker, centring):
     positions = walker.recording.positions

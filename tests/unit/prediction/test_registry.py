@@ -5,7 +5,6 @@ import pytest
 
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import REGISTRY, members
-from markermend.prediction.scene import CACHE_SIZE
 from support.fillings import predictor, rigid_body, scene, settings
 
 NAMES = sorted(REGISTRY)
@@ -112,14 +111,6 @@ def test_members_are_made_by_name_and_wrong_names_are_refused():
         members(["nonsense"], settings())
     with pytest.raises(ValueError, match="named twice"):
         members(["spline", "spline"], settings())
-
-
-def test_a_scene_learns_once_and_forgets_the_oldest():
-    seen = scene(np.zeros((5, 2, 3)))
-    calls = []
-    for key in [*range(CACHE_SIZE), 0, CACHE_SIZE, 0, 2]:
-        assert seen.cached(key, lambda key=key: calls.append(key) or key) == key
-    assert calls == [*range(CACHE_SIZE + 1), 0]
 
 
 def test_sharing_what_is_learned_changes_nothing(walker):

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.prediction.lagged_regression import feed_forward
 from markermend.prediction.lagged_regression.feed_forward import Stack, activations, initial, loss, mean_output
-from support import naive
+from support.naive import prediction as naive
 
 SIZES = (7, 5, 4, 6)
 

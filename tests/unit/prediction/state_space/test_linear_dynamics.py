@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from markermend.numerics import block_tridiagonal
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics, learn, maximise
 
 LEARNING = {"hidden": 4, "lag": 0, "iterations": 15, "tolerance": 0.0, "floor": 1e-6}
@@ -73,30 +72,6 @@ def naive_smoother(system, observed):
         smoothed.append((filtered[t][0] + back @ (after[0] - predicted[t + 1][0]), own))
     means, covariances = zip(*smoothed[::-1], strict=True)
     return np.array(means), np.array(covariances), np.array(crosses[::-1]), likelihood
-
-
-@pytest.mark.parametrize("blocks", [1, 2, 3, 6, 7, 16, 21])
-def test_cyclic_reduction_equals_the_dense_inverse(blocks):
-    rng = np.random.default_rng(blocks)
-    size = 3
-    root = rng.normal(size=(blocks, size, size))
-    diagonal = root @ root.transpose(0, 2, 1) + 6 * np.eye(size)
-    below = rng.normal(size=(blocks - 1, size, size))
-    right = rng.normal(size=(blocks, size))
-    dense = np.zeros((blocks, size, blocks, size))
-    for t in range(blocks):
-        dense[t, :, t] = diagonal[t]
-    for t in range(blocks - 1):
-        dense[t + 1, :, t], dense[t, :, t + 1] = below[t], below[t].T
-    dense = dense.reshape(blocks * size, -1)
-    inverse = np.linalg.inv(dense).reshape(blocks, size, blocks, size)
-    given = diagonal.copy(), below.copy(), right.copy()
-    solved = block_tridiagonal.solve(diagonal, below, right)
-    assert all(np.array_equal(a, b) for a, b in zip(given, (diagonal, below, right), strict=True))
-    assert np.allclose(solved.solution.reshape(-1), np.linalg.solve(dense, right.reshape(-1)))
-    assert np.isclose(solved.log_determinant, np.linalg.slogdet(dense)[1])
-    assert all(np.allclose(solved.inverse_diagonal[t], inverse[t, :, t]) for t in range(blocks))
-    assert all(np.allclose(solved.inverse_below[t], inverse[t + 1, :, t]) for t in range(blocks - 1))
 
 
 @pytest.mark.parametrize("frames", [1, 2, 30])

@@ -1,0 +1,1 @@
+"""Naive twins of the library's fast code: slow, obvious, and only for tests."""

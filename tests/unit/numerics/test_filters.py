@@ -1,0 +1,46 @@
+"""Filters that never look across a gap: against naive twins and scipy."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import signal as scipy_signal
+
+from markermend.numerics import filters
+from support.naive import numerics as naive
+from support.signals import gappy
+
+
+@given(st.integers(0, 200), st.sampled_from([1, 3, 5, 19]))
+def test_moving_median_equals_its_naive_twin(seed, window):
+    values = gappy(seed)
+    np.testing.assert_array_equal(filters.moving_median(values, window), naive.moving_median(values, window))
+
+
+def test_moving_sum_counts_nothing_beyond_a_run():
+    values = np.array([1.0, 2, 3, np.nan, 4, 5])
+    np.testing.assert_array_equal(filters.moving_sum(values, 3), [3, 6, 5, np.nan, 9, 9])
+
+
+def test_high_pass_is_the_rest_of_scipys_savitzky_golay_filter():
+    values = np.random.default_rng(2).normal(0, 1, 60)
+    smooth = scipy_signal.savgol_filter(values, 13, 5, mode="interp")
+    np.testing.assert_allclose(filters.high_pass(values, 13, 5), values - smooth, atol=1e-10)
+
+
+def test_high_pass_lets_no_quintic_through_and_does_not_look_across_a_gap():
+    t = np.linspace(-1, 1, 70)
+    values = 3 * t**5 - 40 * t**4 + t
+    values[30:33] = np.nan
+    values[33:] += 100
+    values[60:62] = np.nan
+    rest = filters.high_pass(values, 13, 5)
+    assert np.array_equal(np.isnan(rest), np.isnan(values))
+    assert np.nanmax(np.abs(rest)) < 1e-8
+    with pytest.raises(ValueError, match="window 12"):
+        filters.high_pass(values, 12, 5)
+
+
+def test_differences_begin_anew_after_a_gap():
+    values = np.array([1.0, 3.0, np.nan, 50.0, 49.0])
+    np.testing.assert_array_equal(filters.difference(values), [0, 2, np.nan, 0, -1])
