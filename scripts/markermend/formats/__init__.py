@@ -1,1 +1,1 @@
-"""The outside world: recordings as files of the capture programs, read in and written back."""
+"""Recordings as files of the capture programs: read, ingested, and written back with edited samples."""

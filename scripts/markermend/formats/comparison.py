@@ -1,4 +1,4 @@
-"""What differs between an original and its cleaned copy, found without asking the code that wrote it."""
+"""What differs between an original and its cleaned copy, determined independently of the code that wrote it."""
 
 from __future__ import annotations
 
@@ -20,8 +20,13 @@ CHUNK = 1 << 24
 class Difference:
     """How two files differ.
 
-    changed_bytes: bytes of the copy that differ from the original within the samples that were to change (in a text
-    file: bytes of their cells). other_bytes_equal: whether every byte outside those samples is the same.
+    Attributes
+    ----------
+    changed_bytes : int
+        Bytes of the copy that differ from the original within the samples that were to change; in a text file, bytes of
+        their cells.
+    other_bytes_equal : bool
+        Whether every byte outside those samples is the same.
     """
 
     changed_bytes: int
@@ -29,9 +34,23 @@ class Difference:
 
 
 def compare(original: Path, cleaned: Path, *, format: str, changed: np.ndarray, columns: Sequence[int]) -> Difference:
-    """Compare two files of one format; changed: bool (frames, markers), the samples allowed to differ.
+    """Compare an original and its cleaned copy.
 
-    columns: the markers' places among the file's trajectories.
+    Parameters
+    ----------
+    original, cleaned : Path
+        Two files of one format.
+    format : str
+        Of the files, as read.
+    changed : ndarray of bool, shape (frames, markers)
+        The samples that are allowed to differ.
+    columns : sequence of int
+        Index of each marker among the file's trajectories, as read.
+
+    Returns
+    -------
+    Difference
+        How they differ.
     """
     if format == "c3d":
         return _compare_bytes(original, cleaned, changed, columns)

@@ -16,10 +16,26 @@ READABLE = (".c3d", ".trc", ".csv", ".tsv")
 
 
 def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Reading:
-    """Read a recording of any known format, in mm.
+    """Read a recording of any known format.
 
-    unlabelled: regular expressions for the names of trajectories that nobody labelled. rate: Hz, in place of what the
-    file says; None = the file's. Raises BadRecording where the file is absent, of an unknown format, or unusable.
+    Parameters
+    ----------
+    path : Path
+        The file; its ending decides how it is read.
+    unlabelled : sequence of str
+        Regular expressions for the names that capture programs give to unlabelled trajectories (see labels.py).
+    rate : float or None
+        Frame rate in Hz, used in place of the file's; None = the file's.
+
+    Returns
+    -------
+    Reading
+        Positions in mm; NaN where a sample is missing.
+
+    Raises
+    ------
+    BadRecording
+        If the file is absent, of an unknown format, or unusable.
     """
     if not path.is_file():
         raise BadRecording(f"{path.name} is not there: correct the file in the recordings table")
@@ -48,9 +64,30 @@ def write_back(
     changed: np.ndarray,
     columns: Sequence[int],
 ) -> PatchResult:
-    """Copy the original to `target` with the changed samples overwritten, and nothing else changed.
+    """Copy the original with the changed samples overwritten, and nothing else changed.
 
-    format, columns: as read. positions: (frames, markers, 3), mm, NaN = missing. changed: bool (frames, markers).
+    Parameters
+    ----------
+    original, target : Path
+        The file, and where its copy goes.
+    format : str
+        As read.
+    positions : ndarray of float, shape (frames, markers, 3)
+        In mm; NaN = missing.
+    changed : ndarray of bool, shape (frames, markers)
+        The samples to write.
+    columns : sequence of int
+        Index of each marker among the file's trajectories, as read.
+
+    Returns
+    -------
+    PatchResult
+        How many samples were written, and which were refused.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit the file.
     """
     if format == "c3d":
         from markermend.formats.c3d import reader

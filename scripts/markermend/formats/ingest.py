@@ -1,4 +1,4 @@
-"""What is made of a file of a capture program before anything is cleaned: markers in mm, and facts about them."""
+"""A recording made of what a file of a capture program holds: markers in mm, and facts about them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from markermend.core.recording import BadRecording, Recording
 from markermend.formats.reading import Reading
 
-ENOUGH_FRAMES = 2000
+FRAMES_FOR_MOTION = 2000
 """Frames, spread over the recording, from which the motion of its markers is measured."""
 
 
@@ -29,8 +29,32 @@ def ingest(
 ) -> Recording:
     """Make a recording of what was read: the markers as they are, the rest as facts.
 
-    source: the original's name. kind: dynamic, static, or auto (see kind_of). A marker that was never seen stays, all
-    NaN, with a warning. Raises BadRecording where no marker was ever seen, or where the rate is impossible.
+    A marker that was never seen stays, all NaN, with a warning.
+
+    Parameters
+    ----------
+    reading : Reading
+        What the file holds.
+    source : str
+        Name of the original file.
+    recording, subject : str
+        Names of the recording and of its subject.
+    kind : str
+        dynamic, static, or auto (see kind_of).
+    static_names : sequence of str
+        Regular expressions for the names of static recordings.
+    static_motion_mm : float
+        Range of motion below which a recording is static, in mm.
+
+    Returns
+    -------
+    Recording
+        The markers in mm, with facts about the file.
+
+    Raises
+    ------
+    BadRecording
+        If no marker was ever seen, or the rate is impossible.
     """
     markers = reading.recording
     missing = markers.missing
@@ -67,10 +91,30 @@ def ingest(
 def kind_of(
     recording: Recording, *, name: str, kind: str, static_names: Sequence[str], static_motion_mm: float
 ) -> tuple[str, str]:
-    """Decide whether a recording is dynamic or static (never repaired or filled), and say why.
+    """Decide whether a recording is dynamic or static (never repaired or filled).
 
-    What the recordings table says goes first. Else a recording is static if a pattern of static_names (regular
-    expressions, in any case of letters) occurs in its name, or if nine markers in ten move less than static_motion_mm.
+    The recordings table takes precedence. Otherwise a recording is static if a pattern of static_names occurs in its
+    name, in any case of letters, or if nine markers in ten move less than static_motion_mm.
+
+    Parameters
+    ----------
+    recording : Recording
+        The markers in mm.
+    name : str
+        Of the recording.
+    kind : str
+        What the recordings table states: dynamic, static, or auto.
+    static_names : sequence of str
+        Regular expressions for the names of static recordings.
+    static_motion_mm : float
+        Range of motion below which a recording is static, in mm.
+
+    Returns
+    -------
+    kind : str
+        dynamic or static.
+    reason : str
+        Why, in one sentence.
     """
     if kind != "auto":
         return kind, "The recordings table says so."
@@ -84,12 +128,22 @@ def kind_of(
 
 
 def motion_mm(recording: Recording) -> float:
-    """The range of motion (mm) that nine markers in ten do not exceed.
+    """Measure the range of motion that nine markers in ten do not exceed.
 
-    A marker's range is the distance between the 5th and the 95th percentiles of its coordinates over the frames in
-    which it was seen. At least one marker must have been seen.
+    The range of a marker is the distance between the 5th and the 95th percentiles of its coordinates over the frames in
+    which it was seen.
+
+    Parameters
+    ----------
+    recording : Recording
+        At least one of its markers must have been seen.
+
+    Returns
+    -------
+    float
+        The range in mm.
     """
-    positions = recording.positions[:: max(1, recording.frames // ENOUGH_FRAMES)]
+    positions = recording.positions[:: max(1, recording.frames // FRAMES_FOR_MOTION)]
     seen = ~np.isnan(positions[..., 0]).all(axis=0)
     low, high = np.nanpercentile(positions[:, seen], [5, 95], axis=0)
     return float(np.percentile(np.linalg.norm(high - low, axis=1), 90, method="lower"))

@@ -1,4 +1,4 @@
-"""Labels of trajectories: made printable and unique, and told apart from those of trajectories nobody labelled."""
+"""Labels of trajectories: made printable and unique, and distinguished from the names of unlabelled trajectories."""
 
 from __future__ import annotations
 
@@ -6,14 +6,26 @@ import re
 from collections.abc import Sequence
 
 NAMELESS = "unnamed#"
-"""What an empty label is called, followed by a number from 1."""
+"""The name of a trajectory with an empty label, followed by a number from 1."""
 
 
 def tidy_labels(raw: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Make labels into names: printable, without blanks around them, unique, never empty; and say what had to be done.
+    """Make labels into names: printable, without outer blanks, unique, never empty.
 
-    The second and later bearers of a name get `#2`, `#3` and so on (`LASI`, `LASI#2`); empty labels become
-    `unnamed#1`, `unnamed#2`. A name that a label already has is not given to another. Returns names and warnings.
+    The second and later trajectories of the same label get `#2`, `#3` and so on (`LASI`, `LASI#2`); empty labels become
+    `unnamed#1`, `unnamed#2`. A name that a label already has is not given to another.
+
+    Parameters
+    ----------
+    raw : sequence of str
+        Labels as in the file.
+
+    Returns
+    -------
+    names : list of str
+        One for each label.
+    warnings : list of str
+        What was changed, one sentence each.
     """
     stripped = [_printable(label) for label in raw]
     taken = {label for label in stripped if label}
@@ -39,10 +51,22 @@ def tidy_labels(raw: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def is_unlabelled(name: str, patterns: Sequence[str]) -> bool:
-    """Tell whether a name is one that a capture program gives to a trajectory that nobody labelled.
+    """Decide whether a name is one that a capture program gives to an unlabelled trajectory.
 
-    patterns: regular expressions, each to match the whole name, in any case of letters, with or without the subject
-    before its last colon. The number that tidy_labels adds to a repeated name does not count.
+    The number that tidy_labels adds to a repeated name does not count.
+
+    Parameters
+    ----------
+    name : str
+        Of a trajectory.
+    patterns : sequence of str
+        Regular expressions, each to match the whole name, in any case of letters, with or without the subject before
+        its last colon.
+
+    Returns
+    -------
+    bool
+        Whether any pattern matches.
     """
     candidates = {name, name.rpartition(":")[2], re.sub(r"(?<=.)#\d+$", "", name.rpartition(":")[2])}
     return any(re.fullmatch(pattern, text, re.IGNORECASE) for pattern in patterns for text in candidates)
@@ -57,7 +81,7 @@ def _warnings(raw: Sequence[str], stripped: Sequence[str], repeated: Sequence[st
     """Say which labels were repeated, empty or unprintable."""
     warnings = []
     if repeated:
-        warnings.append(f"Labels that stand for several trajectories were numbered: {', '.join(repeated)}.")
+        warnings.append(f"Labels of several trajectories were numbered: {', '.join(repeated)}.")
     empty = sum(not label for label in stripped)
     if empty:
         warnings.append(f"{empty} trajectories have an empty label and were named {NAMELESS}1 and so on.")

@@ -1,4 +1,4 @@
-"""The outside world: recordings as files of the capture programs, read in and written back."""
+"""What a file of a capture program holds once it is read, and the outcome of writing into a copy of it."""
 
 from __future__ import annotations
 
@@ -11,10 +11,22 @@ from markermend.core.recording import Recording
 class Reading:
     """What a file of a capture program holds.
 
-    recording: the labelled markers in mm, names made unique. format: c3d, trc, nexus, motive, qtm or csv.
-    unit: the unit of the positions in the file. columns: index of each marker among the file's trajectories.
-    unlabelled, model_outputs: trajectories that are left alone. missing: missing samples caught per clause of the rule.
-    warnings: what a person should know about the file, one sentence each.
+    Attributes
+    ----------
+    recording : Recording
+        The labelled markers in mm, names made unique.
+    format : str
+        c3d, trc, nexus, motive, qtm or csv.
+    unit : str
+        Unit of the positions in the file.
+    columns : tuple of int
+        Index of each marker among the file's trajectories.
+    unlabelled, model_outputs : tuple of str
+        Names of trajectories that are left alone.
+    missing : dict of str to int
+        How many samples are missing, by clause of the missing-sample rule.
+    warnings : tuple of str
+        What a person should know about the file, one sentence each.
     """
 
     recording: Recording
@@ -29,10 +41,14 @@ class Reading:
 
 @dataclass(frozen=True)
 class PatchResult:
-    """What writing edited samples back into a copy of the original came to.
+    """The outcome of writing edited samples back into a copy of the original.
 
-    samples: how many samples were written. refused: (frame, column) of those that the file's number format cannot
-    hold, which stand as in the original.
+    Attributes
+    ----------
+    samples : int
+        How many samples were written.
+    refused : tuple[tuple[int, int], ...]
+        Frame and column of those that the file's number format cannot hold; they are as in the original.
     """
 
     samples: int

@@ -21,7 +21,7 @@ _NAMES = {
 """The unit that each name stands for, in small letters."""
 
 LARGEST = 1e7
-"""Coordinates of this size or more are no positions, in any unit: programs write them (-1e9) for what they did not see."""
+"""Coordinates of this size or more are no positions, in any unit: programs write such numbers (-1e9) for missing samples."""
 
 LARGEST_IN_METRES = 20.0
 """Coordinates that stay below this are metres: a capture volume in mm exceeds it, one in metres does not."""

@@ -50,12 +50,34 @@ def starts(section: Section, size: int) -> list[int]:
 
 
 def points(section: Section) -> list[int]:
-    """List the candidate numbers of points per frame, by the parameters and by the header."""
+    """List the candidate numbers of points per frame.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+
+    Returns
+    -------
+    list of int
+        By POINT:USED and by the header.
+    """
     return whole_numbers(section.number("POINT", "USED"), section.header.points)
 
 
 def analog_samples(section: Section) -> list[int]:
-    """List the candidate numbers of analog samples per frame, by the parameters and by the header."""
+    """List the candidate numbers of analog samples per frame.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+
+    Returns
+    -------
+    list of int
+        By the ANALOG group and by the header.
+    """
     used, rate = section.number("ANALOG", "USED"), section.number("ANALOG", "RATE")
     point_rate = section.number("POINT", "RATE")
     declared: float | None = None
@@ -67,24 +89,68 @@ def analog_samples(section: Section) -> list[int]:
 
 
 def storages(section: Section) -> list[bool]:
-    """List whether the data may be floating point, by the signs of the scales; a scale of zero leaves it open."""
+    """List whether the data may be floating point.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+
+    Returns
+    -------
+    list of bool
+        By the signs of the scales, which are negative for floating point; both where no scale is usable.
+    """
     usable = [scale for scale in (section.number("POINT", "SCALE"), section.header.scale) if is_usable(scale)]
     return list(dict.fromkeys(scale < 0 for scale in usable if scale is not None)) or [True, False]
 
 
 def scale(section: Section) -> float | None:
-    """Give the size of an integer step in the file's unit, by the parameters or by the header; None where neither says."""
+    """Give the size of an integer step.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+
+    Returns
+    -------
+    float or None
+        In the file's unit, by POINT:SCALE or else by the header; None where neither is usable.
+    """
     candidates = (section.number("POINT", "SCALE"), section.header.scale)
     return next((abs(value) for value in candidates if value is not None and is_usable(value)), None)
 
 
 def is_usable(scale: float | None) -> bool:
-    """Decide whether a scale is finite and not zero."""
+    """Decide whether a scale is finite and not zero.
+
+    Parameters
+    ----------
+    scale : float or None
+        The scale, None where it is absent.
+
+    Returns
+    -------
+    bool
+        Whether it can be used.
+    """
     return bool(scale) and scale is not None and math.isfinite(scale)
 
 
 def frames(section: Section) -> list[int]:
-    """List the numbers of frames that a file declares, the most reliable first."""
+    """List the candidate numbers of frames.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+
+    Returns
+    -------
+    list of int
+        The most reliable first.
+    """
     first, last = (frame_field(section, f"ACTUAL_{end}_FIELD") for end in ("START", "END"))
     spanned = None if first is None or last is None else last - first + 1
     declared = (
@@ -98,7 +164,20 @@ def frames(section: Section) -> list[int]:
 
 
 def frame_field(section: Section, name: str) -> int | None:
-    """Give a frame number of the TRIAL group, which is stored as a low and a high word, or as one number."""
+    """Give a frame number of the TRIAL group, which is stored as a low and a high word, or as one number.
+
+    Parameters
+    ----------
+    section : Section
+        Header and parameters.
+    name : str
+        Of the parameter.
+
+    Returns
+    -------
+    int or None
+        The number; None where the parameter is absent or impossible.
+    """
     words = section.numbers("TRIAL", name)
     if not words or any(word < 0 or word > 2**31 for word in words):
         return None

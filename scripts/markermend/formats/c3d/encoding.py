@@ -46,29 +46,84 @@ class Coding:
         return np.dtype(f"{self.order}i2")
 
     def decode_floats(self, stored: np.ndarray) -> np.ndarray:
-        """Decode stored floats (any shape, of float_type) into float64, exactly."""
+        """Decode stored floats exactly.
+
+        Parameters
+        ----------
+        stored : ndarray
+            Of float_type, in any shape.
+
+        Returns
+        -------
+        ndarray of float64
+            The values, in the same shape.
+        """
         if self.processor is Processor.DEC:
             return decode_dec(stored)
         with np.errstate(invalid="ignore"):  # a signalling NaN is a NaN
             return stored.astype(np.float64)
 
     def encode_floats(self, values: np.ndarray) -> np.ndarray:
-        """Encode float64 values (any shape) to the nearest stored float; what is too large becomes NaN or infinite."""
+        """Encode values as floats, to the nearest.
+
+        Parameters
+        ----------
+        values : ndarray of float64
+            In any shape.
+
+        Returns
+        -------
+        ndarray
+            Of float_type, in the same shape; what is too large becomes NaN or infinite.
+        """
         if self.processor is Processor.DEC:
             return encode_dec(values)
         with np.errstate(over="ignore"):
             return values.astype(self.float_type)
 
     def encode_integers(self, values: ArrayLike) -> np.ndarray:
-        """Encode 16-bit integers, signed or unsigned."""
+        """Encode 16-bit integers.
+
+        Parameters
+        ----------
+        values : array_like
+            Signed or unsigned.
+
+        Returns
+        -------
+        ndarray of uint16
+            In the byte order of the processor, in the same shape.
+        """
         return np.asarray(np.asarray(values, np.int64) & 0xFFFF, f"{self.order}u2")
 
     def integers(self, data: bytes) -> np.ndarray:
-        """Decode bytes as unsigned 16-bit integers."""
+        """Decode bytes as unsigned 16-bit integers.
+
+        Parameters
+        ----------
+        data : bytes
+            The bytes.
+
+        Returns
+        -------
+        ndarray of uint16
+            The integers.
+        """
         return np.frombuffer(data, f"{self.order}u2")
 
     def floats(self, data: bytes) -> np.ndarray:
-        """Decode bytes as floats, into float64."""
+        """Decode bytes as floats.
+
+        Parameters
+        ----------
+        data : bytes
+            The bytes.
+
+        Returns
+        -------
+        ndarray of float64
+            The values.
+        """
         return self.decode_floats(np.frombuffer(data, self.float_type))
 
 

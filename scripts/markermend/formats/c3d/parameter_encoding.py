@@ -105,13 +105,37 @@ def encode_values(value: Any, coding: Coding) -> bytes:
 
 
 def single(values: Any, coding: Coding) -> bytes:
-    """Encode numbers as 32-bit floats, the first dimension fastest."""
+    """Encode numbers as 32-bit floats.
+
+    Parameters
+    ----------
+    values : array_like
+        In any shape.
+    coding : Coding
+        How numbers are stored.
+
+    Returns
+    -------
+    bytes
+        The numbers, the first dimension fastest.
+    """
     rounded = np.asarray(values, np.float32).astype(np.float64)
     return coding.encode_floats(rounded).tobytes("F")
 
 
 def padded(content: bytes) -> bytes:
-    """Fill bytes up with zeros to whole blocks."""
+    """Fill bytes up with zeros to whole blocks.
+
+    Parameters
+    ----------
+    content : bytes
+        The bytes.
+
+    Returns
+    -------
+    bytes
+        As many as a multiple of the block.
+    """
     return content + b"\0" * (-len(content) % BLOCK)
 
 

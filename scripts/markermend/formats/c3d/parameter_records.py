@@ -129,14 +129,38 @@ def decode_values(body: bytes, coding: Coding) -> tuple[Values, int]:
 
 
 def is_description(rest: bytes, *, complete: bool) -> bool:
-    """Decide whether what follows the contents of a record is a description, and (`complete`) nothing else."""
+    """Decide whether what follows the contents of a record is a description.
+
+    Parameters
+    ----------
+    rest : bytes
+        What follows.
+    complete : bool
+        Whether nothing else may follow.
+
+    Returns
+    -------
+    bool
+        Whether it is one.
+    """
     if not rest or rest[0] > LONGEST_DESCRIPTION:
         return False
     return len(rest) == 1 + rest[0] if complete else len(rest) >= 1 + rest[0]
 
 
 def decode_text(data: bytes) -> str:
-    """Decode text without trailing blanks: UTF-8 where the bytes are valid, Latin-1 otherwise."""
+    """Decode text: UTF-8 where the bytes are valid, Latin-1 otherwise.
+
+    Parameters
+    ----------
+    data : bytes
+        The bytes.
+
+    Returns
+    -------
+    str
+        The text without trailing blanks.
+    """
     try:
         text = data.decode()
     except UnicodeDecodeError:

@@ -89,17 +89,50 @@ class Section:
     end: int = 0
 
     def texts(self, group: str, name: str) -> list[str]:
-        """Give the strings of a parameter; none where it is absent or of another type."""
+        """Give the strings of a parameter.
+
+        Parameters
+        ----------
+        group, name : str
+            Of the parameter, in capitals.
+
+        Returns
+        -------
+        list of str
+            None where it is absent or of another type.
+        """
         values = self.groups.get(group, {}).get(name, [])
         return [value for value in values if isinstance(value, str)]
 
     def numbers(self, group: str, name: str) -> list[float]:
-        """Give the finite numbers of a parameter; none where it is absent or of another type."""
+        """Give the finite numbers of a parameter.
+
+        Parameters
+        ----------
+        group, name : str
+            Of the parameter, in capitals.
+
+        Returns
+        -------
+        list of float
+            None where it is absent or of another type.
+        """
         values = self.groups.get(group, {}).get(name, [])
         return [value for value in values if not isinstance(value, str) and math.isfinite(value)]
 
     def number(self, group: str, name: str) -> float | None:
-        """Give the first number of a parameter, or None."""
+        """Give the first number of a parameter.
+
+        Parameters
+        ----------
+        group, name : str
+            Of the parameter, in capitals.
+
+        Returns
+        -------
+        float or None
+            None where it is absent or of another type.
+        """
         return next(iter(self.numbers(group, name)), None)
 
 

@@ -12,18 +12,57 @@ from markermend.formats.text.table_rows import frame_rows, plain_rows, writes_de
 
 
 def triples(axes: Sequence[str], start: int) -> list[int]:
-    """Find the columns from `start` on where the axes X, Y, Z begin."""
+    """Find where the axes X, Y, Z begin.
+
+    Parameters
+    ----------
+    axes : sequence of str
+        The cells of a line, in any case of letters.
+    start : int
+        The first column to look at.
+
+    Returns
+    -------
+    list of int
+        Columns of X.
+    """
     upper = [axis.upper() for axis in axes]
     return [i for i in range(start, len(upper) - 2) if upper[i : i + 3] == ["X", "Y", "Z"]]
 
 
 def consecutive(starts: Sequence[int]) -> tuple[tuple[int, int, int], ...]:
-    """Give the columns of x, y and z that stand side by side from each start on."""
+    """Give the columns of x, y and z that stand side by side.
+
+    Parameters
+    ----------
+    starts : sequence of int
+        Columns of x.
+
+    Returns
+    -------
+    tuple[tuple[int, int, int], ...]
+        Three columns for each.
+    """
     return tuple((start, start + 1, start + 2) for start in starts)
 
 
 def find_axes(sheet: Sheet, lines: Sequence[int], delimiter: bytes) -> int | None:
-    """Give the first of some lines that names the axes X, Y, Z side by side, or None."""
+    """Find the line that names the axes X, Y, Z side by side.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    lines : sequence of int
+        Numbers of the lines to look at.
+    delimiter : bytes
+        What stands between two cells.
+
+    Returns
+    -------
+    int or None
+        The first such line, or None.
+    """
     return next((line for line in lines if triples(sheet.texts(line, delimiter), 0)), None)
 
 

@@ -11,8 +11,8 @@ from markermend.core.recording import BadRecording
 from markermend.formats.text.lines import BLANKS, Sheet, split
 from markermend.formats.text.table_layout import Layout
 
-BLOCK = 4096
-"""Rows that are taken apart at a time, so that a large file needs little memory."""
+ROWS_AT_A_TIME = 4096
+"""Rows that are split at a time, so that a large file needs little memory."""
 
 READ, BLANK, NOT_FINITE, NOT_A_NUMBER = range(4)
 """What a cell holds: a number, nothing, the text of something not finite (nan, inf), or other text."""
@@ -21,9 +21,28 @@ READ, BLANK, NOT_FINITE, NOT_A_NUMBER = range(4)
 def parse(sheet: Sheet, layout: Layout, columns: Sequence[int]) -> tuple[np.ndarray, np.ndarray, int]:
     """Read some columns of a table as numbers.
 
-    Returns float64 (rows, columns) in the file's units, NaN where a cell holds no finite number; uint8 of that shape:
-    why not; and how many rows were too short to have all the cells.
-    Raises BadRecording where rows are so short that the header promises far more than the file can hold.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    layout : Layout
+        Where its trajectories stand.
+    columns : sequence of int
+        The columns to read.
+
+    Returns
+    -------
+    numbers : ndarray of float, shape (rows, columns)
+        In the file's unit; NaN where a cell holds no finite number.
+    why : ndarray of uint8, shape (rows, columns)
+        What each cell holds: READ, BLANK, NOT_FINITE or NOT_A_NUMBER.
+    short : int
+        How many rows were too short to have all the cells.
+
+    Raises
+    ------
+    BadRecording
+        If rows are so short that the header promises far more than the file can hold.
     """
     size = sum(len(sheet.lines[row]) for row in layout.rows)
     if len(layout.rows) * len(columns) > 20 * size + 100_000:
@@ -31,9 +50,9 @@ def parse(sheet: Sheet, layout: Layout, columns: Sequence[int]) -> tuple[np.ndar
     width = max(columns) + 1
     pick = itemgetter(*columns, columns[0])
     blocks, reasons, short = [], [], 0
-    for start in range(0, len(layout.rows), BLOCK):
-        rows = [split(sheet.lines[row], layout.delimiter) for row in layout.rows[start : start + BLOCK]]
-        if start + BLOCK >= len(layout.rows) and _breaks_off(sheet, layout):
+    for start in range(0, len(layout.rows), ROWS_AT_A_TIME):
+        rows = [split(sheet.lines[row], layout.delimiter) for row in layout.rows[start : start + ROWS_AT_A_TIME]]
+        if start + ROWS_AT_A_TIME >= len(layout.rows) and _breaks_off(sheet, layout):
             rows[-1].pop()
         cells: list[bytes] = []
         for row in rows:

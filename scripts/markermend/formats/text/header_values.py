@@ -36,11 +36,33 @@ def unit_named(sheet: Sheet, text: str) -> str:
 
 
 def rate_named(text: str) -> float | None:
-    """Give the frame rate (Hz) that a text states, or None where it is no finite number above zero."""
+    """Give the frame rate that a text states.
+
+    Parameters
+    ----------
+    text : str
+        A cell.
+
+    Returns
+    -------
+    float or None
+        In Hz; None where the text is no finite number above zero.
+    """
     rate = float(text.replace(",", ".")) if is_number(text) else 0.0
     return rate if 0 < rate < float("inf") else None
 
 
 def count_named(text: str) -> int | None:
-    """Give the count that a text states, or None."""
+    """Give the count that a text states.
+
+    Parameters
+    ----------
+    text : str
+        A cell.
+
+    Returns
+    -------
+    int or None
+        The count, or None.
+    """
     return int(text) if re.fullmatch(r"\d{1,12}", text) else None

@@ -23,8 +23,18 @@ _COMMA = re.compile(rb"\s*[+-]?\d+,\d+(?:[eE][+-]?\d+)?\s*")
 class Sheet:
     """The lines of a text file.
 
-    name: of the file. mark: the byte order mark, or nothing. lines: what stands between the newlines. newline: the
-    byte that ends a line (a carriage return before it stays in the line). encoding: of the header's text.
+    Attributes
+    ----------
+    name : str
+        Of the file.
+    mark : bytes
+        The byte order mark, or nothing.
+    lines : tuple of bytes
+        What stands between the newlines.
+    newline : bytes
+        The byte that ends a line; a carriage return before it stays in the line.
+    encoding : str
+        Of the header's text.
     """
 
     name: str
@@ -39,17 +49,54 @@ class Sheet:
         return not self.lines[-1]
 
     def joined(self, lines: Sequence[bytes]) -> bytes:
-        """The bytes of the file that has these lines instead."""
+        """Give the bytes of the file with other lines.
+
+        Parameters
+        ----------
+        lines : sequence of bytes
+            As many as the file has.
+
+        Returns
+        -------
+        bytes
+            The file.
+        """
         return self.mark + self.newline.join(lines)
 
     def texts(self, line: int, delimiter: bytes) -> list[str]:
-        """The cells of a line as text, without quotes and outer blanks; none beyond the end of the file."""
+        """Give the cells of a line as text, without quotes and outer blanks.
+
+        Parameters
+        ----------
+        line : int
+            Its number.
+        delimiter : bytes
+            What stands between two cells.
+
+        Returns
+        -------
+        list of str
+            Nothing beyond the end of the file.
+        """
         if line >= len(self.lines):
             return []
         return [plain_text(cell.decode(self.encoding, "replace")) for cell in split(self.lines[line], delimiter)]
 
     def filled(self, start: int, delimiter: bytes) -> list[int]:
-        """Numbers of the lines from start on that have more in them than delimiters and blanks."""
+        """List the lines that have more in them than delimiters and blanks.
+
+        Parameters
+        ----------
+        start : int
+            The first line to look at.
+        delimiter : bytes
+            What stands between two cells.
+
+        Returns
+        -------
+        list of int
+            Numbers of lines.
+        """
         void = BLANKS + delimiter
         return [i for i in range(start, len(self.lines)) if self.lines[i].strip(void)]
 
@@ -57,7 +104,20 @@ class Sheet:
 def load(path: Path) -> Sheet:
     """Read a text file.
 
-    Raises BadRecording for a file that is empty, not text, or in a two-byte encoding.
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Sheet
+        Its lines.
+
+    Raises
+    ------
+    BadRecording
+        If the file is empty, not text, or in a two-byte encoding.
     """
     content = path.read_bytes()
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
@@ -78,7 +138,20 @@ def load(path: Path) -> Sheet:
 
 
 def split(line: bytes, delimiter: bytes) -> list[bytes]:
-    """Cut a line into cells at each delimiter outside quotes; joining them by the delimiter gives the line again."""
+    """Cut a line into cells at each delimiter outside quotes.
+
+    Parameters
+    ----------
+    line : bytes
+        Without its newline.
+    delimiter : bytes
+        What stands between two cells.
+
+    Returns
+    -------
+    list of bytes
+        The cells; joined by the delimiter they give the line again.
+    """
     if b'"' not in line:
         return line.split(delimiter)
     cells, start = [], 0
@@ -93,26 +166,69 @@ def split(line: bytes, delimiter: bytes) -> list[bytes]:
 
 
 def plain_text(cell: str) -> str:
-    """The text of a cell without outer blanks and quotes."""
+    """Give the text of a cell without outer blanks and quotes.
+
+    Parameters
+    ----------
+    cell : str
+        As in the file.
+
+    Returns
+    -------
+    str
+        The text.
+    """
     text = cell.strip(" \t\r\n\f\v\0")
     return text[1:-1].replace('""', '"').strip() if len(text) > 1 and text[0] == text[-1] == '"' else text
 
 
 def is_number(cell: str) -> bool:
-    """Tell whether a cell of text holds a finite number, with a decimal point or comma."""
+    """Decide whether a cell of text holds a finite number, with a decimal point or comma.
+
+    Parameters
+    ----------
+    cell : str
+        Its text, without outer blanks.
+
+    Returns
+    -------
+    bool
+        Whether it does.
+    """
     return re.fullmatch(r"[+-]?(\d+(?:[.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?", cell) is not None
 
 
 def likeliest_delimiter(lines: Iterable[bytes]) -> bytes:
-    """The delimiter of some lines: tab, semicolon or comma, whichever comes first there; tab before the others."""
+    """Determine the delimiter of some lines.
+
+    Parameters
+    ----------
+    lines : iterable of bytes
+        Such as those of the header.
+
+    Returns
+    -------
+    bytes
+        Tab, else semicolon, else comma, whichever occurs; comma where none does.
+    """
     text = b"\n".join(lines)
     return next((mark for mark in (b"\t", b";", b",") if mark in text), b",")
 
 
 def has_decimal_comma(lines: Iterable[bytes], delimiter: bytes) -> bool:
-    """Tell whether numbers are written with a decimal comma: some are and none with a decimal point.
+    """Decide whether numbers are written with a decimal comma: some are, and none with a decimal point.
 
-    Never so where commas delimit the cells, except for numbers in quotes.
+    Parameters
+    ----------
+    lines : iterable of bytes
+        A sample of the rows.
+    delimiter : bytes
+        What stands between two cells; where it is the comma, only numbers in quotes can have one.
+
+    Returns
+    -------
+    bool
+        Whether they are.
     """
     cells = [cell.strip(BLANKS).strip(b'"') for line in lines for cell in split(line, delimiter)]
     return any(map(_COMMA.fullmatch, cells)) and not any(map(_POINT.fullmatch, cells))

@@ -13,7 +13,18 @@ HEADER_LINES = 8
 
 
 def section_line(sheet: Sheet) -> int | None:
-    """Give the line that opens the section of trajectories, or None."""
+    """Find the line that opens the section of trajectories.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+
+    Returns
+    -------
+    int or None
+        Its number, or None.
+    """
     titled = (i for i, line in enumerate(sheet.lines) if line[:14].lstrip(b'"').lower().startswith(b"trajectories"))
     return next((i for i in titled if not sheet.lines[i].strip(b' \t\r,;"')[12:]), None)
 

@@ -7,41 +7,78 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.formats.text.cells import BLOCK, READ, parse
+from markermend.formats.text.cells import READ, ROWS_AT_A_TIME, parse
 from markermend.formats.text.lines import BLANKS, Sheet, split
 from markermend.formats.text.table_layout import Layout
 from markermend.formats.units import MILLIMETRES
 
 MOST_DECIMALS = 15
-"""More digits than this hold nothing."""
+"""More decimals than this carry no information."""
 
 BLANK_SAMPLE = (b"", b"", b"")
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a table writes numbers: decimals of each of its columns, and the three cells of a missing sample."""
+    """How a table writes numbers.
+
+    Attributes
+    ----------
+    decimals : dict of int to int
+        Decimals of each of its columns.
+    missing : tuple of bytes
+        The three cells of a missing sample.
+    """
 
     decimals: dict[int, int]
     missing: tuple[bytes, ...]
 
 
 def style_of(sheet: Sheet, layout: Layout, unit: str, changed: Sequence[int], known: Sequence[int]) -> Style:
-    """Learn from a table how to write into it.
+    """Determine how a table writes numbers and missing samples.
 
-    changed: trajectories that are written to. known: trajectories in which missing samples are looked for.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    layout : Layout
+        Where its trajectories stand.
+    unit : str
+        Of the file.
+    changed : sequence of int
+        Trajectories that are written to.
+    known : sequence of int
+        Trajectories in which missing samples are looked for.
+
+    Returns
+    -------
+    Style
+        Decimals for the columns of the changed trajectories, and the cells of a missing sample.
     """
     least = 3 + round(float(np.log10(MILLIMETRES[unit])))
     decimals = {column: least for trajectory in changed for column in layout.columns[trajectory]}
-    for start in range(0, len(layout.rows), BLOCK):
-        rows = [split(sheet.lines[row], layout.delimiter) for row in layout.rows[start : start + BLOCK]]
+    for start in range(0, len(layout.rows), ROWS_AT_A_TIME):
+        rows = [split(sheet.lines[row], layout.delimiter) for row in layout.rows[start : start + ROWS_AT_A_TIME]]
         for column, most in decimals.items():
             decimals[column] = most_decimals((row[column] for row in rows if column < len(row)), most)
     return Style(decimals, _missing_cells(sheet, layout, known) if layout.own_missing else BLANK_SAMPLE)
 
 
 def most_decimals(cells: Iterable[bytes], least: int) -> int:
-    """How many decimals the numbers of some cells have at most, between least and MOST_DECIMALS."""
+    """Count the most decimals that the numbers of some cells have.
+
+    Parameters
+    ----------
+    cells : iterable of bytes
+        Of one column.
+    least : int
+        The least number to give.
+
+    Returns
+    -------
+    int
+        Between `least` and MOST_DECIMALS.
+    """
     most = least
     for cell in cells:
         whole, _, fraction = cell.strip(BLANKS).strip(b'"').lower().replace(b",", b".").partition(b".")
@@ -71,7 +108,24 @@ def _missing_cells(sheet: Sheet, layout: Layout, known: Sequence[int]) -> tuple[
 def sample_cells(
     position: Sequence[float], columns: Sequence[int], layout: Layout, style: Style
 ) -> tuple[bytes, ...] | None:
-    """The cells that hold a position (file's unit), or None where they would be read back as a missing sample."""
+    """Write a position as cells.
+
+    Parameters
+    ----------
+    position : sequence of float
+        x, y and z in the file's unit; all NaN = missing.
+    columns : sequence of int
+        The columns of x, y and z.
+    layout : Layout
+        Where the trajectories stand.
+    style : Style
+        How the table writes numbers.
+
+    Returns
+    -------
+    tuple of bytes or None
+        None where the cells would be read back as a missing sample although the position is not.
+    """
     if not np.isfinite(position).all():
         return style.missing if np.isnan(position).all() else None
     texts = [f"{value:.{style.decimals[column]}f}" for value, column in zip(position, columns, strict=True)]
@@ -83,7 +137,22 @@ def sample_cells(
 
 
 def line_with(line: bytes, delimiter: bytes, texts: dict[int, bytes]) -> bytes:
-    """A line with other texts in some of its cells, by column; it grows by as many cells as they need."""
+    """Give a line with other texts in some of its cells; it grows by as many cells as they need.
+
+    Parameters
+    ----------
+    line : bytes
+        As in the file.
+    delimiter : bytes
+        What stands between two cells.
+    texts : dict of int to bytes
+        New texts by column.
+
+    Returns
+    -------
+    bytes
+        The line.
+    """
     body = line.rstrip(b"\r")
     cells = split(body, delimiter)
     for column, text in sorted(texts.items()):

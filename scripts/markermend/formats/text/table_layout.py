@@ -1,4 +1,4 @@
-"""Where the trajectories stand in a text file: the one thing in which the text formats differ.
+"""Where the trajectories are in a text file: the one thing in which the text formats differ.
 
 A format's module only describes the layout of a file; reading and patching (reader.py) are the same for all.
 """
@@ -65,5 +65,16 @@ class Layout:
     warnings: tuple[str, ...] = ()
 
     def cells_of(self, trajectories: Sequence[int]) -> list[int]:
-        """Give the columns of x, y and z of some trajectories, side by side."""
+        """List the columns of x, y and z of some trajectories.
+
+        Parameters
+        ----------
+        trajectories : sequence of int
+            Their indices.
+
+        Returns
+        -------
+        list of int
+            Three for each, side by side.
+        """
         return [column for trajectory in trajectories for column in self.columns[trajectory]]

@@ -73,13 +73,43 @@ def plain_rows(sheet: Sheet, start: int, delimiter: bytes) -> list[int]:
 
 
 def row_widths(sheet: Sheet, rows: Sequence[int], delimiter: bytes) -> list[int]:
-    """Count the cells of each row, up to its last that is not blank."""
+    """Count the cells of each row, up to its last that is not blank.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    rows : sequence of int
+        Numbers of the lines.
+    delimiter : bytes
+        What stands between two cells.
+
+    Returns
+    -------
+    list of int
+        One for each row.
+    """
     void = BLANKS + delimiter
     return [sheet.lines[row].rstrip(void).count(delimiter) + 1 for row in rows]
 
 
 def writes_decimal_comma(sheet: Sheet, rows: Sequence[int], delimiter: bytes) -> bool:
-    """Determine from a sample of the rows whether they write numbers with a decimal comma."""
+    """Determine from a sample of the rows whether they write numbers with a decimal comma.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    rows : sequence of int
+        Numbers of the lines.
+    delimiter : bytes
+        What stands between two cells.
+
+    Returns
+    -------
+    bool
+        Whether they do.
+    """
     sample = rows[:: max(1, len(rows) // SAMPLE_LINES)]
     return has_decimal_comma((sheet.lines[row] for row in sample), delimiter)
 

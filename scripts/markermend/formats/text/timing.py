@@ -15,24 +15,34 @@ TOLERANCE = 0.01
 """Rates that differ by no more than this share are the same rate."""
 
 SLOWEST = 1.0
-"""Hz. Times that give a rate no higher than this are milliseconds."""
+"""Hz; times that give a rate no higher than this are milliseconds."""
 
-WHOLE = 0.002
-"""A rate from rounded times that is this near to a whole number (share) is that number."""
+ROUNDING = 0.002
+"""A rate from rounded times that differs from a whole number by less than this share is that number."""
 
 LEAP = 2.5
-"""Steps between times this many times the usual one, or longer, are leaps; shorter ones may be due to rounding."""
+"""Steps between times that are at least this many times the median are leaps; shorter ones may be due to rounding."""
 
 SHORTEST = 1e-9
-"""s. No system captures frames nearer to each other."""
+"""s; no system captures frames at shorter intervals."""
 
 LARGEST_FRAME = 2**53
-"""Beyond, whole numbers are not told apart."""
+"""Beyond this, floating point numbers do not distinguish neighbouring integers."""
 
 
 @dataclass(frozen=True)
 class Timing:
-    """rate: Hz. first_frame: the capture program's number of row 0. warnings: one sentence each."""
+    """When the rows of a file were captured.
+
+    Attributes
+    ----------
+    rate : float
+        Frame rate in Hz.
+    first_frame : int
+        The capture program's number of row 0.
+    warnings : tuple of str
+        One sentence each.
+    """
 
     rate: float
     first_frame: int
@@ -40,10 +50,27 @@ class Timing:
 
 
 def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
-    """Work out the rate and the first frame of a file.
+    """Determine the rate and the first frame of a file.
 
-    rate: Hz, as a person says, or None; then what the header says counts, then the time column.
-    Raises BadRecording where none gives a finite rate above zero.
+    Parameters
+    ----------
+    sheet : Sheet
+        The file.
+    layout : Layout
+        Where its frame numbers and times stand.
+    rate : float or None
+        Frame rate in Hz of the recordings table, which takes precedence over that of the header, and this over the
+        times; None = not given.
+
+    Returns
+    -------
+    Timing
+        Rate, first frame, and what is odd about them.
+
+    Raises
+    ------
+    BadRecording
+        If no source gives a finite rate above zero.
     """
     columns = [column for column in (layout.frame, layout.time) if column is not None]
     numbers = dict(zip(columns, parse(sheet, layout, columns)[0].T, strict=True)) if columns else {}
@@ -52,13 +79,13 @@ def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
     warnings += uneven
     if rate is None and layout.rate is None and timed is not None and timed <= SLOWEST:
         timed *= 1000
-        warnings.append("By the size of its numbers the time column is taken to be in milliseconds.")
+        warnings.append("By the size of its numbers, the time column is in milliseconds.")
     chosen = next((value for value in (rate, layout.rate, timed) if value is not None), None)
     if chosen is None or not 0 < chosen < float("inf"):
         raise BadRecording(f"{sheet.name} gives no usable frame rate: give its `rate` in the recordings table")
     for value, source in ((layout.rate, "header"), (timed, "time column")):
         if value is not None and abs(value - chosen) > TOLERANCE * chosen:
-            warnings.append(f"The {source} says {value:.6g} Hz; {chosen:.6g} Hz is taken.")
+            warnings.append(f"The {source} says {value:.6g} Hz; {chosen:.6g} Hz is used.")
     return Timing(float(chosen), first, tuple(warnings))
 
 
@@ -79,9 +106,9 @@ def _frames(numbers: np.ndarray | None) -> tuple[int, list[str]]:
         (f"{int((steps > 1).sum())} leap", (steps > 1).any()),
         (f"{int(np.isnan(numbers).sum())} are no numbers", np.isnan(numbers).any()),
     ]
-    said = ", ".join(text for text, present in kinds if present) or "some are not whole"
+    found = ", ".join(text for text, present in kinds if present) or "some are not whole"
     return int(first), [
-        f"Frame numbers do not count up by one ({said}; first in row {odd[0] + 2}): rows are counted instead."
+        f"Frame numbers do not count up by one ({found}; first in row {odd[0] + 2}): rows are counted instead."
     ]
 
 
@@ -94,5 +121,5 @@ def _rate_of_times(times: np.ndarray | None, seconds: float) -> tuple[float | No
         return None, []
     even = (steps >= 0) & (steps < LEAP * step)
     rate = 1 / max(float(steps[even].mean()), SHORTEST)
-    rate = float(round(rate)) if abs(rate - round(rate)) < WHOLE * rate else rate
+    rate = float(round(rate)) if abs(rate - round(rate)) < ROUNDING * rate else rate
     return rate, [] if even.all() else [f"{int((~even).sum())} times leap or go back: rows are taken as evenly spaced."]

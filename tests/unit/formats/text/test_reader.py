@@ -199,7 +199,7 @@ def test_a_file_cut_off_within_a_number_loses_that_number(tmp_path: Path) -> Non
 def test_rows_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     content = make("trc", positions())
     whole = read(tmp_path, content)
-    monkeypatch.setattr("markermend.formats.text.cells.BLOCK", 7)
+    monkeypatch.setattr("markermend.formats.text.cells.ROWS_AT_A_TIME", 7)
     np.testing.assert_array_equal(read(tmp_path, content).recording.positions, whole.recording.positions)
 
 

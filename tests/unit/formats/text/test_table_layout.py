@@ -32,12 +32,12 @@ TRC = make("trc", positions())
         (b"\t30\t4\tmm", b"\t30\t\tmm", "no markers and 4 are labelled"),
         (b"Time\tLASI\t\t\tRASI\t\t\tC7\t\t\tT10", b"Time\t\tLASI\t\tRASI\t\tC7\t\tT10", "in order"),
         (b"LASI\t\t\tRASI\t\t\tC7\t\t\tT10", b"LASI\tRASI\tC7\tT10", "in order"),
-        (b"RASI", b"LASI", "stand for several trajectories"),
+        (b"RASI", b"LASI", "of several trajectories"),
         (b"\r\n103\t", b"\r\n102\t", "1 repeat"),
         (b"\r\n103\t", b"\r\n203\t", "1 go back, 1 leap"),
         (b"\r\n103\t", b"\r\nx\t", "no frame number"),
         (b"\t4\tmm", b"\t4\t", "names no unit"),
-        (b"\r\n100\t", b"\r\n50\t", "time column says 100 Hz; 50 Hz is taken"),
+        (b"\r\n100\t", b"\r\n50\t", "time column says 100 Hz; 50 Hz is used"),
     ],
 )
 def test_trc_damage_is_read_with_a_warning(tmp_path: Path, old: bytes, new: bytes, warning: str) -> None:
