@@ -1,0 +1,86 @@
+"""The gap filler: what a filling is an input for, and which are refused after calibration."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+
+from markermend.core.reasons import Cause
+from markermend.filling.ensemble import Ensemble
+from markermend.filling.gap import Gap
+from markermend.filling.gap_filler import GapFiller
+from markermend.filling.growing_scene import GrowingScene
+from markermend.prediction.scene import Prediction
+from support.fillings import ensemble_options, rigid_body, scene
+
+FIRST, SECOND, OTHER = Gap(1, 100, 110), Gap(1, 150, 160), Gap(4, 100, 110)
+
+
+@dataclass
+class Recorder:
+    """Predicts the origin with a stated error, by marker, and records the scenes in which it is asked."""
+
+    errors: dict
+    name: str = "recorder"
+    continuous: bool = True
+    scenes: list = field(default_factory=list)
+
+    def predict(self, scene, marker, start, stop):
+        self.scenes.append((marker, start, scene.present.copy()))
+        n = stop - start + 2
+        return Prediction(np.zeros((n, 3)), np.full(n, self.errors.get(marker, 1.0)))
+
+
+def filled(errors=None, *, name="recorder", max_error_mm=None, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0):
+    member = Recorder(errors or {}, name)
+    # Without pseudo-gaps the prior radii stand.
+    ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, longest_s={}))
+    positions = rigid_body()
+    for gap in gaps:
+        positions[gap.samples] = np.nan
+    growing = GrowingScene(scene(positions))
+    return GapFiller(ensemble, max_error_mm=max_error_mm, reuse=reuse).fill(growing, gaps), member, growing
+
+
+def test_gaps_of_a_marker_see_none_of_them_filled_and_those_of_others():
+    result, member, _ = filled()
+    seen = {(marker, start): present for marker, start, present in member.scenes}
+    assert not seen[1, 100][SECOND.samples].any() and not seen[1, 150][FIRST.samples].any()
+    assert seen[4, 100][FIRST.samples].all() and seen[4, 100][SECOND.samples].all()
+    assert list(result.accepted) == [FIRST, SECOND, OTHER] and not result.refused
+
+
+@pytest.mark.parametrize(
+    "changed", [{"reuse": False}, {"name": "spline"}, {"max_error_mm": 1.0, "errors": {1: 2.0}}], ids=str
+)
+def test_fillings_that_are_no_inputs(changed):
+    _, member, growing = filled(**changed)
+    assert not member.scenes[-1][2][FIRST.samples].any()
+    assert not growing.current().present[FIRST.samples].any()
+
+
+def test_too_uncertain_fillings_are_refused_with_the_limit():
+    result, _, _ = filled({1: 2.0, 4: 0.5}, max_error_mm=1.0)
+    assert list(result.accepted) == [OTHER] and list(result.refused) == [FIRST, SECOND]
+    reason = result.refused[FIRST]
+    assert (reason.cause, reason.limit.setting, reason.limit.value) == (Cause.UNCERTAIN, "fill.max_error_mm", 1.0)
+    assert reason.limit.actual == pytest.approx(2.0 * result.radii[0])
+    assert reason.text == f"expected error {reason.limit.actual:.3g} mm (fill.max_error_mm: 1)"
+
+
+def test_what_cannot_be_filled_says_so():
+    result, _, _ = filled({1: np.nan})
+    assert list(result.accepted) == [OTHER]
+    assert result.refused[FIRST].text == "the expected error of a filling is unknown"
+
+
+def test_an_input_may_turn_out_too_uncertain_once_the_radii_are_calibrated():
+    # The scale of the only gap's kind comes from its own pseudo-gaps, the radii from how these differ.
+    result, _, growing = filled(trials=2, gaps=(FIRST,))
+    deviation = result.accepted[FIRST].deviation.max()
+    prior = ensemble_options().radius["inner"]
+    assert result.radii[0] > prior
+    limit = deviation * (prior + result.radii[0]) / 2
+    result, _, growing = filled(trials=2, gaps=(FIRST,), max_error_mm=limit)
+    assert list(result.refused) == [FIRST] and not result.accepted
+    assert growing.current().present[FIRST.samples].all()
