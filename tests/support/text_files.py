@@ -1,8 +1,12 @@
 """Text files of each capture program, made from arrays: what the tests of the text formats read and patch."""
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
+
+from markermend.formats.reading import Reading
+from markermend.formats.text import reader
 
 MARKERS = ("LASI", "RASI", "C7", "T10")
 """Names of the markers in these files."""
@@ -112,3 +116,35 @@ def _csv(rows: Rows, rate: int, first_frame: int) -> list[str]:
         "frame,time,emg," + ",".join(f"{name}_{axis} (mm)" for name in MARKERS for axis in "xyz"),
         *(",".join([str(number), f"{time:.4f}", "0.125", *row]) for number, time, row in rows),
     ]
+
+
+def read(folder: Path, content: bytes, *, name: str = "walk.txt", rate: float | None = None) -> Reading:
+    """The reading of a file with this content; names such as *17 count as unlabelled."""
+    path = folder / name
+    path.write_bytes(content)
+    return reader.read(path, unlabelled=[r"\*\d+"], rate=rate)
+
+
+def patched(
+    folder: Path, content: bytes, samples: dict[tuple[int, int], list[float]], rate: float | None = None
+) -> bytes:
+    """What patching some samples makes of a file, given the positions by frame and marker."""
+    reading = read(folder, content, rate=rate)
+    wanted, changed = reading.recording.positions.copy(), np.zeros(reading.recording.missing.shape, bool)
+    for where, position in samples.items():
+        wanted[where], changed[where] = position, True
+    result = reader.patch(
+        folder / "walk.txt",
+        folder / "new",
+        format=reading.format,
+        positions=wanted,
+        changed=changed,
+        columns=reading.columns,
+    )
+    assert result.samples + len(result.refused) == len(samples)
+    return (folder / "new").read_bytes()
+
+
+def assert_positions(reading: Reading, values: np.ndarray) -> None:
+    """Check the positions of a reading, mm."""
+    np.testing.assert_allclose(reading.recording.positions, values, rtol=0, atol=1e-9)

@@ -6,18 +6,10 @@ import numpy as np
 import pytest
 
 from markermend.core.recording import BadRecording
-from markermend.formats.comparison import compare
-from markermend.formats.reading import Reading
 from markermend.formats.text import reader
-from support.text_files import FORMATS, MARKERS, make, positions
+from support.text_files import FORMATS, MARKERS, make, positions, read
 
 PATTERNS = [r"\*\d+"]
-
-
-def read(folder: Path, content: bytes, *, name: str = "walk.txt", rate: float | None = None) -> Reading:
-    path = folder / name
-    path.write_bytes(content)
-    return reader.read(path, unlabelled=PATTERNS, rate=rate)
 
 
 @pytest.mark.parametrize("end", ["\r\n", "\n", "\r"])
@@ -84,47 +76,6 @@ def test_patch_of_nothing_gives_the_same_bytes(tmp_path: Path, format: str) -> N
     assert target.read_bytes() == content
 
 
-def patched(
-    folder: Path, content: bytes, samples: dict[tuple[int, int], list[float]], rate: float | None = None
-) -> bytes:
-    """What patching some samples makes of a file, given the positions by frame and marker."""
-    reading = read(folder, content, rate=rate)
-    wanted, changed = reading.recording.positions.copy(), np.zeros(reading.recording.missing.shape, bool)
-    for where, position in samples.items():
-        wanted[where], changed[where] = position, True
-    result = reader.patch(
-        folder / "walk.txt",
-        folder / "new",
-        format=reading.format,
-        positions=wanted,
-        changed=changed,
-        columns=reading.columns,
-    )
-    assert result.samples + len(result.refused) == len(samples)
-    return (folder / "new").read_bytes()
-
-
-def test_patch_writes_as_many_decimals_as_the_column_has(tmp_path: Path) -> None:
-    content = b"time,A_x,A_y,A_z\n0.00,100.12345,1,300\n0.01,-200.5,2.5e-05,30\n0.02,,,\n"
-    new = patched(tmp_path, content, {(2, 0): [1 / 3, 2 / 3, -1e-9]})
-    assert new == content.replace(b"0.02,,,", b"0.02,0.33333,0.666667,0.000")
-
-
-def test_patch_keeps_decimal_commas_quotes_and_blanks(tmp_path: Path) -> None:
-    content = b'"time";"A_x";"A_y";"A_z"\n0,00; 100,5 ;"200,25";-300\n0,01;1,5;2,5;3,5'
-    new = patched(tmp_path, content, {(0, 0): [1.5, -2.25, 3]})
-    assert new == content.replace(b' 100,5 ;"200,25";-300', b' 1,500 ;"-2,250";3,000')
-
-
-def test_patch_lengthens_a_short_row_only_as_far_as_needed(tmp_path: Path) -> None:
-    content = b"frame,A_x,A_y,A_z,B_x,B_y,B_z\r\n1,1,2,30,4,5,60\r\n2\r\n3,1,2,30\r\n"
-    new = patched(tmp_path, content, {(1, 0): [11, 12, 13], (2, 1): [np.nan] * 3}, rate=50)
-    assert new == content.replace(b"\r\n2\r\n", b"\r\n2,11.000,12.000,13.000\r\n")
-    changed = np.array([[False, False], [True, False], [False, True]])
-    difference = compare(tmp_path / "walk.txt", tmp_path / "new", format="csv", changed=changed, columns=(0, 1))
-    assert difference.other_bytes_equal
-
-
 def test_patch_refuses_what_would_be_read_as_missing(tmp_path: Path) -> None:
     content = make("csv", positions())
     reading = read(tmp_path, content)
@@ -142,36 +93,6 @@ def test_patch_refuses_what_would_be_read_as_missing(tmp_path: Path) -> None:
     assert (result.samples, result.refused) == (1, ((0, 0), (1, 0), (2, 3)))
 
 
-def test_patch_in_metres_writes_six_decimals(tmp_path: Path) -> None:
-    content = make("motive", positions())
-    before, after = content.split(b"\n"), patched(tmp_path, content, {(0, 0): [1234.56789, -1, 0]}).split(b"\n")
-    assert after[7].split(b",")[10:13] == [b"1.234568", b"-0.001000", b"0.000000"]
-    assert [i for i in range(len(before)) if before[i] != after[i]] == [7]
-
-
-@pytest.mark.parametrize(
-    ("cells", "clause"),
-    [
-        (b",,", "blank"),
-        (b"1,,3", "blank"),
-        (b"NaN,nan,NAN", "not finite"),
-        (b"inf,1,2", "not finite"),
-        (b"0,0.000,-0.0", "zero"),
-        (b"=cmd(),1,2", "not a number"),
-        (b"<b>1</b>,1,2", "not a number"),
-        (b"1_0,1_0,1_0", "not a number"),
-        (b"1e300,1,2", "out of range"),
-        (b"9" * 1_000_000 + b",1,2", "not finite"),
-        (b"1" * 1_000_000 + b"x,1,2", "not a number"),
-    ],
-)
-def test_missing_samples_by_clause(tmp_path: Path, cells: bytes, clause: str) -> None:
-    content = b"time,A_x,A_y,A_z\n0.00,100,200,300\n0.01," + cells + b"\n0.02,100,200,300\n"
-    reading = read(tmp_path, content)
-    assert reading.missing == {clause: 1}
-    np.testing.assert_array_equal(reading.recording.missing[:, 0], [False, True, False])
-
-
 @pytest.mark.parametrize("format", FORMATS)
 def test_a_file_without_one_seen_sample_is_refused(tmp_path: Path, format: str) -> None:
     with pytest.raises(BadRecording, match="no 3-D data"):
@@ -187,25 +108,3 @@ def test_unlabelled_trajectories_are_left_alone(tmp_path: Path) -> None:
     assert (reading.columns, reading.unlabelled, reading.missing) == ((0, 2, 3), ("*17",), {})
     with pytest.raises(BadRecording, match="no labelled marker"):
         reader.read(tmp_path / "walk.txt", unlabelled=[".*"], rate=None)
-
-
-def test_a_file_cut_off_within_a_number_loses_that_number(tmp_path: Path) -> None:
-    content = make("qtm", positions())
-    reading = read(tmp_path, content[: content.rindex(b"\t", 0, -20) - 2])
-    assert reading.recording.missing[-1, -1]
-    assert any("lack cells" in warning for warning in reading.warnings)
-
-
-def test_rows_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    content = make("trc", positions())
-    whole = read(tmp_path, content)
-    monkeypatch.setattr("markermend.formats.text.cells.ROWS_AT_A_TIME", 7)
-    np.testing.assert_array_equal(read(tmp_path, content).recording.positions, whole.recording.positions)
-
-
-def test_encodings(tmp_path: Path) -> None:
-    content = make("trc", positions()).replace(b"LASI", "Hüfte".encode())
-    assert read(tmp_path, content).recording.markers[0] == "Hüfte"
-    assert read(tmp_path, content.decode().encode("latin-1")).recording.markers[0] == "Hüfte"
-    with pytest.raises(BadRecording, match="UTF-16"):
-        read(tmp_path, content.decode().encode("utf-16"))
