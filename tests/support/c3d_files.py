@@ -4,6 +4,8 @@ import struct
 
 import numpy as np
 
+from markermend.formats.c3d import reader
+from markermend.formats.c3d.data_layout import locate
 from markermend.formats.c3d.parameters import read_section
 from markermend.formats.c3d.writer import write_new
 
@@ -55,3 +57,22 @@ def set_word4(path, layout, frame, point, value, code):
 def section_of(path):
     """Header and parameters of a file."""
     return read_section(path)
+
+
+def read(path):
+    """The reading of a C3D file; names such as *17 count as unlabelled."""
+    return reader.read(path, unlabelled=UNLABELLED)
+
+
+def layout_of(path):
+    """Where the data of a file lie."""
+    return locate(section_of(path), path.stat().st_size, path.name)
+
+
+def assert_read_whole(path, *words, positions=None):
+    """Check that a file holds the positions (by default 200 frames of 4 markers), with warnings of these words, or none."""
+    reading = read(path)
+    np.testing.assert_array_equal(reading.recording.positions, trajectories(200, 4) if positions is None else positions)
+    warnings = " ".join(reading.warnings)
+    assert all(word in warnings for word in words) and bool(words) == bool(warnings), warnings
+    return reading.recording

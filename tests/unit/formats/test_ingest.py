@@ -1,6 +1,5 @@
 """Ingesting keeps every marker, decides what is static, and says why a recording cannot be used."""
 
-import importlib.util
 import json
 import math
 from dataclasses import replace
@@ -8,13 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.core.recording import BadRecording, Recording, SetAside
-from markermend.formats import files
+from markermend.core.recording import BadRecording, Recording
 from markermend.formats.ingest import ingest, kind_of, motion_mm
 from markermend.formats.reading import Reading
-from markermend.storage import atomic, stage_files
-from support.c3d_files import trajectories, write
-from support.paths import PROJECT
 
 NAMES = ["static", r"(^|[^a-z])cal\d*$"]
 
@@ -40,7 +35,7 @@ def kind(recording, name="walk", stated="auto"):
     return kind_of(recording, name=name, kind=stated, static_names=NAMES, static_motion_mm=15.0)
 
 
-def test_facts_tell_what_was_read():
+def test_facts_state_what_was_read():
     reading = reading_of(moving(), unlabelled=("*1",), model_outputs=("LHipAngles",), missing={"residual": 3})
     recording = ingested(replace(reading, warnings=("Odd.",)))
     assert recording.facts == {
@@ -83,7 +78,7 @@ def test_an_impossible_rate(rate):
         ingested(reading_of(replace(moving(), rate=rate)))
 
 
-def test_the_table_goes_first_in_what_is_static():
+def test_the_table_takes_precedence_in_what_is_static():
     assert kind(moving(amplitude=1), stated="dynamic") == ("dynamic", "The recordings table says so.")
     assert kind(moving(), "static01", "dynamic")[0] == "dynamic"
     assert kind(moving(), stated="static")[0] == "static"
@@ -113,92 +108,3 @@ def test_motion_is_that_of_the_ninth_marker_in_ten_without_outliers():
     recording.positions[:, 5] = np.nan
     expected = 10 * np.sin(np.pi / 2 * 0.9)
     assert motion_mm(recording) == pytest.approx(expected, rel=0.03)
-
-
-def run_script(arguments):
-    """Run scripts/ingest.py in this process."""
-    path = PROJECT / "scripts/ingest.py"
-    spec = importlib.util.spec_from_file_location("ingest_script", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    module.main([str(argument) for argument in arguments])
-
-
-def flags(source, target, **more):
-    options = {"recording": "walk", "subject": "Anna", "kind": "auto", "rate": "none", "static-motion-mm": 15, **more}
-    lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]
-    named = [f"--{name}={value}" for name, value in options.items()]
-    return ["--source", source, "--markers", target, *named, *lists]
-
-
-def test_the_script_writes_markers_and_facts(tmp_path):
-    positions = trajectories(50, 4)
-    positions[3, 2] = np.nan
-    source = write(tmp_path / "walk.c3d", positions, labels=["A", "*1", "B", "C"], first_frame=705)
-    target = tmp_path / "results" / "01_markers.parquet"
-    run_script(flags(source, target))
-    recording = stage_files.read_recording(target)
-    assert recording.markers == ("A", "B", "C")
-    np.testing.assert_array_equal(recording.positions, positions[:, [0, 2, 3]])
-    assert (recording.rate, recording.first_frame) == (100.0, 705)
-    facts = recording.facts
-    assert facts["source"] == {
-        "name": "walk.c3d",
-        "sha256": atomic.sha256(source),
-        "format": "c3d",
-        "unit": "mm",
-        "columns": [0, 2, 3],
-    }
-    assert facts["missing"]["residual"] == 1 and facts["unlabelled"] == ["*1"] and facts["stage"] == "ingest"
-    first = target.read_bytes()
-    run_script(flags(source, target))
-    assert target.read_bytes() == first
-    run_script(flags(source, target, rate=250))
-    assert stage_files.read_recording(target).rate == 250
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "reason"), [("walk.c3d", b"", "empty"), ("walk.mat", b"x", r"\.mat.*\.c3d, \.trc")]
-)
-def test_the_script_sets_a_bad_recording_aside(tmp_path, name, content, reason):
-    source, target = tmp_path / name, tmp_path / "results" / "01_markers.parquet"
-    source.write_bytes(content)
-    run_script(flags(source, target))
-    with pytest.raises(SetAside, match=reason):
-        stage_files.read_recording(target)
-
-
-def test_a_file_is_dispatched_by_its_ending(tmp_path):
-    source = write(tmp_path / "WALK.C3D")
-    assert files.read(source, unlabelled=[], rate=None).recording.rate == 100
-    assert files.read(source, unlabelled=[], rate=50.0).recording.rate == 50
-    with pytest.raises(BadRecording, match="impossible"):
-        files.read(source, unlabelled=[], rate=0.0)
-    with pytest.raises(BadRecording, match="is not there"):
-        files.read(tmp_path / "run.c3d", unlabelled=[], rate=None)
-    positions = files.read(source, unlabelled=[], rate=None).recording.positions
-    changed = np.zeros(positions.shape[:2], bool)
-    changed[3, 1] = True
-    result = files.write_back(
-        source, tmp_path / "out.c3d", format="c3d", positions=positions + 1, changed=changed, columns=range(4)
-    )
-    assert result.samples == 1
-    after = files.read(tmp_path / "out.c3d", unlabelled=[], rate=None).recording.positions
-    np.testing.assert_allclose(after - positions, changed[..., None] * np.ones(3), atol=1e-4)
-
-
-@pytest.mark.data
-@pytest.mark.parametrize("name", ["16bitanalog", "parameterOverflow"])
-def test_files_whose_points_are_all_zero_have_no_3d_data(data, name):
-    reading = files.read(data / f"odd/{name}.c3d", unlabelled=[], rate=None)
-    with pytest.raises(BadRecording, match=rf"{name}\.c3d has no 3-D data"):
-        ingested(reading, source=f"{name}.c3d")
-
-
-@pytest.mark.data
-def test_a_marker_never_seen_in_a_real_recording(data):
-    reading = files.read(data / "raw/nick_freeform_001.c3d", unlabelled=[], rate=None)
-    recording = ingested(reading, recording="nick_freeform_001")
-    assert recording.facts["warnings"] == ["Never seen: Nick01:CLAV."]
-    assert recording.missing.mean() == pytest.approx(0.066, abs=0.001)
-    assert recording.facts["kind"] == "dynamic"

