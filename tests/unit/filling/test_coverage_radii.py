@@ -2,12 +2,45 @@
 
 import numpy as np
 import pytest
+from scipy.stats import lognorm, norm
 
 from markermend.filling.coverage_radii import coverage_radii
 from markermend.options.filling import RadiusOptions
 from support.fillings import fill, neighbours, restored
 
+
+def naive_radius(standardized_errors, options, probability):
+    """The smallest distance of a fine grid at which the mixture reaches a probability, summed part by part."""
+    parts = [[value for value in values if value == value] for values in standardized_errors]
+    parts = [part for part in parts if part]
+    grid = np.exp(np.arange(np.log(0.1), np.log(20), 2e-4))
+    for distance, prior in zip(grid.tolist(), lognorm_through(options).cdf(grid).tolist(), strict=True):
+        reached = options.trials * prior
+        for part in parts:
+            reached += sum(value <= distance for value in part) / len(part)
+        if reached >= probability * (options.trials + len(parts)):
+            return distance
+    raise AssertionError("no such distance")
+
+
+def lognorm_through(options):
+    """The log-normal distribution with the given 68 and 95 % quantiles."""
+    low, high = norm.ppf([0.68, 0.95])
+    sigma = np.log(options.outer / options.inner) / (high - low)
+    return lognorm(sigma, scale=np.exp(np.log(options.inner) - low * sigma))
+
+
 PRIOR = RadiusOptions(inner=1.4, outer=3.0, trials=10)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_radii_equal_the_naive_quantiles_of_the_mixture(seed):
+    rng = np.random.default_rng(seed)
+    errors = [rng.lognormal(rng.normal(0, 0.5), 0.5, rng.integers(1, 6)) for _ in range(4)]
+    errors[0][0] = np.nan
+    options = RadiusOptions(inner=1.4, outer=3.0, trials=2 + seed)
+    expected = [naive_radius(errors, options, probability) for probability in (0.68, 0.95)]
+    assert coverage_radii(errors, options) == pytest.approx(expected, rel=3e-4)
 
 
 def test_without_pseudo_gaps_the_belief_stands():

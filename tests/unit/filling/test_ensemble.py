@@ -1,11 +1,173 @@
-"""The ensemble: who gets the weight, what is stated, and when a fallback is asked."""
+"""The ensemble: against a naive twin, and how members, weights and fallbacks behave on a moving body."""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
+from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.ensemble import Ensemble
 from markermend.filling.gap import Gap
-from support.fillings import ensemble, predictor, rigid_body, scene
+from markermend.filling.member_weights import expected_errors, inverse_power_weights, squared_errors, typical_errors
+from markermend.filling.pseudo_gaps import pseudo_gaps
+from markermend.prediction.scene import Prediction
+from support.fillings import CONFIG, ensemble, ensemble_options, predictor, rigid_body, scene
+
+
+@dataclass
+class Noisy:
+    """Predicts the truth with errors of its own, states some of them, and misses some frames."""
+
+    name: str
+    truth: np.ndarray
+    size: float
+    states: bool = True
+    misses: float = 0.0
+    continuous: bool = True
+
+    def predict(self, scene, marker, start, stop):
+        rng = np.random.default_rng([start, stop, len(self.name), round(100 * self.size)])
+        n = stop - start + 2
+        positions = self.truth[start - 1 : stop + 1, marker] + rng.normal(0, self.size, (n, 3))
+        positions[rng.random(n) < self.misses] = np.nan
+        error = self.size * rng.uniform(0.5, 1.5, n) if self.states else np.full(n, np.nan)
+        return Prediction(positions, error)
+
+
+def naive_average(positions, errors, typical, weights, least):
+    """Weighted mean and its standard deviation, one frame and one member at a time."""
+    members, frames, _ = positions.shape
+    complete = [k for k in range(members) if not np.isnan(positions[k]).any()]
+    mean, deviation, used = np.full((frames, 3), np.nan), np.full(frames, np.nan), np.zeros((members, frames))
+    for n in range(frames):
+        there = complete or [k for k in range(members) if not np.isnan(positions[k, n]).any()]
+        total = sum(weights[k] for k in there)
+        for k in there:
+            used[k, n] = weights[k] / total if total > 0 else 1 / len(there)
+    completed = expected_errors(errors, typical, used)
+    for n in range(frames):
+        there = [k for k in range(members) if used[k, n] > 0]
+        if there:
+            mean[n] = sum(used[k, n] * positions[k, n] for k in there)
+            variance = 0.0
+            for k in there:
+                own = max(completed[k, n], least)
+                apart = sum((positions[k, n, axis] - mean[n, axis]) ** 2 for axis in range(3)) / 3
+                variance += used[k, n] * (own**2 + apart)
+            deviation[n] = np.sqrt(variance)
+    return mean, deviation, used.mean(axis=1)
+
+
+def naive_evaluation(own, seen, gap):
+    """Weights, scale and standardized errors, each pseudo-gap left out in turn, in loops."""
+    options = own.options
+    trials = pseudo_gaps(
+        seen,
+        gap,
+        count=options.pseudo_gaps,
+        hidden_share=options.hidden_share,
+        neighbours=options.similar_neighbours,
+    )
+    predicted = [
+        [member.predict(trial.scene, gap.marker, trial.gap.start, trial.gap.stop) for member in own.members]
+        for trial in trials
+    ]
+    positions = [np.stack([each.positions[1:-1] for each in one]) for one in predicted]
+    errors = [np.stack([each.error[1:-1] for each in one]) for one in predicted]
+
+    def weigh(chosen):
+        squares = squared_errors([trials[k].truth for k in chosen], [positions[k] for k in chosen], len(own.members))
+        typical = typical_errors(squares)
+        return typical, inverse_power_weights(
+            typical, power=options.power, max_ratio=options.worst, min_error_mm=options.error_mm
+        )
+
+    missed, squares = [], []
+    for k, trial in enumerate(trials):
+        others = [other for other in range(len(trials)) if other != k]
+        mean, deviation, _ = naive_average(positions[k], errors[k], *weigh(others), options.error_mm)
+        missed.append([np.linalg.norm(mean[n] - trial.truth[n]) / deviation[n] for n in range(len(mean))])
+        squares.append(np.mean([value**2 for value in missed[k]]) / 3)
+
+    def scale(chosen):
+        return np.sqrt((options.prior + sum(squares[k] for k in chosen)) / (options.prior + len(chosen)))
+
+    every = range(len(trials))
+    scaled = [np.array(missed[k]) / scale([other for other in every if other != k]) for k in every]
+    return *weigh(every), scale(every), scaled
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
+    truth = rigid_body(seed=seed)
+    members = [
+        Noisy("a", truth, 0.5),
+        Noisy("bb", truth, 0.4, states=False),
+        Noisy("ccc", truth, 0.45),
+        Noisy("dddd", truth, 9.0),
+        Noisy("eeeee", truth, 0.3, misses=0.3),
+    ]
+    own = Ensemble(members, members, ensemble_options(fallback=[], longest_s={}))
+    gap = Gap(2, 120 + seed, 150)
+    positions = truth.copy()
+    positions[gap.samples] = np.nan
+    seen = scene(positions)
+    found = own.evaluate(seen, gap)
+    typical, weights, scale, standardized = naive_evaluation(own, seen, gap)
+    assert found.typical_errors == pytest.approx(typical) and found.weights == pytest.approx(weights)
+    assert found.deviation_scale == pytest.approx(scale)
+    assert weights[3] == 0 and 0 < weights[2] < 1
+    for one, other in zip(found.standardized_errors, standardized, strict=True):
+        assert one == pytest.approx(other)
+
+    filled = own.fill(seen, gap, found)
+    predicted = [member.predict(seen, 2, gap.start, gap.stop) for member in members]
+    mean, deviation, shares = naive_average(
+        np.stack([each.positions[1:-1] for each in predicted]),
+        np.stack([each.error[1:-1] for each in predicted]),
+        typical,
+        weights,
+        own.options.error_mm,
+    )
+    assert np.allclose(filled.positions, mean)
+    assert filled.deviation == pytest.approx(scale * deviation)
+    assert filled.weights == pytest.approx(
+        {m.name: share for m, share in zip(members, shares, strict=True) if share > 0}
+    )
+
+
+def test_the_deviation_inherits_that_of_filled_neighbours():
+    truth = rigid_body()
+    own = Ensemble([Noisy("a", truth, 0.5)], [Noisy("a", truth, 0.5)], ensemble_options(longest_s={}))
+    gap, rng = Gap(2, 120, 150), np.random.default_rng(1)
+    seen = scene(truth)
+    inherited = np.where(rng.random(truth.shape[:2]) < 0.3, rng.uniform(0, 5, truth.shape[:2]), 0.0)
+    weights = own.evaluate(seen, gap)
+    plain = own.fill(seen, gap, weights)
+    found = own.fill(replace(seen, inherited_std=inherited), gap, weights)
+    nearest = seen.neighbours[2][: CONFIG["fill"]["ensemble"]["distances"]["references"]]
+    for n in range(30):
+        common = sum(inherited[120 + n, other] for other in nearest) / len(nearest)
+        assert found.deviation[n] == pytest.approx(np.sqrt(plain.deviation[n] ** 2 + common**2))
+
+
+@pytest.mark.parametrize(
+    ("weights", "rounds", "used"), [("error", 0, False), ("equal", 0, False), ("error", 1, True), ("both", 0, True)]
+)
+def test_distances_are_modelled_only_where_they_are_used(weights, rounds, used, monkeypatch):
+    asked = []
+    estimate = DistanceModel.estimate
+
+    def watched(*args):
+        asked.append(args)
+        return estimate(*args)
+
+    monkeypatch.setattr(DistanceModel, "estimate", watched)
+    distances = {**CONFIG["fill"]["ensemble"]["distances"], "spacing_rounds": rounds}
+    own = ensemble(["local_ridge", "spline"], weights=weights, distances=distances)
+    seen, gap = scene(rigid_body()), Gap(2, 120, 150)
+    own.fill(seen, gap, own.evaluate(seen, gap))
+    assert bool(asked) == used
 
 
 def test_the_better_member_gets_the_weight(walker):
@@ -31,18 +193,18 @@ def test_every_kind_of_weights_fills_well(walker, weights):
     assert sum(found.weights.values()) == pytest.approx(1)
 
 
-def test_what_pseudo_gaps_miss_is_judged_without_themselves(walker):
+def test_the_error_on_a_pseudo_gap_is_judged_without_itself(walker):
     seen, own = scene(walker.recording.positions), ensemble(["local_ridge", "spline"], prior=2)
     weights = own.evaluate(seen, Gap(9, 500, 520))
     assert len(weights.standardized_errors) == own.options.pseudo_gaps
     assert all(len(part) == 20 for part in weights.standardized_errors)
-    # One pseudo-gap tells nothing about itself: it is judged by what is believed before.
+    # A single pseudo-gap is judged by the prior alone.
     alone = ensemble(["local_ridge"], prior=2, pseudo_gaps=1).evaluate(seen, Gap(9, 500, 520))
     (square,) = [(part**2).mean() / 3 for part in alone.standardized_errors]
     assert alone.deviation_scale == pytest.approx(np.sqrt((2 + square) / 3))
 
 
-def test_a_fallback_is_asked_only_where_no_other_can_tell(walker):
+def test_a_fallback_predicts_only_where_no_other_can(walker):
     positions = walker.recording.positions[:800].copy()
     near = [int(other) for other in scene(positions).neighbours[7]]
     names = ["local_ridge", "linear_regression"]
@@ -58,7 +220,7 @@ def test_a_fallback_is_asked_only_where_no_other_can_tell(walker):
     assert np.isfinite(found.deviation).all()
 
 
-def test_gaps_of_many_sorts_are_judged_as_those_most_alike(walker):
+def test_gaps_of_many_kinds_share_the_most_similar_kind(walker):
     positions = walker.recording.positions[:400].copy()
     near = [int(other) for other in scene(positions).neighbours[7]]
     places = [(40 + 30 * k, near[: k + 1]) for k in range(6)]

@@ -1,4 +1,4 @@
-"""Trust in members: weights, scales and expected errors from small numbers that can be checked by hand."""
+"""Weights of members, scales and expected errors: against naive twins, and from numbers that can be checked by hand."""
 
 import numpy as np
 import pytest
@@ -12,6 +12,84 @@ from markermend.filling.member_weights import (
 )
 
 NAN = np.nan
+
+
+def naive_typical_error(truths, predictions, member):
+    """Root mean square distance of one member to the truth, sample by sample; NaN where it predicted none."""
+    squares = []
+    for truth, predicted in zip(truths, predictions, strict=True):
+        for n in range(len(truth)):
+            if not np.isnan(predicted[member, n]).any():
+                squares.append(sum((predicted[member, n, axis] - truth[n, axis]) ** 2 for axis in range(3)))
+    return np.sqrt(sum(squares) / len(squares)) if squares else np.nan
+
+
+def naive_weights(typical, power, max_ratio, least):
+    """Weights of members, one by one."""
+    known = [max(error, least) for error in typical if error == error]
+    weights = []
+    for error in typical:
+        if not known:
+            weights.append(1.0)
+        elif error != error or max(error, least) > max_ratio * min(known):
+            weights.append(0.0)
+        else:
+            weights.append((min(known) / max(error, least)) ** power)
+    return weights
+
+
+def naive_expected_error(stated, typical, weights, member, n):
+    """The error of one member in one frame."""
+    if not np.isnan(stated[member, n]):
+        return stated[member, n]
+    usual = typical / np.sqrt(3)
+    both = [
+        k for k in range(len(stated)) if not np.isnan(stated[k, n]) and not np.isnan(usual[k]) and weights[k, n] > 0
+    ]
+    total = sum(weights[k, n] for k in both)
+    ratio = 1.0
+    if both:
+        ratio = sum(weights[k, n] * stated[k, n] for k in both) / sum(weights[k, n] * usual[k] for k in both)
+        assert total > 0
+    if not np.isnan(usual[member]):
+        return usual[member] * ratio
+    others = [
+        naive_expected_error(stated, typical, weights, k, n)
+        for k in range(len(stated))
+        if typical[k] == typical[k] or stated[k, n] == stated[k, n]
+    ]
+    return max(others, default=np.nan)
+
+
+@pytest.fixture(params=range(4))
+def rng(request):
+    return np.random.default_rng(request.param)
+
+
+def test_weights_equal_the_naive_twin(rng):
+    truths = [rng.normal(0, 1, (n, 3)) for n in (3, 5, 1)]
+    scale = rng.uniform(0.1, 3, (5, 1, 1))
+    predictions = [truth + scale * rng.normal(0, 1, (5, len(truth), 3)) for truth in truths]
+    for predicted in predictions:
+        predicted[rng.random(predicted.shape[:2]) < 0.3] = np.nan
+        predicted[4] = np.nan
+    found = typical_errors(squared_errors(truths, predictions, 5))
+    expected = [naive_typical_error(truths, predictions, member) for member in range(5)]
+    assert found == pytest.approx(expected, nan_ok=True)
+    weights = inverse_power_weights(found, power=2.5, max_ratio=2.0, min_error_mm=0.4)
+    assert weights == pytest.approx(naive_weights(expected, 2.5, 2.0, 0.4))
+
+
+def test_expected_errors_equal_the_naive_twin(rng):
+    stated, typical, weights = rng.uniform(0.5, 3, (5, 8)), rng.uniform(0.5, 3, 5), rng.random((5, 8))
+    stated[rng.random(stated.shape) < 0.4] = np.nan
+    stated[:, 3] = np.nan
+    typical[[0, 3]] = np.nan
+    found = expected_errors(stated, typical, weights)
+    for member in range(5):
+        for n in range(8):
+            expected = naive_expected_error(stated, typical, weights, member, n)
+            assert found[member, n] == pytest.approx(expected, nan_ok=True)
 
 
 def test_errors_are_summed_over_what_each_member_told():

@@ -1,12 +1,85 @@
 """Pseudo-gaps: where they lie, what is hidden in them, and what they share."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
+import pytest
 
 from markermend.filling.gap import Gap
-from markermend.filling.pseudo_gaps import pseudo_gaps
-from support.fillings import scene
+from markermend.filling.pseudo_gaps import pseudo_gaps, scene_count, trial_length
+from support.fillings import rigid_body, scene
+
+
+def naive_starts(seen, gap, length, count, neighbours):
+    """First frames of the pseudo-gaps of a gap, tried one by one, one in each of `count` equal parts."""
+    present, frames = seen.present, len(seen.positions)
+    starts = [
+        first
+        for first in range(1, frames - length)
+        if all(present[frame, gap.marker] for frame in range(first - 1, first + length + 1))
+    ]
+    near = [int(other) for other in seen.neighbours[gap.marker][:neighbours]]
+    there = [other for other in near if all(present[frame, other] for frame in range(gap.start, gap.stop))]
+    equal = [
+        first
+        for first in starts
+        if all(present[frame, other] for other in there for frame in range(first, first + length))
+    ]
+    starts = equal if len(equal) >= count else starts
+    drawn = np.random.default_rng([gap.marker, gap.start, gap.stop]).random(count)
+    return sorted({starts[int((part + drawn[part]) / count * len(starts))] for part in range(count)})
+
+
+def naive_stride(starts, distance, most):
+    """The least number of scenes, tried one after the other: in each every pair is far enough apart, and not too many."""
+    for scenes in range(1, len(starts) + 1):
+        groups = [starts[first::scenes] for first in range(scenes)]
+        apart = all(b - a >= distance for group in groups for a, b in pairwise(group))
+        if scenes == len(starts) or (apart and max(map(len, groups)) <= most):
+            return scenes
+    return 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_pseudo_gaps_equal_the_naive_twin(seed):
+    rng = np.random.default_rng(seed)
+    positions = rigid_body(frames=260, markers=6, seed=seed)
+    for marker in range(6):
+        for start in rng.integers(0, 250, 2):
+            positions[start : start + rng.integers(1, 12), marker] = np.nan
+    start = int(rng.integers(0, 200)) * (seed > 0)
+    gap = Gap(2, start, start + int(rng.integers(5, 25)))
+    positions[gap.samples] = np.nan
+    seen, count, share = scene(positions), 5, 0.5
+    found = pseudo_gaps(seen, gap, count=count, hidden_share=share, neighbours=3)
+    length = trial_length(seen.present[:, 2], gap.length)
+    starts = naive_starts(seen, gap, length, count, 3)
+    assert [trial.gap for trial in found] == [Gap(2, first, first + length) for first in starts]
+    beyond = max(length, 100) if gap.start == 0 else 0
+    most = int(share * seen.present[:, 2].sum() / (length + beyond))
+    scenes = naive_stride(starts, 2 * (length + beyond), most)
+    for k, trial in enumerate(found):
+        together = starts[k % scenes :: scenes]
+        expected = positions.copy()
+        for first in together:
+            for n in range(length):
+                row = int(np.linspace(gap.start, gap.stop - 1, length)[n])
+                for marker in range(6):
+                    if np.isnan(positions[row, marker, 0]):
+                        expected[first + n, marker] = np.nan
+            expected[max(first - beyond, 0) : first + length, 2] = np.nan
+        assert np.array_equal(trial.scene.positions, expected, equal_nan=True)
+        assert np.array_equal(trial.truth, positions[trial.gap.samples])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_number_of_scenes_equals_the_naive_twin(seed):
+    rng = np.random.default_rng(seed)
+    starts = np.unique(rng.integers(0, 300, 9))
+    for distance in (1, 10, 60, 1000):
+        for most in (0, 1, 2, 4, 9):
+            assert scene_count(starts, distance=distance, most=most) == naive_stride(starts.tolist(), distance, most)
 
 
 def test_pseudo_gaps_miss_what_the_gap_misses(walker):
