@@ -68,8 +68,8 @@ def _with_constant(inputs: np.ndarray) -> np.ndarray:
 
 
 def _inverse(gram: np.ndarray, total: float, ridge: float) -> np.ndarray:
-    penalty = np.full(len(gram), ridge)
-    penalty[0] = 1e-9
+    penalty = np.full(len(gram), float(ridge))
+    penalty[0] = 0.0  # the intercept
     return np.linalg.inv(gram / total + np.diag(penalty))
 
 

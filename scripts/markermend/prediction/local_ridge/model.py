@@ -61,8 +61,8 @@ def ridge_regression(design: np.ndarray, target: np.ndarray, weights: np.ndarray
 
 def _solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, ridge: float) -> np.ndarray:
     """Coefficients from weighted sums (..., columns, columns) and (..., columns, targets) of total weight (...)."""
-    penalty = np.full(gram.shape[-1], ridge)
-    penalty[0] = 1e-9
+    penalty = np.full(gram.shape[-1], float(ridge))
+    penalty[0] = 0.0  # the intercept
     return np.linalg.solve(gram + np.eye(len(penalty)) * penalty * np.asarray(total)[..., None, None], cross)
 
 
