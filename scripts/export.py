@@ -1,24 +1,29 @@
 """Write the cleaned recording in its own format, the list of changes, and a certificate.
 
-Reads: the original file, 01_markers.parquet, 07_filled.parquet.
+Reads: the original file, 01_markers.parquet, 07_filled.parquet, 07_changes.parquet.
 Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV also cleaned.trc),
-changes.tsv, certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
+changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
 """
 
 import numpy as np
 
 from markermend.command.stage import Stage
+from markermend.core.applied_changes import applied_changes
+from markermend.core.originals import find_originals
 from markermend.core.recording import Recording, Restored
-from markermend.export import change_table, write_back
+from markermend.export import write_back
+from markermend.export.change_table import change_table
 from markermend.formats.text import trc
-from markermend.storage import atomic, stage_files
+from markermend.storage import atomic, change_file, originals_file, stage_files
 
 STAGE = Stage("export", __doc__)
 STAGE.reads("source", "the original file")
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("filled", "trajectories after repair and filling")
+STAGE.reads("record", "what repair and filling did to each stretch")
 STAGE.writes("cleaned", "the cleaned recording, in the format of the original")
 STAGE.writes("changes", "table of changes, in the capture program's frame numbers")
+STAGE.writes("originals", "the original value of every changed sample")
 STAGE.writes("certificate", "what changed and that nothing else did, as JSON")
 STAGE.writes("trc", "the cleaned recording as TRC besides", many=True)
 
@@ -27,19 +32,22 @@ def work(call):
     measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
     certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
-    rows = change_table.list_changes(measured, restored)
-    atomic.write_text(call.changes, change_table.changes_table(rows))
+    changes = applied_changes(measured, restored, change_file.read(call.record))
+    atomic.write_text(call.changes, change_table(changes, restored))
+    originals_file.write(call.originals, find_originals(measured, restored, changes), call.facts)
     for path in call.trc:
         trc.write_new(path, recording=restored)
     atomic.write_json(call.certificate, certificate)
-    return f"{certificate['changed_samples']} samples changed in {len(rows)} places, every other byte equal"
+    return f"{certificate['changed_samples']} samples changed in {len(changes)} places, every other byte equal"
 
 
 def set_aside(call, note):
     certificate = write_back.pass_through(call.source, call.cleaned, note.stage, note.reason)
-    atomic.write_text(call.changes, change_table.changes_table([]))
+    nothing = Recording((), np.empty((0, 0, 3)), 1.0)
+    atomic.write_text(call.changes, change_table([], nothing))
+    stage_files.set_aside(call.originals, note.stage, note.reason)
     for path in call.trc:
-        trc.write_new(path, recording=Recording((), np.empty((0, 0, 3)), 1.0))
+        trc.write_new(path, recording=nothing)
     atomic.write_json(call.certificate, certificate)
 
 

@@ -1,7 +1,7 @@
 """Fill the gaps that may be filled, with several predictors that are weighted by how good each is; say why the rest stays.
 
-Reads: 06_repaired.parquet, mesh.json.
-Writes: 07_filled.parquet.
+Reads: 06_repaired.parquet, 06_changes.parquet, mesh.json.
+Writes: 07_filled.parquet, 07_changes.parquet.
 """
 
 from markermend.command.stage import Stage, boolean, mapping, objects, optional
@@ -9,12 +9,14 @@ from markermend.core import decisions
 from markermend.filling.fill import fill_gaps
 from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.prediction.registry import FAMILIES
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import change_file, mesh_file, stage_files
 
 STAGE = Stage("fill", __doc__)
 STAGE.reads("repaired", "trajectories after repair")
+STAGE.reads("repairs", "what repair did")
 STAGE.reads("mesh", "functional body mesh of the subject")
 STAGE.writes("filled", "trajectories after filling")
+STAGE.writes("changes", "what repair and filling did to each stretch, or why nothing was done")
 STAGE.option("max_gap_s", optional(float), "longest gap filled, s; a longer one stays whole")
 STAGE.option("max_gap_s_of", mapping, "longest gap of single markers, s, by name pattern with * and ?")
 STAGE.option("ends", boolean, "whether gaps at the recording's start and end are filled")
@@ -45,9 +47,13 @@ def work(call):
         options=FillOptions(**{**own, "ensemble": EnsembleOptions(**own["ensemble"])}),
         predictors=predictors,
         decisions=decided,
-    ).recording
-    stage_files.write_recording(call.filled, filled, call.facts)
-    return f"{len(filled.facts['fills'])} gaps filled, {len(filled.facts['gaps_left'])} left"
+        repairs=change_file.read(call.repairs),
+    )
+    stage_files.write_recording(call.filled, filled.recording, call.facts)
+    change_file.write(call.changes, filled.changes, call.facts)
+    gaps = [change for change in filled.changes if change.is_gap]
+    left = sum(change.outcome == "left" for change in gaps)
+    return f"{len(gaps) - left} gaps filled, {left} left"
 
 
 def main(argv=None):

@@ -1,6 +1,7 @@
 """Judge one recording: what was missing, found, changed and left open, in numbers and as a page with plots.
 
-Reads: 01_markers.parquet, mesh.json, the events, 06_repaired.parquet, 07_filled.parquet, changes.tsv, certificate.json.
+Reads: 01_markers.parquet, mesh.json, the events, 06_repaired.parquet, 07_filled.parquet, 07_changes.parquet,
+certificate.json.
 Writes: 08_qc.json, page.html.
 """
 
@@ -14,7 +15,7 @@ STAGE.reads("mesh", "meshes of the subject")
 STAGE.reads("events", "findings of the detectors, in their order", many=True, optional=True)
 STAGE.reads("repaired", "trajectories after repair")
 STAGE.reads("filled", "trajectories after filling")
-STAGE.reads("changes", "table of changes")
+STAGE.reads("changes", "what repair and filling did to each stretch")
 STAGE.reads("certificate", "what changed, and that nothing else did")
 STAGE.writes("qc", "the recording in numbers, as JSON")
 STAGE.writes("page", "the recording for a person, as HTML")

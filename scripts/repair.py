@@ -1,7 +1,7 @@
 """Repair what the detectors found, each class in its way, from the original samples.
 
 Reads: 01_markers.parquet, mesh.json, the events files, in the order of the detectors.
-Writes: 06_repaired.parquet.
+Writes: 06_repaired.parquet, 06_changes.parquet.
 """
 
 from markermend.command.stage import Stage, mapping, objects
@@ -10,13 +10,14 @@ from markermend.options.repair import RepairOptions
 from markermend.prediction.registry import FAMILIES, REGISTRY, SHARED, members
 from markermend.repair.methods import METHODS
 from markermend.repair.repair import repair
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import change_file, mesh_file, stage_files
 
 STAGE = Stage("repair", __doc__)
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("mesh", "functional body mesh of the subject")
 STAGE.reads("events", "findings, one file per detector", many=True, optional=True)
 STAGE.writes("repaired", "trajectories after repair")
+STAGE.writes("changes", "what was done to each finding, or why nothing was")
 STAGE.option("methods", mapping, "for each detector the methods to compare, preferred first: predictors, offset, ...")
 STAGE.option("prefer", float, "the preferred of two methods whose expected errors differ by less than this factor")
 STAGE.option("protect", str, "markers never touched, as name patterns with * and ?", many=True)
@@ -45,7 +46,7 @@ def work(call):
     named = {name for methods in own["methods"].values() for name in methods}
     named |= {entry["value"] for entry in decided if entry["decision"] == "method"}
     names = named & set(REGISTRY) & set(METHODS) | {"local_ridge"}
-    result = repair(
+    repaired = repair(
         recording,
         found=found,
         neighbours=body.neighbour_indices(recording.markers),
@@ -54,8 +55,10 @@ def work(call):
         options=RepairOptions(**own),
         decisions=decisions.read(decided, recording.first_frame),
     )
-    stage_files.write_recording(call.repaired, result, call.facts)
-    return f"{len(result.facts['repairs'])} repairs, {len(result.facts['repairs_left'])} findings not repaired"
+    stage_files.write_recording(call.repaired, repaired.recording, call.facts)
+    change_file.write(call.changes, repaired.changes, call.facts)
+    left = sum(change.reason is not None for change in repaired.changes)
+    return f"{len(repaired.changes) - left} repairs, {left} findings not repaired"
 
 
 def main(argv=None):

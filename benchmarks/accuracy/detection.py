@@ -112,8 +112,8 @@ def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[n
     near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
     given = {"neighbours": near, "relatives": relatives, "predictors": predictors, "options": options}
     result = repair(recording, found=found, **given)
-    refused = bool(result.facts["repairs_left"]) and not result.facts["repairs"]
-    return result.positions, refused
+    refused = bool(result.changes) and all(change.reason for change in result.changes)
+    return result.recording.positions, refused
 
 
 def class_of(kind: str) -> int:

@@ -255,13 +255,14 @@ def row(case):
         100 * np.mean(distance <= radius[filled]) if filled.any() else np.nan
         for radius in (run.filled.error, run.filled.error95)
     )
-    fills, left = run.filled.facts["fills"], run.filled.facts["gaps_left"]
-    reasons = Counter(re.sub(r"\d+(\.\d+)?", "#", entry["reason"]) for entry in left)
+    left = [change.reason for change in run.changes if change.reason]
+    fills = len(run.changes) - len(left)
+    reasons = Counter(re.sub(r"\d+(\.\d+)?", "#", reason.text) for reason in left)
     why = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common())
     error = distance.mean() if filled.any() else np.nan
-    total = len(fills) + len(left)
+    total = len(run.changes)
     return (
-        f"{case.title:34} {total:5} {len(fills):6} {len(left):5} {error:8.2f} {inside:6.0f} {inside95:8.0f} "
+        f"{case.title:34} {total:5} {fills:6} {len(left):5} {error:8.2f} {inside:6.0f} {inside95:8.0f} "
         f"{run.seconds:7.1f} {run.megabytes:6.0f}  {why}"
     )
 

@@ -13,6 +13,7 @@ import argparse
 import numpy as np
 
 from benchmarks.support.fill_runs import fill, walker, with_gaps
+from markermend.core.changes import Outcome
 
 BASE = {"frames": 4_000, "markers": 41, "gaps": 10}
 VARIED = {"frames": (1_000, 4_000, 16_000, 64_000), "markers": (20, 41, 80, 160), "gaps": (3, 10, 30, 100)}
@@ -27,7 +28,7 @@ def run(frames, markers, gaps):
         (int(marker), start, start + RATE) for marker, start in zip(rng.integers(0, markers, gaps), starts, strict=True)
     ]
     done = fill(with_gaps(walker(frames, markers, RATE), places))
-    return done, len(done.filled.facts["fills"])
+    return done, sum(change.outcome is Outcome.FILLED for change in done.changes)
 
 
 def main():

@@ -14,6 +14,7 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 
 from benchmarks.support.defaults import CONFIG, MESH, PROJECT
+from markermend.core.changes import Change
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
@@ -21,7 +22,7 @@ from markermend.planning import config
 from markermend.prediction.registry import FAMILIES
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import change_file, mesh_file, stage_files
 
 SHARED = ("protect", *(family for family in FAMILIES if family not in CONFIG["fill"]))
 """Sections of the config that the fill stage reads beside its own."""
@@ -37,7 +38,10 @@ print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)
 A process starts with its parent's peak, so it needs a parent that is small.
 """
 
-FILES = {"repaired": "06_repaired.parquet", "mesh": "mesh.json", "filled": "07_filled.parquet"}
+FILES = {
+    "repaired": "06_repaired.parquet", "repairs": "06_changes.parquet", "mesh": "mesh.json",
+    "filled": "07_filled.parquet", "changes": "07_changes.parquet",
+}  # fmt: skip
 """The stage's files by their flags."""
 
 TAKE_S = 60.0
@@ -46,9 +50,12 @@ TAKE_S = 60.0
 
 @dataclass(frozen=True)
 class Run:
-    """A recording after the fill stage, and what the process took: seconds of a core, start included, and MB at most."""
+    """A recording after the fill stage with what was done to its gaps, and what the process took: seconds of a core, start
+    included, and MB at most.
+    """
 
     filled: Restored
+    changes: tuple[Change, ...]
     seconds: float
     megabytes: float
 
@@ -66,6 +73,7 @@ def fill(recording, **options):
     with tempfile.TemporaryDirectory() as folder:
         files = {name: Path(folder, file) for name, file in FILES.items()}
         stage_files.write_recording(files["repaired"], restored(recording), {})
+        change_file.write(files["repairs"], [], {})
         mesh_file.write(files["mesh"], [mesh_of(recording)], {})
         script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
         command = [sys.executable, "-c", WATCH, *script, *shlex.split(config.flags(section))]
@@ -73,7 +81,7 @@ def fill(recording, **options):
         if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
             raise RuntimeError(done.stderr[-2000:])
         seconds, megabytes = map(float, done.stdout.split())
-        return Run(stage_files.read_recording(files["filled"]), seconds, megabytes)
+        return Run(stage_files.read_recording(files["filled"]), change_file.read(files["changes"]), seconds, megabytes)
 
 
 def restored(recording):

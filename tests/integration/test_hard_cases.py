@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from markermend.core.recording import FILLED, MISSING, Recording, Restored
+from markermend.core.recording import FILLED, MISSING, Recording
 from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.mesh.inference import infer_mesh
@@ -17,6 +17,7 @@ from support import bodies, fillings
 from support.c3d_files import write
 from support.fillings import CONFIG, restored, rigid_body
 from support.paths import PROJECT
+from support.treated import Treated, treated
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -24,7 +25,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 class Outcome(NamedTuple):
     """A recording after filling: error of each filled sample, mm, shares inside error and error95, reasons by marker."""
 
-    result: Restored
+    result: Treated
     distance: np.ndarray
     inside: float
     inside95: float
@@ -38,7 +39,7 @@ def fill(whole, gaps, **options):
         positions[start:stop, marker] = np.nan
     gapped = restored(positions, markers=whole.markers, rate=whole.rate)
     mesh = mesh_of(gapped)
-    result = fillings.fill(gapped, mesh.neighbour_indices(whole.markers), **options).recording
+    result = treated(fillings.fill(gapped, mesh.neighbour_indices(whole.markers), **options))
     missing = gapped.missing
     assert np.array_equal(result.positions[~missing], positions[~missing])
     open_ = result.missing
@@ -46,14 +47,14 @@ def fill(whole, gaps, **options):
     assert (result.origin[missing & ~open_] == FILLED).all() and (result.origin[open_] == MISSING).all()
     for radius in (result.error, result.error95):
         assert (radius[missing & ~open_] > 0).all() and (radius[~missing] == 0).all() and np.isnan(radius[open_]).all()
-    told = result.facts["fills"] + result.facts["gaps_left"]
-    assert sum(entry["stop"] - entry["start"] for entry in told) == missing.sum()
+    told = result.fills + result.gaps_left
+    assert sum(entry.stop - entry.start for entry in told) == missing.sum()
     filled = missing & ~open_
     distance = np.linalg.norm((result.positions - whole.positions)[filled], axis=1)
     shares = [
         float(np.mean(distance <= radius[filled])) if filled.any() else 1.0 for radius in (result.error, result.error95)
     ]
-    reasons = {entry["marker"]: entry["reason"] for entry in result.facts["gaps_left"]}
+    reasons = {entry.marker: entry.reason.text for entry in result.gaps_left}
     return Outcome(result, distance, *shares, reasons)
 
 
@@ -101,14 +102,14 @@ def first(recording, *, frames=None, markers=None):
 
 def filled_well(done, *, gaps, error, inside95=0.8):
     """All gaps are filled, with a mean error below so many mm, and error95 holds the truth for such a share at least."""
-    assert done.left == {} and len(done.result.facts["fills"]) == gaps
+    assert done.left == {} and len(done.result.fills) == gaps
     assert done.distance.mean() < error
     assert done.inside95 >= inside95
 
 
 def left_open(done, reason):
     """Nothing is filled, for one reason."""
-    assert done.result.facts["fills"] == []
+    assert done.result.fills == []
     assert set(done.left.values()) == {reason}
 
 
@@ -146,7 +147,7 @@ def test_all_markers_lost(chain):
     filled_well(fill(few, [(m, 700, 706) for m in range(8)]), gaps=8, error=2)
     left_open(fill(few, [(m, 700, 790) for m in range(8)]), "no method could fill it; fewest neighbours seen: 0")
     done = fill(few, [(m, 700, 720) for m in range(8)], members=["spline", "kalman"])
-    assert len(done.result.facts["fills"]) >= 6 and done.distance.mean() < 30 and done.inside95 >= 0.5
+    assert len(done.result.fills) >= 6 and done.distance.mean() < 30 and done.inside95 >= 0.5
     assert all(reason.startswith("expected error") for reason in done.left.values())
 
 
@@ -158,7 +159,7 @@ def test_a_marker_seen_rarely(chain):
 
 def test_no_marker_complete(chain):
     done = fill(first(chain, markers=12, frames=1000), [(m, 100 + 60 * m, 180 + 60 * m) for m in range(12)])
-    assert len(done.result.facts["fills"]) >= 10
+    assert len(done.result.fills) >= 10
     assert all(reason.startswith("expected error") for reason in done.left.values())
     assert done.distance.mean() < 5 and done.inside95 > 0.9
 
@@ -173,8 +174,8 @@ def test_ends_only_on_request(chain):
 def test_all_markers_enter_and_leave(chain):
     ends = [(m, 0, 100 + m) for m in range(20)] + [(m, 1400 - m, 1500) for m in range(20)]
     done = fill(chain, [*ends, (4, 600, 650), (11, 800, 900)])
-    assert len(done.result.facts["fills"]) == 2 and len(done.result.facts["gaps_left"]) == 40
-    assert {entry["reason"] for entry in done.result.facts["gaps_left"]} == {
+    assert len(done.result.fills) == 2 and len(done.result.gaps_left) == 40
+    assert {entry.reason.text for entry in done.result.gaps_left} == {
         "at the recording's start",
         "at the recording's end",
     }

@@ -8,6 +8,7 @@ from markermend.prediction.interpolation import Interpolation
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.repair.repair import repair
 from support import bodies
+from support.treated import treated
 
 RIDGE = LocalRidgeOptions(
     anchors=3,
@@ -71,13 +72,15 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         },
         "radius": {"inner": 1.8, "outer": 2.8},
     }
-    return repair(
-        recording,
-        found=found,
-        neighbours=neighbours_of(recording) if near is None else near,
-        predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
-        options=RepairOptions(**{**settings, **changes}),
-        decisions=decisions,
+    return treated(
+        repair(
+            recording,
+            found=found,
+            neighbours=neighbours_of(recording) if near is None else near,
+            predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
+            options=RepairOptions(**{**settings, **changes}),
+            decisions=decisions,
+        )
     )
 
 

@@ -10,13 +10,18 @@ from typing import Any
 
 import numpy as np
 
+from markermend.core.applied_changes import applied_changes
+from markermend.core.changes import GAP, Change, Outcome
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh, Segment
-from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
-from markermend.export import change_table
+from markermend.core.originals import find_originals
+from markermend.core.reasons import Cause, Reason
+from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, changed, gaps
+from markermend.export.change_table import change_table
 from markermend.planning.config import flags
-from markermend.storage import atomic, mesh_file, stage_files
+from markermend.storage import atomic, change_file, mesh_file, originals_file, stage_files
 from markermend.storage.folder_names import encode
+from support.treated import Treated
 
 ORIGIN = {"labels": "swap", "peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
 OPTIONS = {
@@ -38,7 +43,7 @@ class Results:
         events = [str(path) for path in sorted(self.folder.glob("0[2-5]_*.parquet"))]
         named = {
             "markers": "01_markers.parquet", "mesh": "../mesh.json", "repaired": "06_repaired.parquet",
-            "filled": "07_filled.parquet", "changes": "changes.tsv", "certificate": "certificate.json",
+            "filled": "07_filled.parquet", "changes": "07_changes.parquet", "certificate": "certificate.json",
             "qc": "08_qc.json", "page": "page.html",
         }  # fmt: skip
         words = [word for flag, name in named.items() for word in (f"--{flag}", str(self.folder / name))]
@@ -60,35 +65,33 @@ def restore(
     *,
     error: float,
     keep: Sequence[str] = (),
-) -> Restored:
+) -> Treated:
     """Repair and fill by the truth less half the error on every axis; gaps and findings of the markers `keep` stay."""
     positions, origin = before.positions.copy(), np.where(before.missing, MISSING, MEASURED).astype(np.uint8)
-    repairs, fills = [], []
-    left: list[dict[str, Any]] = []
-    gaps_left: list[dict[str, Any]] = []
+    changes = []
     for stage, events in found.items():
         for event in events:
-            note = {**vars(event), "class": ORIGIN[stage]}
+            note = Change(event.marker, event.start, event.stop, (ORIGIN[stage],), Outcome.LEFT, event.score)
+            note = replace(note, axes=event.axes, partner=event.partner, samples=event.stop - event.start)
             if event.marker in keep:
-                left.append({**note, "reason": "expected error 31.0 mm", "blanked": False})
+                changes.append(replace(note, reason=Reason(Cause.UNCERTAIN, "expected error 31.0 mm")))
                 continue
             m, span = before.markers.index(event.marker), slice(event.start, event.stop)
             seen = ~before.missing[span, m]
             positions[span, m] = np.where(seen[:, None], truth[span, m] + error / 2, np.nan)
             origin[span, m] = np.where(seen, ORIGINS.index(ORIGIN[stage]), MISSING)
-            repairs.append({**note, "method": "local_ridge"})
+            changes.append(replace(note, outcome=Outcome.REPAIRED, method="local_ridge"))
     for m, start, stop in gaps(before):
-        note = {"marker": before.markers[m], "start": start, "stop": stop}
+        note = Change(before.markers[m], start, stop, (GAP,), Outcome.LEFT, samples=stop - start)
         if before.markers[m] in keep or start == 0 or stop == before.frames:
-            gaps_left.append({**note, "reason": "at an end of the recording"})
+            changes.append(replace(note, reason=Reason(Cause.AT_END, "at an end of the recording")))
             continue
         positions[start:stop, m] = truth[start:stop, m] + error / 2
         origin[start:stop, m] = FILLED
-        fills.append({**note, "method": "ensemble"})
+        changes.append(replace(note, outcome=Outcome.FILLED, method="ensemble"))
     errors = np.where(origin == MEASURED, 0.0, np.where(origin == MISSING, np.nan, error))
-    facts = {**before.facts, "repairs": repairs, "repairs_left": left, "fills": fills, "gaps_left": gaps_left}
-    common = (before.markers, positions, before.rate, before.first_frame, facts)
-    return Restored(*common, origin, errors, 1.6 * errors)
+    common = (before.markers, positions, before.rate, before.first_frame, before.facts)
+    return Treated(*common, origin, errors, 1.6 * errors, tuple(changes))
 
 
 def named(recording: Recording, name: str, subject: str, **facts: Any) -> Recording:
@@ -104,13 +107,13 @@ def named(recording: Recording, name: str, subject: str, **facts: Any) -> Record
 def write(
     results: Path,
     before: Recording,
-    after: Restored,
+    after: Treated,
     found: Mapping[str, Sequence[Event]],
     *,
     decisions: Sequence[Mapping[str, Any]] = (),
     **mesh_parts: Any,
 ) -> Results:
-    """Write everything that qc reads of a recording, with the change log as export writes it."""
+    """Write everything that qc reads of a recording."""
     name, subject = before.facts["recording"], before.facts["subject"]
     folder = results / encode(subject) / encode(name)
     stage_files.write_recording(folder / "01_markers.parquet", before, {"stage": "ingest", "options": {}})
@@ -130,7 +133,10 @@ def write(
     nobody: dict[str, tuple[str, ...]] = dict.fromkeys(order, ())
     body = Mesh((name,), order, segments, nobody, nobody, **mesh_parts)
     mesh_file.write(folder.parent / "mesh.json", [body], {"stage": "mesh", "options": {"cut_mm": 12.0}})
-    atomic.write_text(folder / "changes.tsv", change_table.changes_table(change_table.list_changes(before, after)))
+    change_file.write(folder / "07_changes.parquet", after.changes, {"stage": "fill"})
+    applied = applied_changes(before, after, after.changes)
+    atomic.write_text(folder / "changes.tsv", change_table(applied, after))
+    originals_file.write(folder / "originals.parquet", find_originals(before, after, applied), {"stage": "export"})
     count = int(changed(before, after).sum())
     certificate = {
         "original_sha256": "ab" * 32, "cleaned_sha256": "cd" * 32, "changed_samples": count,

@@ -1,7 +1,8 @@
 """Repair what was found, fill the gaps, write the result back into the recording's own format.
 
 Reads: 01_markers.parquet, mesh.json, the events, a person's decisions, the original file.
-Writes: 06_repaired.parquet, 07_filled.parquet, cleaned.* with changes.tsv and certificate.json.
+Writes: 06_repaired.parquet, 07_filled.parquet, each with a file of changes, cleaned.* with changes.tsv, originals.parquet
+and certificate.json.
 """
 
 
@@ -12,6 +13,7 @@ rule repair:
         events=plan.events(),
     output:
         repaired=files.repaired,
+        changes=files.repairs,
     log:
         f"{files.logs}/repair.log",
     benchmark:
@@ -33,15 +35,18 @@ rule repair:
         "Repair {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/repair.py --markers {input.markers:q} --mesh {input.mesh:q}"
-        " --events {input.events:q} --repaired {output.repaired:q} {params.options} {params.decisions:q} 2> {log:q}"
+        " --events {input.events:q} --repaired {output.repaired:q} --changes {output.changes:q}"
+        " {params.options} {params.decisions:q} 2> {log:q}"
 
 
 rule fill:
     input:
         repaired=files.repaired,
+        repairs=files.repairs,
         mesh=files.mesh,
     output:
         filled=files.filled,
+        changes=files.changes,
     log:
         f"{files.logs}/fill.log",
     benchmark:
@@ -62,8 +67,9 @@ rule fill:
     message:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --mesh {input.mesh:q}"
-        " --filled {output.filled:q} {params.options} {params.decisions:q} 2> {log:q}"
+        "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --repairs {input.repairs:q}"
+        " --mesh {input.mesh:q} --filled {output.filled:q} --changes {output.changes:q}"
+        " {params.options} {params.decisions:q} 2> {log:q}"
 
 
 for suffix in FORMATS:
@@ -75,10 +81,12 @@ for suffix in FORMATS:
             source=plan.source,
             markers=files.markers,
             filled=files.filled,
+            record=files.changes,
         output:
             cleaned=f"{files.recording}/cleaned.{suffix}",
             trc=[f"{files.recording}/cleaned.trc"] if suffix in ("csv", "tsv") else [],
-            changes=files.changes,
+            changes=files.change_table,
+            originals=files.originals,
             certificate=files.certificate,
         log:
             f"{files.logs}/export.log",
@@ -104,5 +112,6 @@ for suffix in FORMATS:
             "Export {wildcards.subject}/{wildcards.recording}"
         shell:
             "{PYTHON:q} {SCRIPTS:q}/export.py --source {params.source:q} --markers {input.markers:q}"
-            " --filled {input.filled:q} --cleaned {output.cleaned:q} --trc {output.trc:q}"
-            " --changes {output.changes:q} --certificate {output.certificate:q} {params.options} 2> {log:q}"
+            " --filled {input.filled:q} --record {input.record:q} --cleaned {output.cleaned:q} --trc {output.trc:q}"
+            " --changes {output.changes:q} --originals {output.originals:q}"
+            " --certificate {output.certificate:q} {params.options} 2> {log:q}"

@@ -8,10 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from markermend.core.reasons import Reason
 
 GAP, DECLARED_MISSING = "gap", "missing"
 """Beside the classes of artifacts: a gap, and samples that a person declared missing."""
+
+
+DECIMALS = 3
+"""Decimals of figures in mm."""
 
 
 class Outcome(StrEnum):
@@ -87,7 +93,7 @@ class Change:
     alternatives
         All methods that could be used, with the error to be expected of each.
     member_weights
-        The predictors that filled a gap, largest weight first.
+        The predictors that filled a gap, the largest weight first.
     samples
         How many samples were changed; for a stretch that was left, its length.
     largest_change_mm
@@ -134,3 +140,19 @@ class Change:
     def concern_mm(self) -> float:
         """How far the change may be from the truth or from what was measured, mm: what changes are ranked by."""
         return max(self.largest_change_mm or 0.0, self.expected_error_mm or 0.0)
+
+
+def largest(values: np.ndarray) -> float | None:
+    """Give the largest of some figures as a change states it.
+
+    Parameters
+    ----------
+    values
+        Figures in mm of any shape; NaN = unknown.
+
+    Returns
+    -------
+    float or None
+        The largest of those that are known, to 0.001; None where none is.
+    """
+    return round(float(np.nanmax(values)), DECIMALS) if np.isfinite(values).any() else None

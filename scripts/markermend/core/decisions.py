@@ -13,13 +13,14 @@ from typing import Any
 
 from markermend.core.artifacts import BY_STAGE, STAGE_OF
 from markermend.core.events import Event
+from markermend.core.reasons import Cause, Reason
 
 VERBS = ("accept", "reject", "protect", "class", "method", "missing")
 """What a person can decide: that a finding is one, that it is none, that samples stay as they are, that a stretch is an
 artifact of a class, how to mend or fill, and that samples count as missing."""
 
-GAP, LEAVE = "gap", "leave"
-"""A gap among the classes, and the method that leaves everything as it is."""
+LEAVE = "leave"
+"""The method that leaves everything as it is."""
 
 EVER = 2**62
 """A frame before (negative) or after every recording's."""
@@ -48,9 +49,11 @@ class Decision:
         return f"{said} ({self.note})" if self.note else said
 
     @property
-    def reason(self) -> str:
+    def reason(self) -> Reason:
         """Why what the decision keeps was kept."""
-        return f"a person decided: {self.text}" if self.person else "protected"
+        if self.person:
+            return Reason(Cause.DECIDED, f"a person decided: {self.text}")
+        return Reason(Cause.PROTECTED, "protected")
 
     @property
     def kinds(self) -> frozenset[str]:
@@ -79,15 +82,10 @@ class Ruling:
     use, None: as usual. texts: the decisions that bear on it.
     """
 
-    left: str | None = None
+    left: Reason | None = None
     confirmed: bool = False
     method: str | None = None
     texts: tuple[str, ...] = ()
-
-    @property
-    def note(self) -> dict[str, list[str]]:
-        """What facts say about it: nothing where nobody decided."""
-        return {"decisions": list(self.texts)} if self.texts else {}
 
 
 def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decision]:

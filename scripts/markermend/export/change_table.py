@@ -1,15 +1,14 @@
-"""changes.tsv: the list of changes for a person, one row each."""
+"""changes.tsv: the list of changes for people, one row each. It is only written: programs read the files of changes."""
 
 from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
-
-from markermend.core.recording import FILLED, Recording, Restored, changed
-from markermend.numerics.intervals import runs
+from markermend.core.changes import DECIMALS, Change, Outcome
+from markermend.core.recording import Recording
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
@@ -17,82 +16,56 @@ COLUMNS = (
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
+FILLED_GAP = "filled"
+"""What the column `class` says of a gap that was filled."""
 
-def list_changes(measured: Recording, restored: Restored) -> list[dict[str, Any]]:
-    """One row per change (COLUMNS), by marker and frame: repairs and fills, what was blanked, and their figures.
 
-    The facts of the restored recording name the changes (`repairs`, `repairs_left`, `fills`). Where measured samples
-    were blanked and then filled, the row has the class and evidence of the finding and the method of the fill. The
-    column decision has what a person decided about it, alternatives what each method was expected to err by at worst.
+def change_table(changes: Iterable[Change], recording: Recording) -> str:
+    """Write the table of changes.
+
+    Parameters
+    ----------
+    changes
+        The changes as applied, in the order of the rows.
+    recording
+        The recording, whose name, rate and numbering of frames the table uses.
+
+    Returns
+    -------
+    str
+        Tab-separated text with a header. The column `decision` has what a person decided, `alternatives` what each
+        method was expected to err by at worst.
     """
-    differs, facts = changed(measured, restored), restored.facts
-    filled = restored.origin == FILLED
-    blanked = [left for left in facts.get("repairs_left", []) if left.get("blanked")]
-    rows = []
-    for repair in [*facts.get("repairs", []), *({**left, "method": "blanked"} for left in blanked)]:
-        m, span = restored.markers.index(repair["marker"]), slice(repair["start"], repair["stop"])
-        own = np.zeros(restored.frames, bool)
-        own[span] = differs[span, m] & ~filled[span, m]
-        if own.any():
-            rows.append(_row(measured, restored, repair, m, repair["start"], repair["stop"], own))
-    for fill in facts.get("fills", []):
-        m = restored.markers.index(fill["marker"])
-        for was_seen in (False, True):
-            own = np.zeros(restored.frames, bool)
-            own[fill["start"] : fill["stop"]] = True
-            own &= differs[:, m] & filled[:, m] & (measured.missing[:, m] != was_seen)
-            for start, stop in runs(own):
-                found = _finding(blanked, fill["marker"], start) if was_seen else {"class": "filled"}
-                told = [*found.get("decisions", ()), *fill.get("decisions", ())]
-                change = {**fill, **found, "decisions": list(dict.fromkeys(told))}
-                rows.append(_row(measured, restored, change, m, start, stop, own))
-    return sorted(rows, key=lambda row: (row["marker"], row["first_frame"], row["class"]))
-
-
-def _finding(blanked: list[dict[str, Any]], marker: str, frame: int) -> dict[str, Any]:
-    """Class, score, decisions and offered repairs of the finding for which a measured sample was blanked."""
-    covering = (left for left in blanked if left["marker"] == marker and left["start"] <= frame < left["stop"])
-    return {
-        key: value for key, value in next(covering).items() if key in ("class", "score", "decisions", "alternatives")
-    }
-
-
-def _row(
-    measured: Recording, restored: Restored, change: dict[str, Any], m: int, start: int, stop: int, own: np.ndarray
-) -> dict[str, Any]:
-    """One row of changes.tsv, its figures over the samples `own` (frames,) in [start, stop)."""
-    span = np.flatnonzero(own[start:stop]) + start
-    moved = np.linalg.norm(restored.positions[span, m] - measured.positions[span, m], axis=1)
-    error = restored.error[span, m]
-    return {
-        "recording": restored.facts.get("recording", ""),
-        "marker": change["marker"],
-        "first_frame": restored.first_frame + start,
-        "last_frame": restored.first_frame + stop - 1,
-        "start_s": round(start / restored.rate, 4),
-        "stop_s": round(stop / restored.rate, 4),
-        "class": change["class"],
-        "score": _rounded(change.get("score")),
-        "axes": change.get("axes") or "",
-        "partner": change.get("partner") or "",
-        "method": change["method"],
-        "samples": len(span),
-        "largest_change_mm": _rounded(np.nanmax(moved) if np.isfinite(moved).any() else None),
-        "expected_error_mm": _rounded(np.nanmax(error) if np.isfinite(error).any() else None),
-        "decision": "; ".join(change.get("decisions", ())),
-        "alternatives": "; ".join(f"{name} {mm:.1f} mm" for name, mm in change.get("alternatives", {}).items()),
-    }
-
-
-def _rounded(value: float | None) -> float | str:
-    """A figure for a person, blank where there is none."""
-    return "" if value is None else round(float(value), 3)
-
-
-def changes_table(rows: list[dict[str, Any]]) -> str:
-    """The rows of changes as tab-separated text with a header."""
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows(_row(change, recording) for change in changes)
     return text.getvalue()
+
+
+def _row(change: Change, recording: Recording) -> dict[str, Any]:
+    """One row of the table. Axes and partner are stated of repairs alone: what was taken away concerns all axes."""
+    repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED)
+    return {
+        "recording": recording.facts.get("recording", ""),
+        "marker": change.marker,
+        "first_frame": recording.first_frame + change.start,
+        "last_frame": recording.first_frame + change.stop - 1,
+        "start_s": round(change.start / recording.rate, 4),
+        "stop_s": round(change.stop / recording.rate, 4),
+        "class": FILLED_GAP if change.is_gap else change.kind,
+        "score": _figure(change.score),
+        "axes": change.axes if repaired else "",
+        "partner": (change.partner or "") if repaired else "",
+        "method": change.method or change.outcome,
+        "samples": change.samples,
+        "largest_change_mm": _figure(change.largest_change_mm),
+        "expected_error_mm": _figure(change.expected_error_mm),
+        "decision": "; ".join(change.decisions),
+        "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in change.alternatives),
+    }
+
+
+def _figure(value: float | None) -> float | str:
+    """A figure for people, empty where there is none."""
+    return "" if value is None else round(value, DECIMALS)

@@ -26,10 +26,13 @@ class Eligibility:
         The recording.
     options : FillOptions
         The limits.
+    blanked : frozenset of str
+        The markers of which repair took samples away.
     """
 
     restored: Restored
     options: FillOptions
+    blanked: frozenset[str] = frozenset()
 
     @cached_property
     def missing(self) -> np.ndarray:
@@ -58,15 +61,15 @@ class Eligibility:
 
     def _certain_reason(self, gap: Gap, ruling: Ruling) -> Reason | None:
         """A reason that no person can overrule, or a person's own."""
-        name, facts = self.restored.markers[gap.marker], self.restored.facts
-        if facts.get("kind") == "static":
+        name = self.restored.markers[gap.marker]
+        if self.restored.facts.get("kind") == "static":
             return Reason(Cause.STATIC, "static recording")
         if self.missing[:, gap.marker].all():
-            blanked = any(entry["marker"] == name for entry in facts.get("repairs_left", []))
-            return Reason(Cause.NEVER_SEEN, "nothing of it was left to learn from" if blanked else "never seen")
+            taken = name in self.blanked
+            return Reason(Cause.NEVER_SEEN, "nothing of it was left to learn from" if taken else "never seen")
         if any(fnmatchcase(name, pattern) for pattern in self.options.protect):
             return Reason(Cause.PROTECTED, "protected marker")
-        return Reason(Cause.DECIDED, ruling.left) if ruling.left else None
+        return ruling.left
 
     def _seldom_seen(self, gap: Gap) -> Reason | None:
         """The marker is missing for most of the recording."""

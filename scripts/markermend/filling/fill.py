@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
-import numpy as np
-
-from markermend.core.changes import GAP, Change, MemberWeight, Outcome
+from markermend.core.changes import GAP, Change, MemberWeight, Outcome, largest
 from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
 from markermend.core.recording import FILLED, Restored
@@ -31,7 +28,7 @@ class FilledRecording:
     recording : Restored
         The recording, with origin and errors of the filled samples.
     changes : tuple of Change
-        What became of every gap, by marker and frame.
+        What repair did, then what became of every gap, by marker and frame.
     """
 
     recording: Restored
@@ -45,6 +42,7 @@ def fill_gaps(
     options: FillOptions,
     predictors: Settings,
     decisions: Sequence[Decision] = (),
+    repairs: Sequence[Change] = (),
 ) -> FilledRecording:
     """Fill the gaps of a recording with the ensemble that the options describe.
 
@@ -60,6 +58,8 @@ def fill_gaps(
         Options of the predictors, by family.
     decisions : sequence of Decision
         What a person decided about the recording; no limit holds against a decision.
+    repairs : sequence of Change
+        What repair did to the recording.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def fill_gaps(
         mesh.neighbour_indices(restored.markers),
         segment_mates=mesh.relative_indices(restored.markers),
     )
-    return fill_scene(restored, scene, make_ensembles(options, predictors, decisions), options, decisions)
+    return fill_scene(restored, scene, make_ensembles(options, predictors, decisions), options, decisions, repairs)
 
 
 def fill_scene(
@@ -82,6 +82,7 @@ def fill_scene(
     ensembles: Ensembles,
     options: FillOptions,
     decisions: Sequence[Decision] = (),
+    repairs: Sequence[Change] = (),
 ) -> FilledRecording:
     """Fill the gaps of a recording with given ensembles: see `fill_gaps`.
 
@@ -97,13 +98,16 @@ def fill_scene(
         The limits.
     decisions : sequence of Decision
         What a person decided about the recording.
+    repairs : sequence of Change
+        What repair did to the recording.
 
     Returns
     -------
     FilledRecording
         The recording and what became of every gap.
     """
-    plan = plan_filling(restored, options, decisions=decisions, methods=ensembles.single)
+    blanked = frozenset(change.marker for change in repairs if change.outcome is Outcome.BLANKED)
+    plan = plan_filling(restored, options, decisions=decisions, methods=ensembles.single, blanked=blanked)
     ensembles.default.train([(scene, marker) for marker in sorted({gap.marker for gap in plan.ordinary})])
     growing = GrowingScene(scene)
 
@@ -116,8 +120,7 @@ def fill_scene(
         ensemble = ensembles.single.get(method, ensembles.default)
         batches.append(filler(ensemble, None).fill(growing.copy(), gaps))
     recording = _write(restored, batches)
-    changes = _changes(recording, plan, batches)
-    return FilledRecording(replace(recording, facts={**restored.facts, **_facts(changes)}), changes)
+    return FilledRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 
 
 def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:
@@ -158,8 +161,8 @@ def _changes(recording: Restored, plan: FillPlan, batches: Sequence[FilledGaps])
                 outcome=Outcome.FILLED,
                 method=_method(weights[gap]),
                 member_weights=weights[gap],
-                expected_error_mm=float(np.max(recording.error[gap.samples])),
-                expected_error95_mm=float(np.max(recording.error95[gap.samples])),
+                expected_error_mm=largest(recording.error[gap.samples]),
+                expected_error95_mm=largest(recording.error95[gap.samples]),
             )
         found.append(change)
     return tuple(sorted(found, key=lambda change: (change.marker, change.start)))
@@ -174,18 +177,3 @@ def _weights(shares: dict[str, float]) -> tuple[MemberWeight, ...]:
 def _method(weights: Sequence[MemberWeight]) -> str:
     """The predictor that filled a gap, or `ensemble` where there are several."""
     return weights[0].member if len(weights) == 1 else "ensemble"
-
-
-def _facts(changes: Sequence[Change]) -> dict[str, Any]:
-    """The changes as JSON values, by outcome."""
-    facts: dict[str, Any] = {"fills": [], "gaps_left": []}
-    for change in changes:
-        entry: dict[str, Any] = {"marker": change.marker, "start": change.start, "stop": change.stop}
-        if change.outcome is Outcome.FILLED:
-            entry |= {"method": change.method, "weights": {own.member: own.weight for own in change.member_weights}}
-        else:
-            entry |= {"reason": change.reason.text if change.reason else ""}
-        if change.decisions:
-            entry["decisions"] = list(change.decisions)
-        facts["fills" if change.outcome is Outcome.FILLED else "gaps_left"].append(entry)
-    return facts

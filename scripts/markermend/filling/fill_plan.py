@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.core.decisions import GAP, Decision, Ruling, rule
+from markermend.core.changes import GAP
+from markermend.core.decisions import Decision, Ruling, rule
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.eligibility import Eligibility
@@ -39,7 +40,12 @@ class FillPlan:
 
 
 def plan_filling(
-    restored: Restored, options: FillOptions, *, decisions: Sequence[Decision], methods: Collection[str]
+    restored: Restored,
+    options: FillOptions,
+    *,
+    decisions: Sequence[Decision],
+    methods: Collection[str],
+    blanked: frozenset[str] = frozenset(),
 ) -> FillPlan:
     """Plan what is to be done with each gap of a recording.
 
@@ -53,13 +59,15 @@ def plan_filling(
         What a person decided about the recording.
     methods : collection of str
         Methods by which a person can want a gap filled.
+    blanked : frozenset of str
+        The markers of which repair took samples away.
 
     Returns
     -------
     FillPlan
         The plan.
     """
-    eligibility = Eligibility(restored, options)
+    eligibility = Eligibility(restored, options, blanked)
     missing = eligibility.missing
     rulings = {gap: _ruling(restored, gap, decisions, methods) for gap in find_gaps(missing)}
     reasons = {gap: eligibility.reason_to_leave(gap, ruling) for gap, ruling in rulings.items()}

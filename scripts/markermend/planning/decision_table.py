@@ -14,7 +14,8 @@ from itertools import combinations
 from typing import Any
 
 from markermend.core.artifacts import ARTIFACTS, STAGE_OF
-from markermend.core.decisions import GAP, LEAVE, VERBS, Decision, read
+from markermend.core.changes import GAP
+from markermend.core.decisions import LEAVE, VERBS, Decision, read
 from markermend.planning.recordings import BadDataSet, Entry, read_table
 
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")

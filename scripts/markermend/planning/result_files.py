@@ -58,14 +58,29 @@ class ResultFiles:
         return f"{self.recording}/06_repaired.parquet"
 
     @property
+    def repairs(self) -> str:
+        """What repair did to each finding, or why nothing."""
+        return f"{self.recording}/06_changes.parquet"
+
+    @property
     def filled(self) -> str:
         """Trajectories after repair and filling."""
         return f"{self.recording}/07_filled.parquet"
 
     @property
     def changes(self) -> str:
-        """The table of changes, for people."""
+        """What repair and filling did to each stretch, or why nothing."""
+        return f"{self.recording}/07_changes.parquet"
+
+    @property
+    def change_table(self) -> str:
+        """The table of changes, for people; programs read `changes`."""
         return f"{self.recording}/changes.tsv"
+
+    @property
+    def originals(self) -> str:
+        """The original value of every changed sample."""
+        return f"{self.recording}/originals.parquet"
 
     @property
     def certificate(self) -> str:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from markermend.core.artifacts import BY_STAGE, CLASSES, STAGE_OF
+from markermend.core.changes import DECLARED_MISSING, Change, Outcome
 from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, told
 from markermend.core.events import Event, tidy
 from markermend.core.recording import Recording
@@ -21,12 +21,12 @@ class Judgement:
     """What the decisions leave to be repaired.
 
     recording: without the samples that were declared missing. found: findings by detector, each to be repaired as a
-    whole. left: stretches that are not, as the fact `repairs_left` states them.
+    whole. left: stretches that are not.
     """
 
     recording: Recording
     found: dict[str, list[Event]]
-    left: list[dict[str, Any]]
+    left: list[Change]
 
 
 def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions: Iterable[Decision]) -> Judgement:
@@ -110,8 +110,8 @@ def _set(recording: Recording, decisions: Iterable[Decision]) -> dict[str, list[
     return {stage: tidy(events) for stage, events in made.items()}
 
 
-def _declared(recording: Recording, away: np.ndarray, decisions: Iterable[Decision]) -> list[dict[str, Any]]:
-    """What was taken away because a person declared it missing, each sample once, as facts state it."""
+def _declared(recording: Recording, away: np.ndarray, decisions: Iterable[Decision]) -> list[Change]:
+    """What was taken away because a person declared it missing, each sample once."""
     left, pending = [], away.copy()
     for decision in decisions:
         if decision.verb != "missing":
@@ -120,9 +120,18 @@ def _declared(recording: Recording, away: np.ndarray, decisions: Iterable[Decisi
             own = pending[:, m] & _mask(recording, [decision])[:, m]
             pending[own, m] = False
             for start, stop in runs(own):
-                place = {"marker": recording.markers[m], "start": start, "stop": stop}
-                told = {"class": "missing", "score": None, "reason": decision.reason, "blanked": True}
-                left.append({**place, **told, "decisions": [decision.text]})
+                left.append(
+                    Change(
+                        recording.markers[m],
+                        start,
+                        stop,
+                        (DECLARED_MISSING,),
+                        Outcome.BLANKED,
+                        samples=stop - start,
+                        decisions=(decision.text,),
+                        reason=decision.reason,
+                    )
+                )
     return left
 
 
@@ -136,7 +145,18 @@ def _mask(recording: Recording, decisions: Iterable[Decision]) -> np.ndarray:
     return covered
 
 
-def _entry(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> dict[str, Any]:
-    """A finding, or a part of one, that is left as it is, as facts state it."""
-    place = {"marker": event.marker, "start": start, "stop": stop, "class": BY_STAGE[stage].name, "score": event.score}
-    return {**place, "reason": ruling.left, "blanked": False, **ruling.note}
+def _entry(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> Change:
+    """A finding, or a part of one, that is left as it is."""
+    return Change(
+        event.marker,
+        start,
+        stop,
+        (BY_STAGE[stage].name,),
+        Outcome.LEFT,
+        event.score,
+        event.axes,
+        event.partner,
+        samples=stop - start,
+        decisions=ruling.texts,
+        reason=ruling.left,
+    )

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from markermend.core.reasons import Cause, Limit, Reason
 from markermend.numerics.intervals import samples
 from markermend.options.repair import RepairOptions, SeparationOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
@@ -33,18 +34,34 @@ class Offer:
     blur: float
 
     @property
-    def doubt(self) -> str | None:
+    def no_better(self) -> Reason | None:
         """Why the recording would be no better for it, or None."""
         if self.expected > self.change:
-            return f"expected error {self.expected:.1f} mm for a change of {self.change:.1f} mm"
+            text = f"expected error {self.expected:.1f} mm for a change of {self.change:.1f} mm"
+            return Reason(Cause.NO_BETTER, text)
         if self.after > max(self.before, self.blur):
-            return f"{self.after:.1f} mm from where the neighbours say, measured {self.before:.1f} mm"
+            text = f"{self.after:.1f} mm from where the neighbours predict it, measured {self.before:.1f} mm"
+            return Reason(Cause.NO_BETTER, text)
         return None
 
-    def against(self, limit_mm: float) -> str | None:
-        """Why it is not taken, or None."""
-        too_unsure = f"expected error {self.expected:.1f} mm for a change of {self.change:.1f} mm"
-        return self.doubt or (too_unsure if self.expected > limit_mm else None)
+    def against(self, limit_mm: float) -> Reason | None:
+        """Give the reason why it is not taken.
+
+        Parameters
+        ----------
+        limit_mm
+            The largest expected error that is accepted, mm: the option `max_error_mm`.
+
+        Returns
+        -------
+        Reason or None
+            The reason, None where it may be taken.
+        """
+        if self.no_better or self.expected <= limit_mm:
+            return self.no_better
+        limit = Limit("repair.max_error_mm", limit_mm, self.expected)
+        text = f"expected error {self.expected:.1f} mm ({limit.text})"
+        return Reason(Cause.UNCERTAIN, text, limit)
 
 
 def choose(offers: Iterable[Offer], *, limit_mm: float, prefer: float) -> Offer | None:
@@ -120,7 +137,7 @@ class Offers:
         told = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
         return Prediction(told.positions[1:-1], told.error[1:-1])
 
-    def worse_swapped(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> str | None:
+    def worse_swapped(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> Reason | None:
         """Why markers would be no nearer to where they should be with the samples of their partners, or None."""
         expected = np.concatenate([self._told(m, start, stop).positions for m in members])
         measured, exchanged = (
@@ -131,7 +148,8 @@ class Offers:
         expected = expected if both.all() else np.where(both, np.nan, expected)
         before, after = (misfit(part, expected) for part in (measured, exchanged))
         if after > before:
-            return f"exchanged, they are {after:.1f} mm from where the neighbours say, measured {before:.1f} mm"
+            figures = f"{after:.1f} mm from where the neighbours predict them, measured {before:.1f} mm"
+            return Reason(Cause.NO_BETTER, f"no better with labels exchanged: {figures}")
         return None
 
     def _propose(self, method: str, m: int, start: int, stop: int) -> Proposal | None:

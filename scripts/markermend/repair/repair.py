@@ -10,23 +10,41 @@ measured. Samples outside the intervals are returned bit for bit.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from markermend.core import events as finding
 from markermend.core.artifacts import ARTIFACTS
+from markermend.core.changes import Change
 from markermend.core.decisions import Decision, Ruling, kind_of, protecting, rule
 from markermend.core.events import Event
 from markermend.core.labels import follow
+from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Recording, Restored
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.apply_decisions import judge
-from markermend.repair.candidates import Offers, choose
+from markermend.repair.candidates import Offer, Offers, choose
 from markermend.repair.label_exchanges import concerned, cycle_of
 from markermend.repair.methods import METHODS
 from markermend.repair.result import Restoration
+
+
+@dataclass(frozen=True)
+class RepairedRecording:
+    """A recording after its findings were repaired.
+
+    Attributes
+    ----------
+    recording
+        The recording, with origin and errors of the repaired samples.
+    changes
+        What was repaired, then what was not and why.
+    """
+
+    recording: Restored
+    changes: tuple[Change, ...]
 
 
 def repair(
@@ -38,18 +56,16 @@ def repair(
     options: RepairOptions,
     relatives: Sequence[np.ndarray] | None = None,
     decisions: Sequence[Decision] = (),
-) -> Restored:
-    """Repair the findings of each class (in detector order) and return the recording with the story of every sample.
+) -> RepairedRecording:
+    """Repair the findings of each class (in detector order); return the recording, and what was done to each finding.
 
     neighbours, relatives: as in Scene. predictors: by name, those that `options.methods` and the decisions mention. decisions: what
-    a person says, against which no limit holds. The facts of the result gain `repairs` (marker, start, stop, class,
-    method, score, axes, partner, and the `alternatives`: expected error in mm of each method that could be used), `repairs_left` (the same with a reason and whether the samples were blanked), each
-    with the `decisions` that bear on it. Missing samples stay missing. Static recordings are left.
+    a person says, against which no limit holds. Missing samples stay missing. Static recordings are left.
     """
     work = _Repairer(recording, found, neighbours, relatives, predictors, options, decisions)
     for marker, start, stop, members in work.findings():
         work.treat(marker, start, stop, members)
-    return work.result.finished()
+    return RepairedRecording(*work.result.finished())
 
 
 Member = tuple[str, Event]
@@ -76,7 +92,7 @@ class _Repairer:
         self.exchanges = found.get("labels", ())
         judged = judge(recording, found, self.decisions)
         self._look_at(judged.recording, judged.found)
-        self.refusal = "static recording: never repaired" if static else self._too_much()
+        self.refusal = Reason(Cause.STATIC, "static recording: never repaired") if static else self._too_much()
         cycles = self._cycles()
         carried = [one for cycle, _, worse in cycles if worse is None for one in cycle]
         if set(carried) != set(self.exchanges):
@@ -85,8 +101,9 @@ class _Repairer:
         for cycle, ruling, worse in cycles:
             if worse is None:
                 self.result.exchange(cycle, ruling)
-            for one in cycle if worse else ():
-                self.result.leave(one, ["labels"], f"no better with labels exchanged: {worse}", ruling, blank=False)
+                continue
+            for one in cycle:
+                self.result.leave(one, ["labels"], worse, ruling, blank=False)
         done = {(one.marker, one.start, one.stop) for cycle, _, _ in cycles for one in cycle}
         left = [one for one in judged.found["labels"] if (one.marker, one.start, one.stop) not in done]
         exchanged = replace(judged.recording, positions=self.result.positions.copy())
@@ -105,14 +122,16 @@ class _Repairer:
         """Bool (frames, markers): the seen samples that the findings cover."""
         return finding.mask(events, self.recording.frames, self.recording.markers) & ~self.recording.missing
 
-    def _too_much(self) -> str | None:
+    def _too_much(self) -> Reason | None:
         """Why nothing may be repaired that no person confirmed, or None."""
         members = [(stage, event) for stage, events in self.found.items() for event in events]
         covered = self._covered([event for stage, event in members if not self._ruling([(stage, event)]).confirmed])
         share = covered.sum() / max(1, int((~self.recording.missing).sum()))
-        if share > self.options.max_altered_share:
-            return f"findings cover {share:.1%} of the recording, more than {self.options.max_altered_share:.0%}"
-        return None
+        if share <= self.options.max_altered_share:
+            return None
+        limit = Limit("repair.max_altered_share", self.options.max_altered_share, float(share))
+        text = f"findings cover {share:.1%} of the recording ({limit.text})"
+        return Reason(Cause.TOO_MUCH, text, limit)
 
     def _ruling(self, members: Sequence[Member]) -> Ruling:
         """What the decisions come to for findings that overlap."""
@@ -121,7 +140,7 @@ class _Repairer:
         start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
         return rule(self.decisions, kinds, markers, start, stop)
 
-    def _cycles(self) -> list[tuple[list[Event], Ruling, str | None]]:
+    def _cycles(self) -> list[tuple[list[Event], Ruling, Reason | None]]:
         """The exchanges of labels that are wanted, cycle by cycle, each with why it is not carried out, or None."""
         done: set[tuple[str, int, int]] = set()
         cycles = []
@@ -136,7 +155,7 @@ class _Repairer:
                 cycles.append((cycle, ruling, None if ruling.confirmed else self._worse(cycle)))
         return cycles
 
-    def _worse(self, cycle: list[Event]) -> str | None:
+    def _worse(self, cycle: list[Event]) -> Reason | None:
         """Why the markers of a cycle would be worse off with the samples of their partners, or None."""
         index = self.recording.markers.index
         members, partners = [index(one.marker) for one in cycle], [index(str(one.partner)) for one in cycle]
@@ -170,11 +189,12 @@ class _Repairer:
         if self.refusal and not ruling.confirmed:
             self.result.leave(event, stages, self.refusal, ruling, blank=False)
         elif why := [f"not measured: {a.unmeasured}" for a in ARTIFACTS if a.unmeasured and a.stage in stages]:
-            self.result.leave(event, stages, "; ".join(why), ruling, blank=True)
+            self.result.leave(event, stages, Reason(Cause.UNMEASURED, "; ".join(why)), ruling, blank=True)
         elif ruling.method and ruling.method not in METHODS:
-            self.result.leave(event, stages, f"to be filled by {ruling.method}", ruling, blank=True)
+            reason = Reason(Cause.FILLED_INSTEAD, f"to be filled by {ruling.method}")
+            self.result.leave(event, stages, reason, ruling, blank=True)
         elif len(members) > 1 and not ruling.method:
-            reason = "several kinds of artifact at once: treated as a gap"
+            reason = Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once: treated as a gap")
             self.result.leave(event, stages, reason, ruling, blank=True)
         else:
             self._mend(stage, stages, event, ruling)
@@ -187,7 +207,7 @@ class _Repairer:
         """
         options = self.options
         if event.stop - event.start > options.max_repair_s * self.recording.rate and not ruling.confirmed:
-            self.result.leave(event, stages, f"longer than {options.max_repair_s:g} s", ruling, blank=True)
+            self.result.leave(event, stages, self._too_long(event), ruling, blank=True)
             return
         methods = [ruling.method] if ruling.method else options.methods[stage]
         m = self.recording.markers.index(event.marker)
@@ -199,12 +219,31 @@ class _Repairer:
         if taken:
             self.result.write(stage, event, taken, offers, ruling)
             return
-        able = {offer.proposal.method: offer.against(options.max_error_mm) for offer in offers}
-        told = [
-            f"{method}: {able[method] or 'less sure than another'}" if method in able else f"{method}: not applicable"
-            for method in methods
-            if method != "exchange"
-        ]
-        reason = f"no repair can be trusted ({'; '.join(told)})" if told else f"no method for {stage}: treated as a gap"
-        harmless = best is not None and best.doubt is not None
+        reason = self._none_taken(stage, [method for method in methods if method != "exchange"], offers, best)
+        harmless = best is not None and best.no_better is not None
         self.result.leave(event, stages, reason, ruling, blank=not harmless, offers=offers)
+
+    def _too_long(self, event: Event) -> Reason:
+        """Say that a finding lasts too long to be repaired."""
+        duration_s = (event.stop - event.start) / self.recording.rate
+        limit = Limit("repair.max_repair_s", self.options.max_repair_s, duration_s)
+        text = f"lasts {duration_s:.2f} s ({limit.text})"
+        return Reason(Cause.TOO_LONG, text, limit)
+
+    def _none_taken(self, stage: str, methods: Sequence[str], offers: Sequence[Offer], best: Offer | None) -> Reason:
+        """Say why no offer was taken: why not each method, and the cause that stood against the best."""
+        if not methods:
+            return Reason(Cause.NO_METHOD, f"no method for {stage}: treated as a gap")
+        against = {offer.proposal.method: offer.against(self.options.max_error_mm) for offer in offers}
+        texts = [f"{method}: {_why_not(method, against)}" for method in methods]
+        text = f"no repair is accurate enough ({'; '.join(texts)})"
+        cause = against[best.proposal.method] if best else None
+        return Reason(cause.cause, text, cause.limit) if cause else Reason(Cause.NO_METHOD, text)
+
+
+def _why_not(method: str, against: Mapping[str, Reason | None]) -> str:
+    """Why a method was not used, given what stands against the offers."""
+    if method not in against:
+        return "not applicable"
+    reason = against[method]
+    return reason.text if reason else "larger expected error than another"

@@ -1,45 +1,80 @@
-"""A recording while it is repaired: every sample that is written, and every finding that is left, is noted."""
+"""A recording while it is repaired: every sample that is written, and every finding that is left, is recorded."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
 from markermend.core.artifacts import ARTIFACTS, BY_STAGE
+from markermend.core.changes import DECIMALS, Alternative, Change, Outcome, largest
 from markermend.core.decisions import Ruling
 from markermend.core.events import Event
+from markermend.core.reasons import Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
 from markermend.repair.candidates import Offer
 
 
 class Restoration:
-    """The result of a repair as it grows: positions (frames, markers, 3), mm; what was repaired, and what was left."""
+    """The result of a repair as it grows.
 
-    def __init__(self, recording: Recording, left: Iterable[dict[str, Any]], radius: Mapping[str, float]) -> None:
-        """recording: as it is to be repaired, which is never modified. left: what is known to be left. radius: see
-        RepairOptions.
-        """
+    Parameters
+    ----------
+    recording
+        The recording as it is to be repaired; never modified.
+    left
+        What is already known about stretches that are not repaired.
+    radius
+        Radii of the balls in standard deviations, see `RepairOptions`.
+
+    Attributes
+    ----------
+    positions
+        Positions as repaired so far, (frames, markers, 3), mm, NaN = missing.
+    """
+
+    def __init__(self, recording: Recording, left: Iterable[Change], radius: Mapping[str, float]) -> None:
         self._recording, self._radius = recording, radius
         self.positions = recording.positions.copy()
         self._origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
         self._error = np.where(recording.missing, np.nan, 0.0)
-        self._repairs: list[dict[str, Any]] = []
+        self._repairs: list[Change] = []
         self._left = list(left)
 
     def write(self, stage: str, event: Event, offer: Offer, offers: Iterable[Offer], ruling: Ruling) -> None:
-        """Write what is offered where the marker was seen, and note the repair and all the offers."""
+        """Write a proposal where the marker was seen.
+
+        Parameters
+        ----------
+        stage
+            The detector of the finding.
+        event
+            The finding.
+        offer
+            The offer that is taken.
+        offers
+            All offers for the finding.
+        ruling
+            What the decisions come to.
+        """
         m, proposal = self._recording.markers.index(event.marker), offer.proposal
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
         self._origin[rows, m] = ORIGINS.index(BY_STAGE[stage].name)
         self._error[rows, m] = proposal.error[seen]
-        self._note(event, BY_STAGE[stage].name, proposal.method, ruling, alternatives(offers))
+        self._repaired(event, BY_STAGE[stage].name, Outcome.REPAIRED, proposal.method, rows, ruling, offers)
 
     def exchange(self, ring: Sequence[Event], ruling: Ruling) -> None:
-        """Give each marker of a ring the original samples of its partner; all over the same interval."""
+        """Give each marker of a cycle the original samples of its partner.
+
+        Parameters
+        ----------
+        ring
+            The exchanges, all over the same interval.
+        ruling
+            What the decisions come to.
+        """
         span = slice(ring[0].start, ring[0].stop)
         index = self._recording.markers.index
         own, partners = [index(event.marker) for event in ring], [index(str(event.partner)) for event in ring]
@@ -48,44 +83,121 @@ class Restoration:
         self._origin[span, own] = np.where(missing, MISSING, ORIGINS.index("swap"))
         self._error[span, own] = np.where(missing, np.nan, 0.0)
         for event in ring:
-            self._note(event, "swap", "swap", ruling)
+            rows = np.arange(event.start, event.stop)
+            self._repaired(event, "swap", Outcome.EXCHANGED, "swap", rows, ruling)
 
     def leave(
         self,
         event: Event,
         stages: Collection[str],
-        reason: str,
+        reason: Reason,
         ruling: Ruling,
         *,
         blank: bool,
         offers: Iterable[Offer] = (),
     ) -> None:
-        """Note that an interval was not repaired, whatever was offered; with `blank`, its samples become missing."""
-        span = slice(event.start, event.stop)
+        """Record that a stretch was not repaired.
+
+        Parameters
+        ----------
+        event
+            The finding, or what stands for several.
+        stages
+            The detectors that found it.
+        reason
+            Why it was not repaired.
+        ruling
+            What the decisions come to.
+        blank
+            Whether its samples become missing.
+        offers
+            All offers for the finding.
+        """
+        span, m = slice(event.start, event.stop), self._recording.markers.index(event.marker)
+        samples = event.stop - event.start
         if blank:
-            m = self._recording.markers.index(event.marker)
+            samples = int(np.count_nonzero(~np.isnan(self.positions[span, m]).any(axis=1)))
             self.positions[span, m] = np.nan
             self._origin[span, m] = MISSING
             self._error[span, m] = np.nan
-        kinds = "+".join(artifact.name for artifact in ARTIFACTS if artifact.stage in stages)
-        note = {"marker": event.marker, "start": event.start, "stop": event.stop, "class": kinds, "score": event.score}
-        self._left.append({**note, "reason": reason, "blanked": blank, **alternatives(offers), **ruling.note})
+        self._left.append(
+            Change(
+                event.marker,
+                event.start,
+                event.stop,
+                tuple(artifact.name for artifact in ARTIFACTS if artifact.stage in stages),
+                Outcome.BLANKED if blank else Outcome.LEFT,
+                event.score,
+                event.axes,
+                event.partner,
+                alternatives=alternatives(offers),
+                samples=samples,
+                decisions=ruling.texts,
+                reason=reason,
+            )
+        )
 
-    def finished(self) -> Restored:
-        """The repaired recording."""
-        facts = {**self._recording.facts, "repairs": self._repairs, "repairs_left": self._left}
-        common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame, facts)
+    def finished(self) -> tuple[Restored, tuple[Change, ...]]:
+        """Finish the repair.
+
+        Returns
+        -------
+        restored : Restored
+            The repaired recording.
+        changes : tuple of Change
+            What was repaired, then what was not and why, each in the order of the work.
+        """
+        common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame)
         inner, outer = self._radius["inner"], self._radius["outer"]
-        return Restored(*common, self._origin, self._error * inner, self._error * outer)
+        restored = Restored(*common, self._recording.facts, self._origin, self._error * inner, self._error * outer)
+        return restored, (*self._repairs, *self._left)
 
-    def _note(
-        self, event: Event, origin: str, method: str, ruling: Ruling, others: Mapping[str, Any] | None = None
+    def _repaired(
+        self,
+        event: Event,
+        name: str,
+        outcome: Outcome,
+        method: str,
+        rows: np.ndarray,
+        ruling: Ruling,
+        offers: Iterable[Offer] = (),
     ) -> None:
-        """Note a repair."""
-        self._repairs.append({**vars(event), "class": origin, "method": method, **(others or {}), **ruling.note})
+        """Record a repair of samples (rows) that were just written."""
+        m = self._recording.markers.index(event.marker)
+        moved = np.linalg.norm(self.positions[rows, m] - self._recording.positions[rows, m], axis=1)
+        error = self._error[rows, m]
+        self._repairs.append(
+            Change(
+                event.marker,
+                event.start,
+                event.stop,
+                (name,),
+                outcome,
+                event.score,
+                event.axes,
+                event.partner,
+                method,
+                alternatives(offers),
+                samples=len(rows),
+                largest_change_mm=largest(moved),
+                expected_error_mm=largest(error * self._radius["inner"]),
+                expected_error95_mm=largest(error * self._radius["outer"]),
+                decisions=ruling.texts,
+            )
+        )
 
 
-def alternatives(offers: Iterable[Offer]) -> dict[str, dict[str, float]]:
-    """What facts say about the offers for a finding: the expected error of each, mm; nothing where there is none."""
-    expected = {offer.proposal.method: round(offer.expected, 3) for offer in offers}
-    return {"alternatives": expected} if expected else {}
+def alternatives(offers: Iterable[Offer]) -> tuple[Alternative, ...]:
+    """List the offers for a finding as its record states them.
+
+    Parameters
+    ----------
+    offers
+        The offers, in the order of the methods.
+
+    Returns
+    -------
+    tuple of Alternative
+        Each method with the largest error to be expected of it.
+    """
+    return tuple(Alternative(offer.proposal.method, round(offer.expected, DECIMALS)) for offer in offers)

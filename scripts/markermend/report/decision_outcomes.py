@@ -9,16 +9,13 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
-from markermend.core.decisions import EVER, GAP, Decision, read
+from markermend.core.changes import GAP, Change
+from markermend.core.decisions import EVER, Decision, read
 from markermend.core.recording import Recording
-from markermend.report.open_findings import Finding
-
-OUTCOMES = ("repairs", "repairs_left", "fills", "gaps_left")
-"""The facts in which the stages say what they did, with the decisions that they followed."""
 
 
 @dataclass(frozen=True)
-class Outcome:
+class DecisionOutcome:
     """What a decision came to: its place and words as the table has them, and how many findings and gaps it settled.
 
     warning: what is wrong with it, None where nothing is.
@@ -30,26 +27,27 @@ class Outcome:
     warning: str | None
 
 
-def outcomes(entries: Iterable[Mapping[str, Any]], result: Recording) -> list[Outcome]:
+def outcomes(
+    entries: Iterable[Mapping[str, Any]], result: Recording, changes: Sequence[Change]
+) -> list[DecisionOutcome]:
     """Say what came of each decision on a recording.
 
-    entries: as decision_table.load gives them. result: the recording after repair and filling.
+    entries: as decision_table.load gives them. result: the recording after repair and filling. changes: what these did.
     """
     decided = read(entries, result.first_frame)
-    return [_outcome(decision, result) for decision in decided]
+    return [_outcome(decision, result, changes) for decision in decided]
 
 
-def _outcome(decision: Decision, result: Recording) -> Outcome:
+def _outcome(decision: Decision, result: Recording, changes: Sequence[Change]) -> DecisionOutcome:
     """Say what came of one decision."""
     settled = sum(
-        decision.text in entry.get("decisions", ())
-        and decision.on({entry["marker"], entry.get("partner") or entry["marker"]}, entry["start"], entry["stop"])
-        for name in OUTCOMES
-        for entry in result.facts.get(name, ())
+        decision.text in change.decisions
+        and decision.on({change.marker, change.partner or change.marker}, change.start, change.stop)
+        for change in changes
     )
     place = _place(decision, result.first_frame)
     wrong = None if settled else _nothing(decision, result)
-    return Outcome(place, decision.text, settled, wrong and f"decision {decision.text!r} on {place}: {wrong}")
+    return DecisionOutcome(place, decision.text, settled, wrong and f"decision {decision.text!r} on {place}: {wrong}")
 
 
 def _nothing(decision: Decision, result: Recording) -> str | None:
@@ -76,13 +74,13 @@ def _place(decision: Decision, first_frame: int) -> str:
     return f"{decision.marker}, frames {decision.start + first_frame} to {decision.stop + first_frame - 1}"
 
 
-def drafts(findings: Sequence[Finding], recording: Recording) -> str:
+def drafts(findings: Sequence[Change], recording: Recording) -> str:
     """Lines for the table of decisions, one for each finding, in which the decision is still to be written."""
     text = io.StringIO()
     writer = csv.writer(text, delimiter="\t", lineterminator="\n")
     name, subject = recording.facts.get("recording", ""), recording.facts.get("subject", "")
     for finding in findings:
         first, last = finding.start + recording.first_frame, finding.stop + recording.first_frame - 1
-        value = GAP if finding.kind == "gap" else ""
+        value = GAP if finding.is_gap else ""
         writer.writerow([name, finding.marker, first, last, "", value, "", subject])
     return text.getvalue()

@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
+from markermend.core.changes import Change
 from markermend.core.recording import Recording, Restored, changed
 from markermend.numerics.intervals import runs
-from markermend.report.open_findings import Finding
 
 UNITS_PER_MM = 100
 """Resolution of a plot; far below what one can see, so no tunable."""
 
 
-def excerpt(finding: Finding, before: Recording, after: Restored, *, context_s: float, frames: int) -> dict[str, Any]:
+def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: float, frames: int) -> dict[str, Any]:
     """Cut out what surrounds a finding, before and after, as JSON values.
 
     context_s: how much to show on either side, s. frames: most frames to show; a longer window shows every second,

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from markermend import __version__
+from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
 from markermend.report import rendering, timeline
 from markermend.report import summary as report_summary
-from markermend.report.decision_outcomes import Outcome, drafts, outcomes
+from markermend.report.decision_outcomes import DecisionOutcome, drafts, outcomes
 from markermend.report.methods_text import paragraph
-from markermend.report.open_findings import Finding, left_open, read_changes
+from markermend.report.open_findings import left_open, reasons_for_blanking, worst_first
 from markermend.report.plot_data import excerpt
-from markermend.storage import stage_files
+from markermend.storage import change_file, stage_files
 from markermend.storage.folder_names import decode
 from markermend.storage.mesh_file import for_recording
 
@@ -30,22 +31,24 @@ TICKS = 8
 class Evidence:
     """One recording before and after, what was found, changed and left in it, and how.
 
-    found: events by detector, for those that ran. changes, left: worst first. stages: the options of every stage.
+    found: events by detector, for those that ran. record: what repair and filling did to each stretch. changes, left:
+    what came of it, worst first. stages: the options of every stage.
     """
 
     before: Recording
     after: Restored
     mesh: Mesh
     found: dict[str, list[Event]]
-    changes: list[Finding]
-    left: list[Finding]
+    record: tuple[Change, ...]
+    changes: list[Change]
+    left: list[Change]
     certificate: dict[str, Any]
     stages: dict[str, dict[str, Any]]
 
     @property
-    def decided(self) -> list[Outcome]:
+    def decided(self) -> list[DecisionOutcome]:
         """What came of a person's decisions."""
-        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after)
+        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
 
     @property
     def warnings(self) -> list[str]:
@@ -70,25 +73,27 @@ def read(call: Any) -> Evidence:
     meshes = stage_files.read_json(call.mesh)
     told = [stage_files.read_facts(path) for path in call.events]
     found = {facts["stage"]: stage_files.read_events(path) for facts, path in zip(told, call.events, strict=True)}
-    found = _as_repaired(found, after)
-    changes = read_changes(call.changes.read_bytes().decode(), after)
+    record = change_file.read(call.changes)
+    found = _as_repaired(found, record)
+    changes = worst_first(before, after, record)
     steps = [before.facts, meshes.get("facts", {}), *told, stage_files.read_facts(call.repaired), after.facts]
     return Evidence(
         before=before,
         after=after,
         mesh=for_recording(meshes, before.facts["recording"]),
         found=found,
+        record=record,
         changes=changes,
-        left=left_open(after, found, changes),
+        left=left_open(after, found, changes, record),
         certificate=certificate,
         stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
     )
 
 
-def _as_repaired(found: dict[str, list[Event]], after: Restored) -> dict[str, list[Event]]:
+def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dict[str, list[Event]]:
     """Findings under the labels that their samples have after repair, which may leave an exchange of labels undone."""
-    swaps = [repair for repair in after.facts.get("repairs", ()) if repair["class"] == "swap"]
-    carried = [Event(one["marker"], one["start"], one["stop"], 1.0, partner=one["partner"]) for one in swaps]
+    exchanged = [change for change in record if change.outcome is Outcome.EXCHANGED]
+    carried = [Event(one.marker, one.start, one.stop, 1.0, partner=one.partner) for one in exchanged]
     exchanges = found.get("labels", [])
     return {
         stage: events if stage == "labels" else follow(events, found_under=exchanges, stated_under=carried)
@@ -139,7 +144,7 @@ def place(page: Path) -> dict[str, str]:
 
 def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any]) -> str:
     """Write the recording's page. options: `plots`, `context_s`, `plot_frames`, see the qc stage."""
-    artifacts = [finding for finding in seen.left if finding.kind != "gap"]
+    artifacts = [finding for finding in seen.left if not finding.is_gap]
     chosen = [*seen.changes[: options["plots"]], *artifacts[: options["plots"]]]
     drawn = {
         finding: (f"finding-{number}", cut(seen, finding, options))
@@ -156,6 +161,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
         ticks=timeline.ticks(seen.before, TICKS),
         changes=seen.changes,
         left=seen.left,
+        blanked=reasons_for_blanking(seen.changes, seen.record),
         decided=seen.decided,
         drafts={"changed": drafts(seen.changes, seen.after), "open": drafts(seen.left, seen.after)},
         drawn=drawn,
@@ -166,7 +172,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
     )
 
 
-def cut(seen: Evidence, finding: Finding, options: Mapping[str, Any]) -> dict[str, Any]:
+def cut(seen: Evidence, finding: Change, options: Mapping[str, Any]) -> dict[str, Any]:
     """Cut out what a finding's plot shows."""
     context_s, frames = options["context_s"], options["plot_frames"]
     return excerpt(finding, seen.before, seen.after, context_s=context_s, frames=frames)

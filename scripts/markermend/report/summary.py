@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event, mask
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
-from markermend.report.open_findings import BLANKED, Finding
 
 DIGITS = 6
 """Decimals of shares and times, fixed so that equal recordings give equal bytes."""
@@ -73,8 +73,8 @@ def summarize(
     before: Recording,
     after: Restored,
     found: Mapping[str, Sequence[Event]],
-    changes: Sequence[Finding],
-    left: Sequence[Finding],
+    changes: Sequence[Change],
+    left: Sequence[Change],
     warnings: Sequence[str],
     weights: Mapping[str, float],
 ) -> dict[str, Any]:
@@ -87,7 +87,7 @@ def summarize(
     touched = changed(before, after)
     errors = after.error[touched & ~after.missing]
     errors95 = after.error95[touched & ~after.missing]
-    gaps_left = [finding for finding in left if finding.kind == "gap"]
+    gaps_left = [finding for finding in left if finding.is_gap]
     summary: dict[str, Any] = {
         **identity(before.facts),
         "status": status(before.facts, touched),
@@ -105,8 +105,11 @@ def summarize(
         "changed_share": share(touched),
         "origins": {name: int((after.origin == code).sum()) for code, name in enumerate(ORIGINS)},
         **outcomes(changes),
-        "findings_open": totals([finding for finding in left if finding.kind != "gap" and not finding.decision]),
-        "gaps_open": {**totals(gaps_left), "reasons": dict(Counter(finding.reason for finding in gaps_left))},
+        "findings_open": totals([finding for finding in left if not finding.is_gap and not finding.decisions]),
+        "gaps_open": {
+            **totals(gaps_left),
+            "reasons": dict(Counter(finding.reason.text for finding in gaps_left if finding.reason)),
+        },
         "largest_change_mm": largest_change(before, after),
         "expected_error_median_mm": finite(np.median, errors),
         "expected_error_max_mm": finite(np.max, errors),
@@ -170,16 +173,16 @@ def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:
     return {"events": len(events), "samples": int(mask(events, recording.frames, recording.markers).sum())}
 
 
-def outcomes(changes: Sequence[Finding]) -> dict[str, dict[str, int]]:
+def outcomes(changes: Sequence[Change]) -> dict[str, dict[str, int]]:
     """Count the changes by what was done: gaps `filled`, artifacts `repaired` or `blanked` (taken away)."""
     return {
-        "filled": totals([change for change in changes if change.kind == "gap"]),
-        "repaired": totals([change for change in changes if change.kind != "gap" and change.method != BLANKED]),
-        "blanked": totals([change for change in changes if change.method == BLANKED]),
+        "filled": totals([change for change in changes if change.is_gap]),
+        "repaired": totals([change for change in changes if not change.is_gap and change.outcome != Outcome.BLANKED]),
+        "blanked": totals([change for change in changes if change.outcome == Outcome.BLANKED]),
     }
 
 
-def totals(findings: Sequence[Finding]) -> dict[str, int]:
+def totals(findings: Sequence[Change]) -> dict[str, int]:
     """How many findings there are, and how many samples they hold."""
     return {"events": len(findings), "samples": sum(finding.samples for finding in findings)}
 

@@ -71,12 +71,12 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
     columns: dict[str, pa.Array] = {}
     for m, marker in enumerate(recording.markers):
         for a, axis in enumerate("xyz"):
-            columns[f"{marker}.{axis}"] = _column(recording.positions[:, m, a], np.float64)
+            columns[f"{marker}.{axis}"] = column(recording.positions[:, m, a], np.float64)
         if isinstance(recording, Restored):
-            codes = _column(recording.origin[:, m], np.int8)
+            codes = column(recording.origin[:, m], np.int8)
             columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, pa.array(ORIGINS))
-            columns[f"{marker}.error"] = _column(recording.error[:, m], np.float64)
-            columns[f"{marker}.error95"] = _column(recording.error95[:, m], np.float64)
+            columns[f"{marker}.error"] = column(recording.error[:, m], np.float64)
+            columns[f"{marker}.error95"] = column(recording.error95[:, m], np.float64)
     own = {
         "markers": list(recording.markers),
         "rate": recording.rate,
@@ -93,12 +93,12 @@ def read_table(path: Path) -> pa.Table:
         return file.read(use_threads=False)
 
 
-def _vector(array: pa.Array) -> np.ndarray:
+def vector(array: pa.Array) -> np.ndarray:
     """An Arrow array without nulls as a vector; by DLPack, because Array.to_numpy imports pandas."""
     return np.from_dlpack(array)
 
 
-def _column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
+def column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
     """A vector as an Arrow array; from its buffer, because pa.array(ndarray) imports pandas."""
     contiguous: np.ndarray = np.ascontiguousarray(values, kind)
     arrow = pa.from_numpy_dtype(contiguous.dtype)
@@ -117,7 +117,7 @@ def read_recording(path: Path) -> Recording:
     positions = np.full((frames, len(markers), 3), np.nan)
     for m, marker in enumerate(markers):
         for a, axis in enumerate("xyz"):
-            positions[:, m, a] = _vector(table[f"{marker}.{axis}"].combine_chunks())
+            positions[:, m, a] = vector(table[f"{marker}.{axis}"].combine_chunks())
     common = (markers, positions, facts["rate"], facts["first_frame"], facts)
     if not any(name.endswith(".origin") for name in table.column_names):
         return Recording(*common)
@@ -127,9 +127,9 @@ def read_recording(path: Path) -> Recording:
     for m, marker in enumerate(markers):
         stored = table[f"{marker}.origin"].combine_chunks()
         translate = np.array([codes[name] for name in stored.dictionary.to_pylist()], np.uint8)
-        origin[:, m] = translate[_vector(stored.indices)]
-        error[:, m] = _vector(table[f"{marker}.error"].combine_chunks())
-        error95[:, m] = _vector(table[f"{marker}.error95"].combine_chunks())
+        origin[:, m] = translate[vector(stored.indices)]
+        error[:, m] = vector(table[f"{marker}.error"].combine_chunks())
+        error95[:, m] = vector(table[f"{marker}.error95"].combine_chunks())
     return Restored(*common, origin, error, error95)
 
 

@@ -3,8 +3,10 @@
 import pytest
 
 from markermend.core.artifacts import CLASSES, STAGE_OF
-from markermend.core.decisions import EVER, GAP, Decision, Ruling, kind_of, protecting, read, rule
+from markermend.core.changes import GAP
+from markermend.core.decisions import EVER, Decision, Ruling, kind_of, protecting, read, rule
 from markermend.core.events import Event
+from markermend.core.reasons import Cause, Reason
 
 STRETCH = (["LANK"], 10, 20)
 
@@ -61,7 +63,6 @@ def test_without_a_class_all_artifacts_are_meant_and_no_gap(verb, kind):
 
 def test_nobody_decided_anything():
     assert rule([], ["peak"], *STRETCH) == Ruling(None, False, None, ())
-    assert Ruling().note == {}
 
 
 def test_how_and_whether_are_two_decisions():
@@ -85,9 +86,9 @@ def test_how_and_whether_are_two_decisions():
 def test_what_keeps_samples_is_stronger_than_what_changes_them(stronger, weaker, turn):
     decided = [Decision("LANK", n, n + 11, *text.split()) for n, text in enumerate((stronger, weaker))]
     ruling = rule(decided[::turn], ["peak"], *STRETCH)
-    assert ruling == Ruling(f"a person decided: {stronger}", texts=(stronger,))
+    assert ruling == Ruling(Reason(Cause.DECIDED, f"a person decided: {stronger}"), texts=(stronger,))
 
 
 def test_a_setting_is_not_a_person():
     (setting,) = protecting(["L*"])
-    assert rule([setting], ["peak"], *STRETCH) == Ruling("protected")
+    assert rule([setting], ["peak"], *STRETCH) == Ruling(Reason(Cause.PROTECTED, "protected"))

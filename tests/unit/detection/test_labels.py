@@ -120,8 +120,8 @@ def test_a_ring_is_undone_by_the_repair(walker):
     options = RepairOptions(**CONFIG["repair"], protect=[])
     around = neighbours(recording.positions)
     mended = repair(recording, found={"labels": find(recording)}, neighbours=around, predictors={}, options=options)
-    assert np.array_equal(mended.positions, walker.recording.positions)
-    assert sorted((e["marker"], e["start"], e["stop"], e["partner"]) for e in mended.facts["repairs"]) == told
+    assert np.array_equal(mended.recording.positions, walker.recording.positions)
+    assert sorted((e.marker, e.start, e.stop, e.partner) for e in mended.changes) == told
 
 
 def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
@@ -135,7 +135,7 @@ def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
     options = RepairOptions(**CONFIG["repair"], protect=[])
     around = neighbours(recording.positions)
     mended = repair(recording, found={"labels": found}, neighbours=around, predictors={}, options=options)
-    assert np.array_equal(mended.positions, clean.positions)
+    assert np.array_equal(mended.recording.positions, clean.positions)
 
 
 @pytest.mark.data

@@ -1,13 +1,10 @@
-"""Export: only changed samples differ from the original, the certificate proves it, and changes.tsv names each change."""
-
-import csv
-import io
+"""Export: only changed samples differ from the original, and the certificate proves it."""
 
 import numpy as np
 import pytest
 
 from markermend.core.recording import FILLED, MISSING, ORIGINS, BadRecording, Recording, Restored, changed
-from markermend.export import change_table, write_back
+from markermend.export import write_back
 from markermend.formats import comparison, files
 from markermend.formats.c3d.writer import write_new
 from markermend.storage import atomic
@@ -45,23 +42,14 @@ def restored(measured, *, step=True, blank=True):
     """A fill on B, a step repaired on A, and samples of C blanked."""
     positions, origin = measured.positions.copy(), np.where(measured.missing, MISSING, 0).astype(np.uint8)
     error = np.where(measured.missing, np.nan, 0.0)
-    facts = {**measured.facts, "repairs": [], "repairs_left": [], "fills": [], "gaps_left": []}
     positions[20:25, 1] = np.linspace(positions[19, 1], positions[25, 1], 7)[1:-1]
     origin[20:25, 1], error[20:25, 1] = FILLED, 1.5
-    facts["fills"].append({"marker": "B", "start": 20, "stop": 25, "method": "linear"})
     if step:
         positions[5:9, 0] += 12.0
         origin[5:9, 0], error[5:9, 0] = ORIGINS.index("step"), 0.5
-        facts["repairs"].append(
-            {"marker": "A", "start": 5, "stop": 9, "class": "step", "method": "offset", "score": 3.0, "axes": "xz"}
-            | {"alternatives": {"offset": 0.5, "local_ridge": 2.345}}
-        )
     if blank:
         positions[30:32, 2], origin[30:32, 2], error[30:32, 2] = np.nan, MISSING, np.nan
-        facts["repairs_left"].append(
-            {"marker": "C", "start": 30, "stop": 32, "class": "slow", "score": 2.0, "reason": "why", "blanked": True}
-        )
-    common = (measured.markers, positions, measured.rate, measured.first_frame, facts)
+    common = (measured.markers, positions, measured.rate, measured.first_frame, measured.facts)
     return Restored(*common, origin, error, 1.5 * error)
 
 
@@ -92,38 +80,6 @@ def test_nothing_changed_gives_the_same_bytes(tmp_path):
     certificate = write_back.write_cleaned(tmp_path / "walk.c3d", tmp_path / "cleaned.c3d", measured, result)
     assert (tmp_path / "walk.c3d").read_bytes() == (tmp_path / "cleaned.c3d").read_bytes()
     assert certificate["changed_samples"] == certificate["changed_bytes"] == 0
-    assert change_table.list_changes(measured, result) == []
-
-
-def test_changes_are_in_the_capture_programs_frames(tmp_path):
-    measured = original(tmp_path / "walk.c3d")
-    rows = list(
-        csv.DictReader(
-            io.StringIO(change_table.changes_table(change_table.list_changes(measured, restored(measured)))),
-            delimiter="\t",
-        )
-    )
-    assert [(r["marker"], r["class"], r["method"], r["first_frame"], r["last_frame"], r["samples"]) for r in rows] == [
-        ("A", "step", "offset", "706", "709", "4"),
-        ("B", "filled", "linear", "721", "725", "5"),
-        ("C", "slow", "blanked", "731", "732", "2"),
-    ]
-    assert float(rows[0]["largest_change_mm"]) == pytest.approx(12 * np.sqrt(3), abs=0.001)
-    assert float(rows[0]["expected_error_mm"]) == 0.5 and float(rows[1]["expected_error_mm"]) == 1.5
-    assert [row["alternatives"] for row in rows] == ["offset 0.5 mm; local_ridge 2.3 mm", "", ""]
-    assert rows[0]["axes"] == "xz" and rows[1]["largest_change_mm"] == ""
-
-
-def test_a_blanked_sample_that_was_filled_is_told_once_with_its_class(tmp_path):
-    measured = original(tmp_path / "walk.c3d")
-    result = restored(measured)
-    result.positions[30:32, 2], result.origin[30:32, 2] = 1.0, FILLED
-    result.error[30:32, 2] = 2.0
-    result.facts["fills"].append({"marker": "C", "start": 30, "stop": 32, "method": "local_ridge"})
-    rows = [row for row in change_table.list_changes(measured, result) if row["marker"] == "C"]
-    (row,) = rows
-    assert (row["class"], row["score"], row["method"], row["samples"]) == ("slow", 2.0, "local_ridge", 2)
-    assert row["largest_change_mm"] > 0
 
 
 def test_an_unnamed_change_is_refused(tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.core.decisions import Ruling
-from markermend.core.reasons import Cause
+from markermend.core.reasons import Cause, Reason
 from markermend.filling.eligibility import Eligibility, max_gap_s
 from markermend.filling.gap import Gap
 from support.fillings import fill_options, restored, rigid_body
@@ -14,12 +14,13 @@ from support.fillings import fill_options, restored, rigid_body
 NAMES = ("A1", "A2", "B1", "B2")
 
 
-def reason(start, stop, *, facts=None, ruling=None, **limits):
+def reason(start, stop, *, facts=None, ruling=None, blanked=(), **limits):
     """The reason for a gap of B1 in 600 frames of 100 Hz."""
     positions = rigid_body(frames=600, markers=4)
     positions[start:stop, 2] = np.nan
     recording = replace(restored(positions, markers=NAMES), facts=facts or {})
-    return Eligibility(recording, fill_options(**limits)).reason_to_leave(Gap(2, start, stop), ruling or Ruling())
+    eligibility = Eligibility(recording, fill_options(**limits), frozenset(blanked))
+    return eligibility.reason_to_leave(Gap(2, start, stop), ruling or Ruling())
 
 
 @pytest.mark.parametrize(
@@ -64,7 +65,7 @@ def test_a_border_must_be_seen_without_a_break():
 
 
 def test_a_marker_that_repair_took_away_was_seen():
-    found = reason(0, 600, facts={"repairs_left": [{"marker": "B1"}]})
+    found = reason(0, 600, blanked=["B1"])
     assert found.text == "nothing of it was left to learn from"
 
 
@@ -76,7 +77,7 @@ def test_a_decision_outweighs_limits_but_not_what_is_certain():
     confirmed = Ruling(confirmed=True)
     assert reason(100, 350, ruling=confirmed) is None
     assert reason(0, 600, ruling=confirmed).cause is Cause.NEVER_SEEN
-    left = reason(200, 220, ruling=Ruling(left="a person decided: reject gap"))
+    left = reason(200, 220, ruling=Ruling(left=Reason(Cause.DECIDED, "a person decided: reject gap")))
     assert (left.cause, left.text) == (Cause.DECIDED, "a person decided: reject gap")
 
 

@@ -8,13 +8,27 @@ FILES = ResultFiles("/out")
 
 def test_names_that_users_scripts_rely_on():
     names = {
-        name: getattr(FILES, name) for name in ("markers", "repaired", "filled", "changes", "certificate", "quality")
+        name: getattr(FILES, name)
+        for name in (
+            "markers",
+            "repaired",
+            "repairs",
+            "filled",
+            "changes",
+            "change_table",
+            "originals",
+            "certificate",
+            "quality",
+        )
     }
     assert names == {
         "markers": "/out/{subject}/{recording}/01_markers.parquet",
         "repaired": "/out/{subject}/{recording}/06_repaired.parquet",
+        "repairs": "/out/{subject}/{recording}/06_changes.parquet",
         "filled": "/out/{subject}/{recording}/07_filled.parquet",
-        "changes": "/out/{subject}/{recording}/changes.tsv",
+        "changes": "/out/{subject}/{recording}/07_changes.parquet",
+        "change_table": "/out/{subject}/{recording}/changes.tsv",
+        "originals": "/out/{subject}/{recording}/originals.parquet",
         "certificate": "/out/{subject}/{recording}/certificate.json",
         "quality": "/out/{subject}/{recording}/08_qc.json",
     }

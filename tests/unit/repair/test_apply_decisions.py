@@ -73,7 +73,7 @@ def test_every_finding_is_kept_or_accounted_for(found, decided):
         for event in found_events:
             parts = [other for other in judged.found[stage] if other.marker == event.marker]
             places = [(part.start, part.stop) for part in parts]
-            places += [(left["start"], left["stop"]) for left in judged.left if left["marker"] == event.marker]
+            places += [(left.start, left.stop) for left in judged.left if left.marker == event.marker]
             assert all(any(a <= frame < b for a, b in places) for frame in range(event.start, event.stop))
 
 
@@ -84,7 +84,7 @@ def test_decisions_on_a_marker_leave_the_others_alone(found, decided):
     before = recording()
     judged = judge(before, found, own)
     assert not changed(before, judged.recording)[:, 2].any()
-    assert not any(left["marker"] == "B" for left in judged.left)
+    assert not any(left.marker == "B" for left in judged.left)
     for stage in CLASSES:
         plain = [event for event in found.get(stage, []) if event.marker == "B"]
         assert [event for event in judged.found[stage] if event.marker == "B"] == plain

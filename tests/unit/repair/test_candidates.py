@@ -17,6 +17,7 @@ from markermend.repair.separation import COURSES
 from support import bodies
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 from support.signals import CONFIG, detect, neighbours, put
+from support.treated import expected
 
 
 @pytest.fixture(scope="module")
@@ -72,11 +73,11 @@ def test_methods_compete_and_all_are_told(clean, deviation, method):
         methods={**METHODS, "slow": ["local_ridge", "vague"]},
         extra=vague,
     )
-    (told,) = result.facts["repairs"]
-    assert told["method"] == method
-    assert told["alternatives"]["vague"] == pytest.approx(1.8 * deviation, abs=1e-3)
+    (told,) = result.repairs
+    assert told.method == method
+    assert expected(told)["vague"] == pytest.approx(1.8 * deviation, abs=1e-3)
     m = clean.markers.index(MARKER)
-    assert told["alternatives"][method] == pytest.approx(result.error[START:STOP, m].max(), abs=1e-3)
+    assert expected(told)[method] == pytest.approx(result.error[START:STOP, m].max(), abs=1e-3)
 
 
 @pytest.mark.parametrize("length", [3, 200])
@@ -85,11 +86,11 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
     recording = distorted(clean, 25.0, START, START + length)
     found = {"noise": [Event(MARKER, START, START + length, 4.0)]}
     result = mend(recording, found, methods={**METHODS, "noise": ["local_ridge", "spline"]}, prefer=1.0)
-    (told,) = result.facts["repairs"]
-    assert told["method"] == min(told["alternatives"], key=told["alternatives"].get)
-    assert len(told["alternatives"]) == 2
+    (told,) = result.repairs
+    assert told.method == min(expected(told), key=expected(told).get)
+    assert len(expected(told)) == 2
     if length > 100:
-        assert told["method"] == "local_ridge"
+        assert told.method == "local_ridge"
     assert error(clean, result, START, START + length).max() < 2
 
 
@@ -101,7 +102,7 @@ def test_every_repaired_sample_has_an_expected_error(clean, method):
     decided = [Decision(MARKER, 700, 704, "accept", "step")]
     result = mend(recording, found, methods={**METHODS, "steps": [method]}, extra=made, decisions=decided)
     m = clean.markers.index(MARKER)
-    assert result.facts["repairs"][0]["alternatives"].keys() == {method}
+    assert expected(result.repairs[0]).keys() == {method}
     assert (result.error[700:704, m] > 0).all() and np.isfinite(result.error[700:704, m]).all()
     assert (result.error95[700:704, m] > result.error[700:704, m]).all()
 
@@ -117,9 +118,9 @@ def test_what_a_repair_would_not_better_stays_as_measured(clean, limit):
         extra=Vague(clean),
     )
     assert np.array_equal(result.positions, clean.positions)
-    (left,) = result.facts["repairs_left"]
-    assert not left["blanked"] and left["alternatives"] == {"vague": 18.0}
-    assert "vague: expected error 18.0 mm for a change of 12.0 mm" in left["reason"]
+    (left,) = result.repairs_left
+    assert left.outcome == "left" and expected(left) == {"vague": 18.0}
+    assert "vague: expected error 18.0 mm for a change of 12.0 mm" in left.reason.text
 
 
 def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_it(clean):
@@ -128,19 +129,19 @@ def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_
     given = {"methods": {**METHODS, "slow": ["vague"]}, "extra": Vague(clean, off=30.0, deviation=0.1)}
     result = mend(recording, found, **given)
     assert np.array_equal(result.positions, recording.positions)
-    assert "30.0 mm from where the neighbours say, measured 5.0 mm" in result.facts["repairs_left"][0]["reason"]
+    assert "30.0 mm from where the neighbours predict it, measured 5.0 mm" in result.repairs_left[0].reason.text
     wanted = mend(recording, found, decisions=[Decision(MARKER, START, STOP, "accept", "slow")], **given)
-    assert wanted.facts["repairs"][0]["method"] == "vague"
+    assert wanted.repairs[0].method == "vague"
 
 
 def test_a_swap_that_is_none_is_left(clean):
     swap = [Event("2b", START, STOP, 1.0, "xyz", "3a"), Event("3a", START, STOP, 1.0, "xyz", "2b")]
     result = mend(clean, {"labels": swap})
     assert np.array_equal(result.positions, clean.positions)
-    assert [left["marker"] for left in result.facts["repairs_left"]] == ["2b", "3a"]
-    assert all("no better with labels exchanged" in left["reason"] for left in result.facts["repairs_left"])
+    assert [left.marker for left in result.repairs_left] == ["2b", "3a"]
+    assert all("no better with labels exchanged" in left.reason.text for left in result.repairs_left)
     wanted = mend(clean, {"labels": swap}, decisions=[Decision("2b", START, STOP, "accept", "swap")])
-    assert len(wanted.facts["repairs"]) == 2
+    assert len(wanted.repairs) == 2
 
 
 def test_a_swap_that_a_gap_interrupts_is_undone(clean):
@@ -150,7 +151,7 @@ def test_a_swap_that_a_gap_interrupts_is_undone(clean):
     positions[START + 5 : STOP - 5, a] = np.nan
     swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
     result = mend(bodies.recording(clean.markers, positions), {"labels": swap})
-    assert len(result.facts["repairs"]) == 2
+    assert len(result.repairs) == 2
     assert np.array_equal(result.positions[:, a], clean.positions[:, a])
 
 
@@ -173,8 +174,8 @@ def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
     covered = mask(found["slow"], recording.frames, recording.markers)
     assert np.array_equal(result.origin == MISSING, covered)
     assert np.array_equal(result.positions[~covered], recording.positions[~covered])
-    (left,) = result.facts["repairs_left"]
-    assert left["class"] == "peak+slow" and left["blanked"]
+    (left,) = result.repairs_left
+    assert left.kind == "peak+slow" and left.outcome == "blanked"
 
 
 def test_a_step_is_taken_off_where_the_neighbours_tell_less_than_the_jumps(clean):
@@ -185,6 +186,6 @@ def test_a_step_is_taken_off_where_the_neighbours_tell_less_than_the_jumps(clean
     positions[:, m] += 3.0 * loose / loose.std()
     wobbly = bodies.recording(clean.markers, positions)
     result = mend(distorted(wobbly, np.array([6.0, -5.0, 4.0])), {"steps": [Event(MARKER, START, STOP, 5.0)]})
-    (told,) = result.facts["repairs"]
-    assert told["method"] == "separate_step" and told["alternatives"]["local_ridge"] > 3
+    (told,) = result.repairs
+    assert told.method == "separate_step" and expected(told)["local_ridge"] > 3
     assert error(wobbly, result).max() < 0.8

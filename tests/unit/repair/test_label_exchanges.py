@@ -48,20 +48,20 @@ def test_what_was_found_inside_is_repaired_under_the_label_of_its_samples(clean,
     recording = with_peak(clean)
     found = {"labels": PAIR, "peaks": [Event("2b", *PEAK, 5.0)]}
     result = mend(recording, found, **REFUSED[why])
-    (repair,) = result.facts["repairs"]
-    assert (repair["marker"], repair["start"], repair["stop"], repair["class"]) == ("3a", *PEAK, "peak")
+    (repair,) = result.repairs
+    assert (repair.marker, repair.start, repair.stop, repair.kind) == ("3a", *PEAK, "peak")
     innocent = other_markers(recording, "3a")
     assert np.array_equal(result.positions[:, innocent], recording.positions[:, innocent])
     m = recording.markers.index("3a")
     assert np.abs(result.positions[:, m] - clean.positions[:, m]).max() < 1
-    assert [left["class"] for left in result.facts["repairs_left"]] == ["swap", "swap"]
+    assert [left.kind for left in result.repairs_left] == ["swap", "swap"]
 
 
 def test_too_much_altered_leaves_all_and_says_so_under_the_label_of_the_samples(clean):
     recording = with_peak(clean)
     result = mend(recording, {"labels": PAIR, "peaks": [Event("2b", *PEAK, 5.0)]}, max_altered_share=0.0)
     assert not changed(recording, result).any()
-    places = [(left["class"], left["marker"]) for left in result.facts["repairs_left"]]
+    places = [(left.kind, left.marker) for left in result.repairs_left]
     assert ("swap+peak", "3a") in places
 
 
@@ -72,7 +72,7 @@ def test_a_confirmed_finding_in_a_refused_recording_follows_its_samples(clean):
     result = mend(
         recording, found, max_altered_share=0.0, decisions=[Decision("3a", START, STOP, "reject", "swap"), *accept]
     )
-    assert [repair["marker"] for repair in result.facts["repairs"]] == ["3a"]
+    assert [repair.marker for repair in result.repairs] == ["3a"]
     innocent = other_markers(recording, "3a")
     assert np.array_equal(result.positions[:, innocent], recording.positions[:, innocent])
 
@@ -88,7 +88,7 @@ def test_a_finding_across_the_border_of_a_rejected_exchange_is_split(clean):
     recording = with_peak(clean)
     found = {"labels": PAIR, "noise": [Event("2b", START - 10, START + 10, 5.0)]}
     result = mend(recording, found, **REFUSED["rejected"])
-    places = [(r["marker"], r["start"], r["stop"]) for r in result.facts["repairs"] + result.facts["repairs_left"][2:]]
+    places = [(r.marker, r.start, r.stop) for r in result.repairs + result.repairs_left[2:]]
     assert sorted(places) == [("2b", START - 10, START), ("3a", START, START + 10)]
 
 
@@ -101,8 +101,8 @@ def test_a_protected_part_of_a_stretch_is_not_exchanged_and_keeps_its_findings(c
     result = mend(recording, {"labels": PAIR, "peaks": [Event("2b", *PEAK, 5.0)]}, decisions=protect)
     assert np.array_equal(result.positions[START:620, a], recording.positions[START:620, a])
     assert np.array_equal(result.positions[620:STOP, [a, b]], clean.positions[620:STOP, [a, b]])
-    told = [*result.facts["repairs"], *result.facts["repairs_left"]]
-    assert [(one["marker"], one["start"]) for one in told if one["class"] == "peak"] == [("3a", PEAK[0])]
+    told = [*result.repairs, *result.repairs_left]
+    assert [(one.marker, one.start) for one in told if one.kind == "peak"] == [("3a", PEAK[0])]
 
 
 @pytest.mark.parametrize("protect", ["2b", "3a", "1a"])
@@ -111,14 +111,14 @@ def test_a_ring_with_a_protected_marker_is_left_whole(clean, protect):
     result = mend(recording, {"labels": RING, "peaks": [Event("2b", *PEAK, 5.0)]}, protect=[protect])
     innocent = other_markers(recording, "3a")
     assert np.array_equal(result.positions[:, innocent], recording.positions[:, innocent])
-    assert len([left for left in result.facts["repairs_left"] if left["class"] == "swap"]) == 3
+    assert len([left for left in result.repairs_left if left.kind == "swap"]) == 3
 
 
 @pytest.mark.parametrize("rejected", ["2b", "3a", "1a"])
 def test_a_ring_of_which_a_person_rejects_one_is_left_whole(clean, rejected):
     result = mend(clean, {"labels": RING}, decisions=[Decision(rejected, START, STOP, "reject")])
     assert not changed(clean, result).any()
-    assert [left["reason"] for left in result.facts["repairs_left"]] == ["a person decided: reject"] * 3
+    assert [left.reason.text for left in result.repairs_left] == ["a person decided: reject"] * 3
 
 
 def test_a_swap_that_a_person_names_stands_in_place_of_what_was_found_on_both_markers(clean):

@@ -8,6 +8,7 @@ from markermend.core.events import Event
 from markermend.core.recording import MEASURED, MISSING, ORIGINS
 from support import bodies
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
+from support.treated import expected
 
 
 @pytest.fixture(scope="module")
@@ -35,9 +36,17 @@ def test_prediction_replaces_noise_and_drift(clean, kind):
     result = mend(recording, {kind: [Event(MARKER, START, STOP, 3.0)]})
     check_only(recording, result, START, STOP, kind)
     assert error(clean, result).max() < 1
-    (told,) = result.facts["repairs"]
-    assert told.pop("alternatives").keys() == {"local_ridge"}
-    assert told == {**vars(Event(MARKER, START, STOP, 3.0)), "class": kind, "method": "local_ridge"}
+    (told,) = result.repairs
+    assert expected(told).keys() == {"local_ridge"}
+    assert (told.marker, told.start, told.stop, told.kind, told.score) == (MARKER, START, STOP, kind, 3.0)
+    assert (told.outcome, told.method, told.samples, told.reason) == ("repaired", "local_ridge", STOP - START, None)
+    m = clean.markers.index(MARKER)
+    span = slice(START, STOP), m
+    moved = np.linalg.norm(result.positions[span] - recording.positions[span], axis=1).max()
+    figures = moved, result.error[span].max(), result.error95[span].max()
+    assert (told.largest_change_mm, told.expected_error_mm, told.expected_error95_mm) == pytest.approx(
+        figures, abs=5e-4
+    )
 
 
 def test_spline_replaces_a_peak_and_states_a_fair_error(clean):
@@ -55,7 +64,7 @@ def test_a_step_is_taken_off_and_its_measured_detail_stays(clean):
     recording = distorted(clean, np.array([9.0, -4.0, 2.0]))
     result = mend(recording, {"steps": [Event(MARKER, START, STOP, 5.0)]})
     check_only(recording, result, START, STOP, "step")
-    assert result.facts["repairs"][0]["method"] == "separate_step"
+    assert result.repairs[0].method == "separate_step"
     m = clean.markers.index(MARKER)
     shift = result.positions[START:STOP, m] - clean.positions[START:STOP, m]
     assert np.abs(shift).max() < 0.3
@@ -78,7 +87,7 @@ def test_swap_is_undone_bit_for_bit(clean):
     result = mend(recording, {"labels": events})
     assert np.array_equal(result.positions, clean.positions)
     assert (result.origin[START:STOP, [a, b]] == ORIGINS.index("swap")).all()
-    assert [(r["marker"], r["partner"], r["class"]) for r in result.facts["repairs"]] == [
+    assert [(r.marker, r.partner, r.kind) for r in result.repairs] == [
         ("2b", "3a", "swap"),
         ("3a", "2b", "swap"),
     ]
@@ -115,7 +124,7 @@ def test_a_swap_with_a_protected_marker_is_left(clean, protect):
     swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
     result = mend(clean, {"labels": swap}, protect=[protect])
     assert np.array_equal(result.positions, clean.positions)
-    assert [left["reason"] for left in result.facts["repairs_left"]] == ["protected", "protected"]
+    assert [left.reason.text for left in result.repairs_left] == ["protected", "protected"]
 
 
 def test_the_neighbours_artifact_does_not_leak_into_a_repair(clean):
@@ -133,24 +142,27 @@ def test_overlapping_classes_become_a_gap(clean):
     m = clean.markers.index(MARKER)
     assert np.isnan(result.positions[START:STOP, m]).all()
     assert (result.origin[START:STOP, m] == MISSING).all()
-    (left,) = result.facts["repairs_left"]
-    assert (left["class"], left["start"], left["stop"], left["blanked"]) == ("peak+slow", START, STOP, True)
+    (left,) = result.repairs_left
+    assert (left.kind, left.start, left.stop, left.outcome) == ("peak+slow", START, STOP, "blanked")
 
 
 def test_what_cannot_be_trusted_becomes_missing_and_says_why(clean):
     recording = distorted(clean, 20.0)
-    for changes, reason in (({"max_error_mm": 1e-6}, "expected error"), ({"max_repair_s": 0.1}, "longer than 0.1 s")):
+    for changes, reason in (
+        ({"max_error_mm": 1e-6}, "repair.max_error_mm: 1e-06"),
+        ({"max_repair_s": 0.1}, "repair.max_repair_s: 0.1"),
+    ):
         result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
         assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
-        assert reason in result.facts["repairs_left"][0]["reason"]
-        assert not result.facts["repairs"]
+        assert reason in result.repairs_left[0].reason.text
+        assert not result.repairs
 
 
 @pytest.mark.parametrize(
     ("changes", "facts", "reason"),
     [
         ({"protect": ["2*"]}, {}, "protected"),
-        ({"max_altered_share": 0.0001}, {}, "more than"),
+        ({"max_altered_share": 0.0001}, {}, "repair.max_altered_share: 0.0001"),
         ({}, {"kind": "static"}, "static"),
     ],
 )
@@ -158,8 +170,8 @@ def test_refusals_leave_every_sample(clean, changes, facts, reason):
     recording = bodies.recording(clean.markers, distorted(clean, 20.0).positions, **facts)
     result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
     assert np.array_equal(result.positions, recording.positions)
-    (left,) = result.facts["repairs_left"]
-    assert reason in left["reason"] and not left["blanked"]
+    (left,) = result.repairs_left
+    assert reason in left.reason.text and left.outcome == "left"
 
 
 @pytest.mark.parametrize(("stage", "kind"), [("frozen", "frozen"), ("tails", "tail")])
@@ -168,8 +180,8 @@ def test_what_nobody_measured_is_missing_says_so_and_can_be_kept(clean, stage, k
     found = {stage: [Event(MARKER, START, STOP, 4.0)]}
     result = mend(recording, found)
     assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
-    (left,) = result.facts["repairs_left"]
-    assert (left["class"], left["blanked"], left["reason"][:12]) == (kind, True, "not measured")
+    (left,) = result.repairs_left
+    assert (left.kind, left.outcome, left.reason.text[:12]) == (kind, "blanked", "not measured")
     decided = [Decision(MARKER, START, STOP, "reject", kind)]
     assert np.array_equal(mend(recording, found, decisions=decided).positions, recording.positions)
     static = bodies.recording(clean.markers, recording.positions, kind="static")
@@ -189,7 +201,7 @@ def test_missing_samples_inside_a_finding_stay_missing(clean):
 def test_selectable_methods_bring_a_peak_closer(clean, method):
     recording = distorted(clean, 15.0, 700, 703)
     result = mend(recording, {"peaks": [Event(MARKER, 700, 703, 5.0)]}, methods={**METHODS, "peaks": [method]})
-    assert result.facts["repairs"][0]["method"] == method
+    assert result.repairs[0].method == method
     assert error(clean, result, 700, 703).max() < error(clean, recording, 700, 703).min()
 
 
@@ -197,4 +209,4 @@ def test_nothing_found_gives_the_recording_back(clean):
     result = mend(clean, {})
     assert np.array_equal(result.positions, clean.positions)
     assert not result.origin.any() and not result.error.any()
-    assert result.facts["repairs"] == result.facts["repairs_left"] == []
+    assert result.repairs == result.repairs_left == []

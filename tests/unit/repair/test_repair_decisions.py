@@ -45,18 +45,18 @@ class Vague:
 def test_what_a_person_accepts_is_repaired_whatever_the_limits(clean, drifting, limits):
     result = mend(drifting, SLOW, decisions=[decide("accept", note="taped")], **limits)
     assert error(clean, result).max() < 1
-    (repair,) = result.facts["repairs"]
-    assert (repair["method"], repair["decisions"]) == ("local_ridge", ["accept (taped)"])
-    assert result.facts["repairs_left"] == []
+    (repair,) = result.repairs
+    assert (repair.method, repair.decisions) == ("local_ridge", ("accept (taped)",))
+    assert result.repairs_left == []
 
 
 def test_the_limit_still_holds_for_all_else(clean, drifting):
     other = Event("1a", 900, 940, 5.0)
     found = {"slow": [*SLOW["slow"], other]}
     result = mend(drifting, found, decisions=[decide("accept")], max_altered_share=0.00001)
-    assert [repair["marker"] for repair in result.facts["repairs"]] == [MARKER]
-    (left,) = result.facts["repairs_left"]
-    assert left["marker"] == "1a" and "more than" in left["reason"] and "decisions" not in left
+    assert [repair.marker for repair in result.repairs] == [MARKER]
+    (left,) = result.repairs_left
+    assert left.marker == "1a" and "repair.max_altered_share" in left.reason.text and not left.decisions
 
 
 def test_no_guard_vetoes_a_person(clean):
@@ -68,17 +68,17 @@ def test_no_guard_vetoes_a_person(clean):
 
 def test_what_a_person_rejects_stays_as_measured(drifting):
     result = mend(drifting, SLOW, decisions=[decide("reject", "slow", "he hops")])
-    assert not changed(drifting, result).any() and result.facts["repairs"] == []
-    (left,) = result.facts["repairs_left"]
-    assert (left["reason"], left["blanked"]) == ("a person decided: reject slow (he hops)", False)
-    assert left["decisions"] == ["reject slow (he hops)"]
-    assert mend(drifting, SLOW, decisions=[decide("reject", "peak")]).facts["repairs"]
+    assert not changed(drifting, result).any() and result.repairs == []
+    (left,) = result.repairs_left
+    assert (left.reason.text, left.outcome) == ("a person decided: reject slow (he hops)", "left")
+    assert left.decisions == ("reject slow (he hops)",)
+    assert mend(drifting, SLOW, decisions=[decide("reject", "peak")]).repairs
 
 
 def test_a_rejected_swap_stays_on_both_markers(clean):
     result = mend(clean, {"labels": SWAP}, decisions=[decide("reject", "swap", marker="3a")])
     assert not changed(clean, result).any()
-    assert [left["marker"] for left in result.facts["repairs_left"]] == ["2b", "3a"]
+    assert [left.marker for left in result.repairs_left] == ["2b", "3a"]
 
 
 def test_protected_frames_stay_and_what_is_around_them_is_repaired(clean, drifting):
@@ -86,24 +86,24 @@ def test_protected_frames_stay_and_what_is_around_them_is_repaired(clean, drifti
     result = mend(drifting, SLOW, decisions=[protect, decide("accept")])
     m = clean.markers.index(MARKER)
     assert np.array_equal(result.positions[610:615, m], drifting.positions[610:615, m])
-    assert [(r["start"], r["stop"]) for r in result.facts["repairs"]] == [(START, 610), (615, STOP)]
-    (left,) = result.facts["repairs_left"]
-    assert (left["start"], left["stop"], left["reason"]) == (610, 615, "a person decided: protect")
+    assert [(r.start, r.stop) for r in result.repairs] == [(START, 610), (615, STOP)]
+    (left,) = result.repairs_left
+    assert (left.start, left.stop, left.reason.text) == (610, 615, "a person decided: protect")
 
 
 def test_a_class_that_a_person_sets_replaces_what_was_found(clean):
     recording = distorted(clean, np.array([9.0, -4.0, 2.0]))
     found = {"noise": [Event(MARKER, START - 3, START + 9, 2.0)], "slow": [Event(MARKER, STOP - 5, STOP + 2, 3.0)]}
     result = mend(recording, found, decisions=[decide("class", "step")])
-    (repair,) = result.facts["repairs"]
-    assert (repair["class"], repair["method"], repair["start"], repair["stop"]) == (
+    (repair,) = result.repairs
+    assert (repair.kind, repair.method, repair.start, repair.stop) == (
         "step",
         "separate_step",
         START,
         STOP,
     )
     assert error(clean, result).max() < 0.3
-    assert {left["reason"] for left in result.facts["repairs_left"]} == {"a person decided: class step"}
+    assert {left.reason.text for left in result.repairs_left} == {"a person decided: class step"}
 
 
 def test_an_artifact_that_no_detector_saw(clean, drifting):
@@ -121,21 +121,21 @@ def test_a_swap_that_no_detector_saw(clean):
     recording.positions[:] = positions
     result = mend(recording, {}, decisions=[decide("class", "swap:3a")])
     assert np.array_equal(result.positions, clean.positions)
-    assert [repair["decisions"] for repair in result.facts["repairs"]] == [["class swap:3a"]] * 2
+    assert [repair.decisions for repair in result.repairs] == [("class swap:3a",)] * 2
 
 
 @pytest.mark.parametrize("method", ["linear", "spline", "savitzky_golay"])
 def test_the_method_is_the_persons(drifting, method):
     result = mend(drifting, SLOW, decisions=[decide("method", method)])
-    (repair,) = result.facts["repairs"]
-    assert (repair["method"], repair["decisions"]) == (method, [f"method {method}"])
+    (repair,) = result.repairs
+    assert (repair.method, repair.decisions) == (method, (f"method {method}",))
 
 
 def test_one_method_for_kinds_that_overlap(clean, drifting):
     found = {"peaks": [Event(MARKER, 610, 613, 2.0)], **SLOW}
     result = mend(drifting, found, decisions=[decide("method", "local_ridge")])
-    (repair,) = result.facts["repairs"]
-    assert (repair["class"], repair["start"], repair["stop"], repair["score"]) == ("slow", START, STOP, 4.0)
+    (repair,) = result.repairs
+    assert (repair.kind, repair.start, repair.stop, repair.score) == ("slow", START, STOP, 4.0)
     assert error(clean, result).max() < 1
 
 
@@ -143,8 +143,8 @@ def test_a_method_that_only_fills_makes_a_gap(clean, drifting):
     result = mend(drifting, SLOW, decisions=[decide("method", "kalman")])
     m = clean.markers.index(MARKER)
     assert np.isnan(result.positions[START:STOP, m]).all()
-    (left,) = result.facts["repairs_left"]
-    assert (left["reason"], left["blanked"]) == ("to be filled by kalman", True)
+    (left,) = result.repairs_left
+    assert (left.reason.text, left.outcome) == ("to be filled by kalman", "blanked")
 
 
 def test_leave_leaves(drifting):
@@ -156,8 +156,8 @@ def test_what_a_person_declares_missing_is_taken_away_and_not_believed(clean, dr
     m = clean.markers.index(MARKER)
     assert (result.origin[START:STOP, m] == MISSING).all()
     assert np.count_nonzero(changed(drifting, result)) == STOP - START
-    (left,) = result.facts["repairs_left"]
-    assert (left["class"], left["blanked"], left["decisions"]) == ("missing", True, ["missing"])
+    (left,) = result.repairs_left
+    assert (left.kind, left.outcome, left.decisions) == ("missing", "blanked", ("missing",))
 
 
 def test_static_recordings_and_protected_markers_are_stronger(clean, drifting):
@@ -175,4 +175,4 @@ def test_decisions_on_other_markers_change_nothing(drifting):
     plain = mend(drifting, SLOW)
     others = [Decision("0a", -EVER, EVER, verb) for verb in ("accept", "reject", "protect")]
     result = mend(drifting, SLOW, decisions=[*others, Decision("?zzz", 0, 9, "missing")])
-    assert np.array_equal(plain.positions, result.positions) and plain.facts == result.facts
+    assert np.array_equal(plain.positions, result.positions) and plain.changes == result.changes

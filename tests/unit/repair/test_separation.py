@@ -172,7 +172,7 @@ def test_what_was_measured_mends_the_prediction(wobbling, kind):
     method, share, change = DAMAGE[kind]
     recording, found = distorted(wobbling, change), {kind: [Event(MARKER, START, STOP, 4.0)]}
     plain, parted = (mend(recording, found, methods={**METHODS, kind: [own]}) for own in ("local_ridge", method))
-    assert parted.facts["repairs"][0]["method"] == method
+    assert parted.repairs[0].method == method
     before, alone, after = (np.sqrt((error(wobbling, one) ** 2).mean()) for one in (recording, plain, parted))
     assert after < share * alone and after < share * before
 
@@ -196,7 +196,7 @@ def test_a_gap_within_stays_a_gap(clean, method):
     m = clean.markers.index(MARKER)
     recording.positions[612:618, m] = np.nan
     result = mend(recording, {"steps": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "steps": [method]})
-    assert result.facts["repairs"][0]["method"] == method
+    assert result.repairs[0].method == method
     assert np.isnan(result.positions[612:618, m]).all() and not np.isnan(result.positions[START:612, m]).any()
 
 
@@ -205,8 +205,8 @@ def test_what_is_too_long_to_part_is_left_to_others(clean):
     given = {**SEPARATION, "most_frames": STOP - START - 1}
     methods = {**METHODS, "steps": ["separate_step"]}
     result = mend(distorted(clean, 12.0), found, methods=methods, separation=given)
-    (left,) = result.facts["repairs_left"]
-    assert left["reason"] == "no repair can be trusted (separate_step: not applicable)"
+    (left,) = result.repairs_left
+    assert left.reason.text == "no repair is accurate enough (separate_step: not applicable)"
 
 
 def test_a_slow_change_may_begin_before_it_was_found(clean):
@@ -229,5 +229,5 @@ def test_beside_a_gap_a_slow_change_begins_where_the_marker_is_seen(clean):
     result = mend(
         recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, methods={**METHODS, "slow": ["separate_slow"]}
     )
-    assert result.facts["repairs"][0]["method"] == "separate_slow"
+    assert result.repairs[0].method == "separate_slow"
     assert np.isnan(result.positions[STOP : STOP + 20, m]).all() and error(clean, result).max() < 1

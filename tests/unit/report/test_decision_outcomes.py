@@ -6,23 +6,22 @@ import io
 import numpy as np
 import pytest
 
+from markermend.core.changes import Change, Outcome
 from markermend.core.recording import Recording
 from markermend.planning.decision_table import COLUMNS
 from markermend.report.decision_outcomes import drafts, outcomes
-from markermend.report.open_findings import Finding
 
-FACTS = {
-    "recording": "walk",
-    "subject": "Bob",
-    "repairs": [{"marker": "LANK", "start": 4, "stop": 6, "partner": None, "decisions": ["accept (hop)"]}],
-    "repairs_left": [{"marker": "LANK", "start": 8, "stop": 9, "decisions": ["reject peak"]}],
-    "fills": [{"marker": "RANK", "start": 2, "stop": 4, "decisions": ["method spline", "accept gap"]}],
-    "gaps_left": [{"marker": "RANK", "start": 7, "stop": 9}],
-}
+CHANGES = [
+    Change("LANK", 4, 6, ("peak",), Outcome.REPAIRED, decisions=("accept (hop)",)),
+    Change("LANK", 8, 9, ("peak",), Outcome.LEFT, decisions=("reject peak",)),
+    Change("RANK", 2, 4, ("gap",), Outcome.FILLED, decisions=("method spline", "accept gap")),
+    Change("RANK", 7, 9, ("gap",), Outcome.LEFT),
+]
 
 
 def result(**facts):
-    return Recording(("LANK", "RANK"), np.zeros((10, 2, 3)), 100.0, 701, {**FACTS, **facts})
+    own = {"recording": "walk", "subject": "Bob", **facts}
+    return Recording(("LANK", "RANK"), np.zeros((10, 2, 3)), 100.0, 701, own)
 
 
 def decide(verb, value="", marker="LANK", first=701, last=710, note=""):
@@ -41,7 +40,7 @@ def decide(verb, value="", marker="LANK", first=701, last=710, note=""):
     ],
 )
 def test_a_decision_that_did_something_is_no_warning(entry, settled):
-    (outcome,) = outcomes([entry], result())
+    (outcome,) = outcomes([entry], result(), CHANGES)
     assert (outcome.settled, outcome.warning) == (settled, None)
 
 
@@ -63,12 +62,14 @@ def test_a_decision_that_did_something_is_no_warning(entry, settled):
     ],
 )
 def test_a_decision_that_did_nothing_says_why(entry, facts, warning):
-    (outcome,) = outcomes([entry], result(**facts))
+    (outcome,) = outcomes([entry], result(**facts), CHANGES)
     assert outcome.settled == 0 and outcome.warning.endswith(warning)
 
 
 def test_lines_for_new_decisions_fit_the_table():
-    text = drafts([Finding("peak", "LANK", 4, 6), Finding("gap", 'R"A\tNK', 0, 1)], result())
+    text = drafts(
+        [Change("LANK", 4, 6, ("peak",), Outcome.LEFT), Change('R"A\tNK', 0, 1, ("gap",), Outcome.LEFT)], result()
+    )
     rows = [dict(zip(COLUMNS, row, strict=True)) for row in csv.reader(io.StringIO(text), delimiter="\t")]
     assert [(row["recording"], row["subject"], row["decision"]) for row in rows] == [("walk", "Bob", "")] * 2
     assert [(row["marker"], row["first_frame"], row["last_frame"], row["value"]) for row in rows] == [

@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 
 import qc
+from markermend.core.applied_changes import applied_changes
+from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
+from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import Recording
-from markermend.export import change_table
+from markermend.export.change_table import change_table
 from support import report_files
 from unit.report.test_rendering import HOSTILE, Page
 
@@ -26,10 +29,10 @@ def restored():
     positions = np.random.default_rng(1).normal(0, 100, (60, 3, 3)).cumsum(axis=0)
     before = report_files.named(Recording(("A", "B", "C"), positions, 100.0, 701), "walk", "Bob")
     after = report_files.restore(before, positions + 1, FOUND, error=1.0, keep=("B",))
-    repairs = [{**entry, "decisions": [f"accept ({HOSTILE})"]} for entry in after.facts["repairs"]]
-    told = {"reason": "a person decided: reject", "decisions": ["reject"]}
-    left = [{**entry, **told} for entry in after.facts["repairs_left"]]
-    return before, replace(after, facts={**after.facts, "repairs": repairs, "repairs_left": left})
+    repairs = [replace(change, decisions=(f"accept ({HOSTILE})",)) for change in after.repairs]
+    reason = Reason(Cause.DECIDED, "a person decided: reject")
+    left = [replace(change, reason=reason, decisions=("reject",)) for change in after.repairs_left]
+    return before, replace(after, changes=(*repairs, *left))
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +44,8 @@ def made(restored, tmp_path_factory):
 
 
 def test_the_table_of_changes_says_what_a_person_decided(restored):
-    text = change_table.changes_table(change_table.list_changes(*restored))
+    before, after = restored
+    text = change_table(applied_changes(before, after, after.changes), after)
     (row,) = csv.DictReader(io.StringIO(text, newline=""), delimiter="\t")
     assert (row["marker"], row["decision"]) == ("A", f"accept ({HOSTILE})")
 
@@ -50,10 +54,12 @@ def test_a_gap_in_place_of_a_finding_carries_the_decisions_on_both(restored):
     before, after = restored
     positions, origin = before.positions.copy(), np.zeros(before.missing.shape, np.uint8)
     positions[30:32, 0], origin[30:32, 0] = 1.0, 6
-    gap = {"marker": "A", "start": 30, "stop": 32, "method": "spline", "decisions": ["method spline", "missing"]}
-    away = {"marker": "A", "start": 30, "stop": 32, "class": "missing", "score": None, "blanked": True, "reason": "x"}
-    facts = {**before.facts, "fills": [gap], "repairs_left": [{**away, "decisions": ["missing"]}]}
-    (row,) = change_table.list_changes(before, replace(after, positions=positions, origin=origin, facts=facts))
+    decisions = ("method spline", "missing")
+    gap = Change("A", 30, 32, ("gap",), Outcome.FILLED, method="spline", decisions=decisions)
+    away = Change("A", 30, 32, ("missing",), Outcome.BLANKED, decisions=("missing",))
+    filled = replace(after, positions=positions, origin=origin)
+    text = change_table(applied_changes(before, filled, [away, gap]), filled)
+    (row,) = csv.DictReader(io.StringIO(text, newline=""), delimiter="\t")
     assert (row["class"], row["method"], row["decision"]) == ("missing", "spline", "missing; method spline")
 
 

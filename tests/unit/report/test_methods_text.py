@@ -8,7 +8,7 @@ import fill
 from markermend.command.stage import flag
 from markermend.planning import config
 from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, limits, paragraph
-from markermend.storage import stage_files
+from markermend.storage import change_file, stage_files
 from support.fillings import CONFIG, restored, rigid_body
 
 NAMES = ("A", "B", "C", "D")
@@ -25,7 +25,10 @@ def fill_file(folder, **averaging):
     own = {**CONFIG["fill"], "ensemble": {**CONFIG["fill"]["ensemble"], **averaging}}
     given = {**CONFIG, **own, "decisions": []}
     options = [f"{flag(name)}={config.text(given[name])}" for name in fill.STAGE.options]
-    files = ["--repaired", folder / "06.parquet", "--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    change_file.write(folder / "06_changes.parquet", [], {"stage": "repair"})
+    files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
+    files += ["--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    files += ["--changes", folder / "07_changes.parquet"]
     fill.main([*map(str, files), *options])
     return stage_files.read_facts(folder / "07.parquet")["options"]
 

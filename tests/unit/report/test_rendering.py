@@ -17,10 +17,11 @@ import report as report_script
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.report import rendering
-from markermend.storage import atomic, stage_files
+from markermend.storage import atomic, change_file, stage_files
 from markermend.storage.folder_names import encode
 from support import report_files
 from support.report_files import Results
+from support.treated import Treated
 
 HOSTILE = "\"'><img src=x onerror=alert(1)></script><script>alert(2)</script>&amp;{{ 7*7 }}"
 VOID = {"meta", "link", "br", "img", "input", "path", "col"}
@@ -140,6 +141,7 @@ def test_equal_recordings_give_equal_bytes_anywhere(made, contaminated, tmp_path
     before, after = (
         stage_files.read_recording(made.folder / f"{name}.parquet") for name in ("01_markers", "07_filled")
     )
+    after = Treated(**vars(after), changes=change_file.read(made.folder / "07_changes.parquet"))
     other = report_files.write(tmp_path / "other place", before, after, contaminated.events)
     qc.main(other.qc())
     for name in ("page.html", "08_qc.json"):
@@ -189,7 +191,7 @@ def test_a_recording_set_aside_by_ingest_is_named_after_its_folders(made, tmp_pa
     folder = tmp_path / encode("Björn & Co") / encode(HOSTILE)
     for name in ("01_markers.parquet", "06_repaired.parquet", "07_filled.parquet"):
         stage_files.set_aside(folder / name, "ingest", f"x.c3d is not a C3D file {HOSTILE}")
-    for name in ("../mesh.json", "certificate.json", "changes.tsv"):
+    for name in ("../mesh.json", "certificate.json", "07_changes.parquet"):
         stage_files.set_aside(folder / name, "ingest", "for the same reason")
     results = Results(folder)
     qc.main(results.qc())
@@ -221,8 +223,8 @@ def test_a_recording_that_export_left_untouched_is_set_aside_with_its_reason(con
 
 def test_qc_sets_aside_what_it_cannot_read(made, tmp_path):
     flags = made.qc()
-    flags[flags.index("--changes") + 1] = str(tmp_path / "changes.tsv")
-    (tmp_path / "changes.tsv").write_text("recording\nx\n")
+    flags[flags.index("--changes") + 1] = str(tmp_path / "07_changes.parquet")
+    stage_files.write_events(tmp_path / "07_changes.parquet", [Event("A", 0, 1, 2.0)], {})
     for name in ("qc", "page"):
         flags[flags.index(f"--{name}") + 1] = str(tmp_path / "s" / "r" / name)
     qc.main(flags)

@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
+from markermend.core.reasons import UNSTATED, Cause, Reason
 from markermend.core.recording import FILLED, MISSING, ORIGINS, Recording, Restored, changed
-from markermend.export import change_table
 from markermend.numerics.intervals import runs
 from markermend.report import summary as report_summary
 from markermend.report import timeline
-from markermend.report.open_findings import UNSTATED, Finding, left_open, open_gaps, read_changes
+from markermend.report.open_findings import left_open, open_gaps, reasons_for_blanking, worst_first
 from markermend.report.plot_data import delta, excerpt
 
 WEIGHTS = {"changed_percent": 2, "missing_percent": 1, "error_mm": 0.5, "open": 3, "warning": 10}
@@ -20,7 +21,13 @@ FOUND = {
     "peaks": [Event("A", 2, 4, 2.5, "xz"), Event("C", 6, 7, 4.0)],
     "steps": [Event("B", 8, 10, 1.5, "xyz", "C")],
 }
-HEADER = "\t".join(change_table.COLUMNS)
+RECORD = [
+    Change("A", 2, 4, ("peak",), Outcome.REPAIRED, 2.5, "xz", method="pchip"),
+    Change("C", 6, 7, ("peak",), Outcome.LEFT, 4.0, reason=Reason(Cause.PROTECTED, "protected")),
+    Change("B", 0, 1, ("peak", "slow"), Outcome.BLANKED, reason=Reason(Cause.UNCERTAIN, "too uncertain")),
+    Change("B", 4, 6, ("gap",), Outcome.FILLED, method="linear"),
+    Change("B", 6, 7, ("gap",), Outcome.LEFT, samples=1, reason=Reason(Cause.NO_METHOD, "no neighbours")),
+]
 
 
 @pytest.fixture
@@ -42,26 +49,16 @@ def after(before: Recording) -> Restored:
     origin[2:4, 0], origin[4:6, 1] = PEAK, FILLED
     error = np.where(origin == MISSING, np.nan, 0.0)
     error[2:4, 0], error[4:6, 1] = 1.0, (2.0, 6.0)
-    facts = {
-        **before.facts,
-        "repairs_left": [
-            {"marker": "C", "start": 6, "stop": 7, "class": "peak", "reason": "protected", "blanked": False},
-            {"marker": "B", "start": 0, "stop": 1, "class": "peak+slow", "reason": "too uncertain", "blanked": True},
-        ],
-        "gaps_left": [{"marker": "B", "start": 6, "stop": 7, "reason": "no neighbours"}],
-        "repairs": [{**vars(FOUND["peaks"][0]), "class": "peak", "method": "pchip"}],
-        "fills": [{"marker": "B", "start": 4, "stop": 6, "method": "linear"}],
-    }
-    return Restored(before.markers, positions, 10.0, 101, facts, origin, error, 2 * error)
+    return Restored(before.markers, positions, 10.0, 101, before.facts, origin, error, 2 * error)
 
 
 @pytest.fixture
-def changes(before: Recording, after: Restored) -> list[Finding]:
-    return read_changes(change_table.changes_table(change_table.list_changes(before, after)), after)
+def changes(before: Recording, after: Restored) -> list[Change]:
+    return worst_first(before, after, RECORD)
 
 
-def summary_of(before: Recording, after: Restored, changes: list[Finding], **more) -> dict:
-    left = left_open(after, FOUND, changes)
+def summary_of(before: Recording, after: Restored, changes: list[Change], **more) -> dict:
+    left = left_open(after, FOUND, changes, RECORD)
     parts = {"found": FOUND, "changes": changes, "left": left, "warnings": ["odd"], "weights": WEIGHTS, **more}
     return report_summary.summarize(before=before, after=after, **parts)
 
@@ -137,7 +134,7 @@ def test_per_marker(before, after):
     assert (rows["B"]["longest_gap_before_s"], rows["B"]["longest_gap_after_s"]) == (0.3, 0.1)
 
 
-def test_changes_are_read_back_worst_first_in_rows(changes):
+def test_changes_are_listed_worst_first(changes):
     assert [(c.kind, c.marker, c.start, c.stop) for c in changes] == [
         ("gap", "B", 4, 6),
         ("peak", "A", 2, 4),
@@ -145,39 +142,31 @@ def test_changes_are_read_back_worst_first_in_rows(changes):
     ]
     peak = changes[1]
     assert (peak.score, peak.axes, peak.method, peak.samples, peak.largest_change_mm) == (2.5, "xz", "pchip", 2, 5.0)
-    assert changes[2].reason == "peak+slow: too uncertain"
+    assert reasons_for_blanking(changes, RECORD) == {changes[2]: "peak+slow: too uncertain"}
     assert changes[0].largest_change_mm is None
 
 
-def test_changes_survive_names_that_need_quotes(after):
-    hostile = 'a"b\tc\nd'
-    row = {name: "" for name in change_table.COLUMNS} | {
-        "marker": hostile, "class": "peak", "first_frame": 103, "last_frame": 103, "samples": 1, "method": "x",
-    }  # fmt: skip
-    (change,) = read_changes(change_table.changes_table([row]), after)
-    assert (change.marker, change.start, change.stop) == (hostile, 2, 3)
-
-
-def test_an_empty_change_log_has_no_changes(after):
-    assert read_changes(HEADER + "\n", after) == []
+def test_a_recording_that_nothing_was_done_to_has_no_changes(before, after):
+    whole = replace(after, positions=before.positions)
+    assert worst_first(before, whole, []) == [] and reasons_for_blanking([], []) == {}
 
 
 def test_left_open_tells_what_and_why(after, changes):
-    left = left_open(after, FOUND, changes)
-    told = [(f.kind, f.marker, f.start, f.stop, f.reason) for f in left]
+    left = left_open(after, FOUND, changes, RECORD)
+    told = [(f.kind, f.marker, f.start, f.stop, f.reason.text) for f in left]
     assert told == [
         ("peak", "C", 6, 7, "protected"),
-        ("step", "B", 8, 10, UNSTATED),
-        ("gap", "B", 0, 1, UNSTATED),
+        ("step", "B", 8, 10, UNSTATED.text),
+        ("gap", "B", 0, 1, UNSTATED.text),
         ("gap", "B", 6, 7, "no neighbours"),
-        ("gap", "C", 9, 10, UNSTATED),
+        ("gap", "C", 9, 10, UNSTATED.text),
     ]
     assert (left[0].score, left[1].partner) == (4.0, "C")
 
 
 def test_gaps_are_listed_longest_first(before, after):
     restored = replace(after, positions=before.positions)
-    assert [(g.marker, g.samples) for g in open_gaps(restored)] == [("B", 3), ("C", 1)]
+    assert [(g.marker, g.samples) for g in open_gaps(restored, RECORD)] == [("B", 3), ("C", 1)]
 
 
 def unpack(series):
@@ -205,7 +194,7 @@ def test_a_long_excerpt_thins_its_frames(before, after, changes):
 
 
 def test_a_swap_shows_its_partner(before, after):
-    cut = excerpt(Finding("swap", "A", 2, 4, partner="C"), before, after, context_s=0.1, frames=100)
+    cut = excerpt(Change("A", 2, 4, ("swap",), Outcome.LEFT, partner="C"), before, after, context_s=0.1, frames=100)
     ((offset, values),) = unpack(cut["partner"])
     np.testing.assert_allclose(values, before.positions[1:5, 2], atol=0.005)
     assert offset == 0

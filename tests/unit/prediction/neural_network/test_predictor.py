@@ -19,9 +19,10 @@ from markermend.prediction.neural_network.inputs import chosen, completed, featu
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene, Trainable
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import change_file, mesh_file, stage_files
 from support.fillings import CONFIG, neighbours, restored, rigid_body, settings
 from support.paths import PROJECT
+from support.treated import weights
 
 OPTIONS = NeuralNetworkOptions(**settings()["networks"])
 
@@ -229,13 +230,15 @@ print("torch" in sys.modules)
 
 
 def stage(folder, names):
-    """Run the fill stage; what it wrote, and whether torch was imported."""
+    """Run the fill stage; the changes that it wrote, and whether torch was imported."""
     given = {**CONFIG, **CONFIG["fill"], "members": names, "networks": settings()["networks"], "decisions": []}
     options = [f"{flag(name)}={workflow_settings.text(given[name])}" for name in fill.STAGE.options]
-    files = ["--repaired", folder / "06.parquet", "--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
+    files += ["--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
+    files += ["--changes", folder / "07_changes.parquet"]
     command = [sys.executable, "-c", FILL, *map(str, files), *options]
     done = subprocess.run(command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
-    return stage_files.read_recording(folder / "07.parquet"), done.stdout.split()[-1] == "True"
+    return change_file.read(folder / "07_changes.parquet"), done.stdout.split()[-1] == "True"
 
 
 def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_path):
@@ -243,15 +246,16 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
     names = tuple(f"M{m}" for m in range(person.shape[1]))
     recording = restored(gapped, markers=names, recording="walk", kind="dynamic")
     stage_files.write_recording(tmp_path / "06.parquet", recording, {"stage": "repair"})
+    change_file.write(tmp_path / "06_changes.parquet", [], {"stage": "repair"})
     ranked = {name: [names[other] for other in near] for name, near in zip(names, neighbours(person), strict=True)}
     body = {"recordings": ["walk"], "markers": names, "segments": [], "predictors": ranked, "neighbours": ranked}
     (tmp_path / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
     assert mesh_file.read(tmp_path / "mesh.json", "walk").markers == names
     usual, torch = stage(tmp_path, CONFIG["fill"]["members"])
-    assert len(usual.facts["fills"]) == 2 and not torch
+    assert [change.outcome for change in usual] == ["filled"] * 2 and not torch
     learned, torch = stage(tmp_path, ["network_linear"])
-    assert len(learned.facts["fills"]) == 2 and torch
-    assert {name for entry in learned.facts["fills"] for name in entry["weights"]} == {"network_linear"}
+    assert len(learned) == 2 and torch
+    assert {name for change in learned for name in weights(change)} == {"network_linear"}
 
 
 def test_siblings_and_parent_marker_are_the_first_inputs(person):
