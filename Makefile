@@ -5,7 +5,7 @@ CORES ?= all
 # Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo test lint lock clean
+.PHONY: demo test wheel lint lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -14,7 +14,11 @@ demo: .venv/ready
 	@echo "$(CURDIR)/demo/results/report/index.html"
 
 test: lint
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network"
+
+# The package in an empty environment; needs a package index.
+wheel: .venv/ready
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m network
 
 lint: .venv/ready
 	$(BIN)/ruff check .

@@ -1,0 +1,74 @@
+"""The package as people install it: a wheel in an empty environment, with the workflow in it."""
+
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from support.workflow_runs import PROJECT, Project, write_recording
+
+pytestmark = pytest.mark.network
+
+HERE = "markermend/installed_workflow"
+
+
+def run(*command: str | Path, cwd: Path | None = None) -> str:
+    """Run a command, which must succeed, and return what it printed."""
+    done = subprocess.run(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory) -> Path:
+    """The wheel of this checkout."""
+    folder = tmp_path_factory.mktemp("wheel")
+    pip = [sys.executable, "-m", "pip"]
+    offline = subprocess.run([*pip, "download", "--quiet", "--no-deps", "--dest", folder, "hatchling"])
+    if offline.returncode:
+        pytest.skip("no package index can be reached")
+    run(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, PROJECT)
+    return next(folder.glob("markermend-*.whl"))
+
+
+@pytest.fixture(scope="module")
+def environment(wheel, tmp_path_factory) -> Path:
+    """The programs of an environment with nothing but the wheel and what it needs, in the locked versions."""
+    folder = tmp_path_factory.mktemp("environment")
+    lock = (PROJECT / "requirements.lock").read_text(encoding="utf-8")
+    pins = "\n".join(re.findall(r"^[A-Za-z0-9._-]+==[^ ;\\\n]+(?: ;[^\\\n]+)?", lock, re.MULTILINE))
+    (folder / "constraints.txt").write_text(pins, encoding="utf-8")
+    run(sys.executable, "-m", "venv", folder / "venv")
+    run(folder / "venv/bin/pip", "install", "--quiet", "--constraint", folder / "constraints.txt", wheel)
+    return folder / "venv/bin"
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory) -> Project:
+    """A checkout with one recording, and its results."""
+    project = Project(tmp_path_factory.mktemp("checkout"))
+    write_recording(project.recordings / "S01/a.c3d", seed=1)
+    project.run()
+    return project
+
+
+def test_the_wheel_holds_the_package_and_the_workflow(wheel):
+    names = set(zipfile.ZipFile(wheel).namelist())
+    scripts = {f"{HERE}/scripts/{path.name}" for path in (PROJECT / "scripts").glob("*.py")}
+    rules = {f"{HERE}/workflow/rules/{path.name}" for path in (PROJECT / "workflow/rules").iterdir()}
+    others = {"markermend/py.typed", "markermend/report/templates/page.html.j2", f"{HERE}/Snakefile"}
+    assert names >= scripts | rules | others | {f"{HERE}/config/config.yaml"}
+    assert not [name for name in names if "__pycache__" in name or name.startswith(f"{HERE}/scripts/markermend")]
+
+
+def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, project, tmp_path):
+    config = [f"recordings={project.recordings}", f"results={tmp_path / 'out'}"]
+    text = run(environment / "markermend", "--cores", "2", "--config", *config, cwd=tmp_path)
+    assert "1 recordings: 1 cleaned" in text
+    here, there = tmp_path / "out/S01/a", project.results / "S01/a"
+    names = [path.name for path in there.iterdir() if path.is_file()]
+    assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
+    assert [name for name in names if (here / name).read_bytes() != (there / name).read_bytes()] == []
