@@ -39,7 +39,7 @@ class Result(Protocol):
 
 def treated(result: Result) -> Treated:
     """What repair or filling returned, in one."""
-    return Treated(**vars(result.recording), changes=result.changes)
+    return Treated(**{**vars(result.recording), "changes": result.changes})
 
 
 def expected(change: Change) -> dict[str, float]:

@@ -34,7 +34,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
     -------
     str
         Tab-separated text with a header. The column `decision` has what a person decided, `alternatives` what each
-        method was expected to err by at worst.
+        method was expected to err by at worst, by name.
     """
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
@@ -46,6 +46,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
 def _row(change: Change, recording: Recording) -> dict[str, Any]:
     """One row of the table. Axes and partner are stated of repairs alone: what was taken away concerns all axes."""
     repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED)
+    alternatives = sorted(change.alternatives, key=lambda other: other.method)
     return {
         "recording": recording.facts.get("recording", ""),
         "marker": change.marker,
@@ -62,7 +63,7 @@ def _row(change: Change, recording: Recording) -> dict[str, Any]:
         "largest_change_mm": _figure(change.largest_change_mm),
         "expected_error_mm": _figure(change.expected_error_mm),
         "decision": "; ".join(change.decisions),
-        "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in change.alternatives),
+        "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in alternatives),
     }
 
 

@@ -39,7 +39,7 @@ def test_figures_are_blank_where_there_are_none():
     step, swap, fill, blanked = rows(CHANGES)
     assert (step["recording"], step["start_s"], step["stop_s"], step["score"]) == ("walk", "0.05", "0.09", "3.0")
     assert (step["largest_change_mm"], step["expected_error_mm"], step["samples"]) == ("20.785", "0.5", "4")
-    assert step["alternatives"] == "offset 0.5 mm; local_ridge 2.3 mm"
+    assert step["alternatives"] == "local_ridge 2.3 mm; offset 0.5 mm"
     assert step["decision"] == "accept (hop); method offset"
     assert (fill["score"], fill["largest_change_mm"], fill["alternatives"]) == ("", "", "")
     assert [row["axes"] for row in (step, swap, blanked)] == ["xz", "xyz", ""]
