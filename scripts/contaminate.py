@@ -1,7 +1,7 @@
-"""Damage recordings in known ways, for tests and experiments, with the truth beside them.
+"""Contaminate recordings in known ways, for tests and experiments, and write the truth.
 
-Writes: FOLDER/{subject}/{file}, copies of the recordings in which only damaged samples differ;
-TRUTH/{subject}/{recording}/ with {class}.parquet for each class of artifacts, and gaps.parquet, the damage as events;
+Writes: FOLDER/{subject}/{file}, copies of the recordings in which only contaminated samples differ;
+TRUTH/{subject}/{recording}/ with {class}.parquet for each class of artifacts, and gaps.parquet, the contamination as events;
 TRUTH/truth.tsv, all of it as a table.
 """
 
@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from markermend.planning import recordings
-from markermend.simulation.contaminated_files import Damaged, table
-from markermend.simulation.protocols import PROCEDURES
+from markermend.simulation.contaminated_files import ContaminatedFile, table
+from markermend.simulation.protocols import PROTOCOLS
 from markermend.storage import atomic
 
 
@@ -24,10 +24,12 @@ def main(argv: list[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--recordings", required=True, help="a folder of recordings, as the workflow takes it")
-    parser.add_argument("--folder", type=Path, required=True, help="where the damaged copies go")
+    parser.add_argument("--folder", type=Path, required=True, help="where the contaminated copies go")
     parser.add_argument("--truth", type=Path, required=True, help="where the truth goes, outside of the copies")
     parser.add_argument("--seed", type=int, required=True, help="equal seeds give equal files")
-    parser.add_argument("--procedure", choices=list(PROCEDURES), default="paper", help="see markermend/procedures.py")
+    parser.add_argument(
+        "--protocol", choices=list(PROTOCOLS), default="paper", help="see markermend/simulation/protocols.py"
+    )
     parser.add_argument("--amplitude-mm", type=float, default=10.0, help="mean amplitude, mm")
     parser.add_argument(
         "--share", type=float, default=0.1, help="share of the time distorted; 0.1 of practice is common"
@@ -36,13 +38,13 @@ def main(argv: list[str] | None = None) -> None:
         "--unlabelled", nargs="*", default=[], help="regular expressions, as in config ingest.unlabelled"
     )
     flags = parser.parse_args(argv)
-    settings = {"amplitude": flags.amplitude_mm, "share": flags.share, "unlabelled": flags.unlabelled}
+    options = {"amplitude": flags.amplitude_mm, "share": flags.share, "unlabelled": flags.unlabelled}
     rows = []
     for number, entry in enumerate(recordings.find(flags.recordings, str(flags.folder))):
         rng = np.random.default_rng([flags.seed, number])
-        damaged = Damaged.of(entry, PROCEDURES[flags.procedure], rng=rng, **settings)
-        damaged.write(flags.folder, flags.truth)
-        rows += damaged.rows
+        contaminated = ContaminatedFile.of(entry, PROTOCOLS[flags.protocol], rng=rng, **options)
+        contaminated.write(flags.folder, flags.truth)
+        rows += contaminated.rows
     atomic.write_text(flags.truth / "truth.tsv", table(rows))
 
 

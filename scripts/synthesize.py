@@ -1,8 +1,8 @@
-"""Make a small data set of synthetic motion capture sessions, with the truth beside it.
+"""Make a small data set of synthetic motion capture sessions, and write the truth.
 
 Writes: FOLDER/{subject}/{static,daily,gait}.c3d, the recordings: the static trials and the gait of every second subject
 are clean, the others have artifacts, swapped labels and gaps; TRUTH/{subject}/{recording}/: clean.parquet, the complete
-trajectories, and peaks, noise, steps, slow and gaps.parquet, the damage as events.
+trajectories, and peaks, noise, steps, slow and gaps.parquet, the contamination as events.
 """
 
 import argparse

@@ -48,14 +48,14 @@ def walker() -> Walker:
 def contaminated(walker: Walker) -> Contaminated:
     """The walker with well visible artifacts of every class, two swaps, and gaps of every sort."""
     clean = walker.recording
-    damage = Contamination(clean.positions, clean.markers, margin=30, alone=False, rng=np.random.default_rng(5))
+    damage = Contamination(clean.positions, clean.markers, margin=30, one_at_a_time=False, rng=np.random.default_rng(5))
     damage.gap(length=integers(20, 60), markers=1, at="start", count=1)
     damage.gap(length=integers(20, 60), markers=1, at="stop", count=1)
     damage.gap(length=integers(200, 300), markers=1, at="anywhere", count=1)
     damage.gap(length=integers(30, 60), markers=["LFIN", "LIDX", "LPKY"], at="anywhere", count=1)
     damage.gap(length=integers(30, 60), markers=3, at="anywhere", count=1)
     damage.gap(length=integers(3, 60), markers=1, at="anywhere", count=5)
-    damage.swap(length=integers(20, 80), within=250.0, count=2)
+    damage.swap(length=integers(20, 80), within_mm=250.0, count=2)
     damage.add("slow", Recipe(uniform(15.0, 30.0), integers(80, 180), 2), count=4)
     damage.add("steps", Recipe(uniform(15.0, 40.0), integers(25, 150), 3), count=4)
     damage.add("noise", Recipe(uniform(4.0, 8.0), integers(40, 100), 3), count=4)

@@ -4,10 +4,10 @@ Reads: the clean recordings named on the command line, the workflow's config, be
 Writes: tables to stdout, one set for each condition (amplitude, share, preset) and group of recordings, over all seeds.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --amplitudes 10 --shares 0.1 --jobs 2
-    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --procedure practice --presets default --seeds 10 11 12
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --protocol practice --presets default --seeds 10 11 12
 
-Damage is the procedure of skurowski2022 (section 4.1.3): a share of the time distorted, one marker at a time, in equal
-shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--procedure practice`, what that
+The contamination is the protocol of skurowski2022 (section 4.1.3): a share of the time distorted, one marker at a time, in equal
+shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--protocol practice`, what that
 leaves out (markermend.simulation.protocols.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
 
 Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
@@ -55,7 +55,7 @@ from markermend.prediction.registry import REGISTRY, SHARED, members
 from markermend.prediction.scene import Scene
 from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
-from markermend.simulation.protocols import PROCEDURES
+from markermend.simulation.protocols import PROTOCOLS
 
 UNMEASURED = {
     "frozen": (frozen.detect_frozen, FrozenOptions),
@@ -69,10 +69,10 @@ GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02",
 """Recordings by how much goes on in them; all others are in a group by themselves."""
 
 
-def damage(clean: Recording, *, amplitude: float, share: float, seed: int, procedure: str = "paper") -> Contamination:
+def damage(clean: Recording, *, amplitude: float, share: float, seed: int, protocol: str = "paper") -> Contamination:
     """Contaminate a recording."""
     given = {"amplitude": amplitude, "share": share, "rng": np.random.default_rng(seed)}
-    return PROCEDURES[procedure](clean.positions, clean.markers, rate=clean.rate, **given)
+    return PROTOCOLS[protocol](clean.positions, clean.markers, rate=clean.rate, **given)
 
 
 def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
@@ -202,13 +202,13 @@ def group_of(path: Path) -> str:
 def conditions(arguments: argparse.Namespace) -> Iterator[dict]:
     """What `damage` is asked for, but for the seed."""
     for amplitude, share in product(arguments.amplitudes, arguments.shares):
-        yield {"procedure": arguments.procedure, "amplitude": amplitude, "share": share}
+        yield {"protocol": arguments.protocol, "amplitude": amplitude, "share": share}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
-    parser.add_argument("--procedure", choices=PROCEDURES, default="paper", help="how to damage them")
+    parser.add_argument("--protocol", choices=PROTOCOLS, default="paper", help="how to damage them")
     parser.add_argument("--amplitudes", type=float, nargs="+", default=[5, 10], help="mean amplitudes, mm")
     parser.add_argument(
         "--shares", type=float, nargs="+", default=[0.05, 0.1, 0.2], help="shares of the time distorted"
@@ -230,7 +230,7 @@ def main() -> None:
                 told = ", ".join(f"{key} {value}" for key, value in condition.items())
                 print(f"{path.stem}, seed {seed}, {told}", file=sys.stderr)
             for name, preset in sorted(totals, key=lambda key: key[0] == "all recordings"):
-                title = f"{name}: {condition['procedure']}, {condition['amplitude']:g} mm, {condition['share']:.0%}, {preset}"
+                title = f"{name}: {condition['protocol']}, {condition['amplitude']:g} mm, {condition['share']:.0%}, {preset}"
                 print_outcome(title, totals[name, preset])
 
 

@@ -113,8 +113,8 @@ def walker(frames, markers, rate=100.0, seed=1):
     body = replace(
         body,
         markers=tuple(f"{body.markers[place]}{number}" for number, place in enumerate(on)),
-        on=body.on[on],
-        places=body.places[on] + apart * rng.normal(0.0, 1.0, (markers, 3)),
+        marker_segments=body.marker_segments[on],
+        marker_offsets=body.marker_offsets[on] + apart * rng.normal(0.0, 1.0, (markers, 3)),
         tissue=body.tissue[on],
         compliance=body.compliance[on],
     )

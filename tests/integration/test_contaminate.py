@@ -25,11 +25,11 @@ def made(request, tmp_path_factory, walker):
     return folder, request.param
 
 
-def run(folder, procedure, damaged, truth):
+def run(folder, protocol, damaged, truth):
     given = {"recordings": "clean", "folder": damaged, "truth": truth}
     flags = [word for name, place in given.items() for word in (f"--{name}", str(folder / place))]
-    share = {"paper": "0.1", "practice": "0.6"}[procedure]
-    contaminate.main([*flags, "--seed", "3", "--procedure", procedure, "--share", share])
+    share = {"paper": "0.1", "practice": "0.6"}[protocol]
+    contaminate.main([*flags, "--seed", "3", "--protocol", protocol, "--share", share])
 
 
 def read(path):
@@ -38,13 +38,13 @@ def read(path):
 
 @pytest.mark.parametrize("name", ["a", "b"])
 def test_only_what_the_truth_names_differs(made, name):
-    folder, procedure = made
+    folder, protocol = made
     paths = folder / "clean/S01" / f"{name}.c3d", folder / "damaged/S01" / f"{name}.c3d"
     before, after = (read(path) for path in paths)
     truth = folder / "truth/S01" / name
     found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.CLASSES, "gaps")}
     assert {kind for kind, own in found.items() if own} >= {"peaks", "noise", "steps", "slow"}
-    assert bool(found["gaps"]) == bool(found["frozen"]) == bool(found["tails"]) == (procedure == "practice")
+    assert bool(found["gaps"]) == bool(found["frozen"]) == bool(found["tails"]) == (protocol == "practice")
     shape = before.recording.frames, before.recording.markers
     covered = sum(events.mask(own, *shape) for own in found.values()).astype(bool)
     differs = changed(before.recording, after.recording)
@@ -84,8 +84,8 @@ def test_the_table_names_every_event_in_the_capture_programs_frames(made):
 
 
 def test_equal_seeds_give_equal_files(made, tmp_path):
-    folder, procedure = made
-    run(folder, procedure, "again", "truth_again")
+    folder, protocol = made
+    run(folder, protocol, "again", "truth_again")
     for one in sorted((folder / "damaged").rglob("*.c3d")):
         assert one.read_bytes() == (folder / "again" / one.relative_to(folder / "damaged")).read_bytes()
     tables = [(folder / place / "truth.tsv").read_bytes() for place in ("truth", "truth_again")]

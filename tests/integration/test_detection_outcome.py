@@ -57,7 +57,7 @@ def test_a_sample_has_the_class_that_is_found_first():
 
 def test_forms_count_what_was_found_and_found_right():
     clean = recording()
-    harm = Contamination(clean.positions, MARKERS, margin=2, alone=False, rng=np.random.default_rng(3))
+    harm = Contamination(clean.positions, MARKERS, margin=2, one_at_a_time=False, rng=np.random.default_rng(3))
     recipe = Recipe(uniform(9.0, 10.0), integers(10, 10), 3)
     harm.put("steps", recipe, marker=0, start=20, stop=30)
     harm.put("steps", recipe, marker=1, start=50, stop=60, form="together")
@@ -74,7 +74,7 @@ def test_forms_count_what_was_found_and_found_right():
 def test_damage_is_found_counted_and_told(walker, capsys):
     config = detection.CONFIG
     clean = replace(walker.recording, positions=walker.recording.positions[:500])
-    condition = {"procedure": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
+    condition = {"protocol": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
     total = Outcome()
     ignored = np.zeros(clean.missing.shape, bool)
     judged = detection.judge(clean, config, ignored=ignored, presets=["default"], **condition)

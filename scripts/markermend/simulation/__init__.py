@@ -1,1 +1,1 @@
-"""Recordings with a known truth: a synthetic person, and artifacts put into real recordings."""
+"""Synthetic recordings of a walking person, and known contamination of clean ones."""

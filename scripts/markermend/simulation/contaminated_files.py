@@ -1,4 +1,4 @@
-"""Damaged copies of real recordings, and the truth about them as events and as a table."""
+"""Contaminated copies of real recordings, and the truth about them as events and as a table."""
 
 from __future__ import annotations
 
@@ -24,48 +24,84 @@ COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Damaged:
-    """A recording and what is put into it."""
+class ContaminatedFile:
+    """A recording and its contamination.
+
+    Attributes
+    ----------
+    entry : Entry
+        Where the recording is, and its names.
+    reading : Reading
+        What its file holds.
+    contamination : Contamination
+        What is put into it.
+    """
 
     entry: Entry
     reading: Reading
-    damage: Contamination
+    contamination: Contamination
 
     @classmethod
     def of(
-        cls, entry: Entry, procedure: Callable[..., Contamination], *, unlabelled: Sequence[str], **settings: Any
-    ) -> Damaged:
-        """Read a recording and damage it; settings: what the procedure takes beside positions, markers and rate.
+        cls, entry: Entry, protocol: Callable[..., Contamination], *, unlabelled: Sequence[str], **options: Any
+    ) -> ContaminatedFile:
+        """Read a recording and contaminate it.
 
-        Raises BadRecording for a file that cannot be used, ValueError where the damage has no room.
+        Parameters
+        ----------
+        entry : Entry
+            Where the recording is, and its names.
+        protocol : callable
+            One of protocols.PROTOCOLS.
+        unlabelled : sequence of str
+            Regular expressions for the names of unlabelled trajectories.
+        **options : Any
+            What the protocol takes besides positions, markers and rate.
+
+        Returns
+        -------
+        ContaminatedFile
+            The recording and its contamination.
+
+        Raises
+        ------
+        BadRecording
+            If the file cannot be used.
+        ValueError
+            If the recording is too short for the contamination.
         """
         reading = files.read(Path(entry.source), unlabelled=unlabelled, rate=entry.rate)
         clean = reading.recording
-        return cls(entry, reading, procedure(clean.positions, clean.markers, rate=clean.rate, **settings))
+        return cls(entry, reading, protocol(clean.positions, clean.markers, rate=clean.rate, **options))
 
     @property
     def events(self) -> dict[str, list[Event]]:
         """The truth by class, and the gaps that were made."""
-        gaps = [Event(marker, start, stop, 1.0) for marker, start, stop in sorted(self.damage.gaps)]
-        return {**self.damage.events, "gaps": gaps}
+        return {**self.contamination.events, "gaps": self.contamination.gap_events}
 
     @property
     def rows(self) -> list[dict[str, Any]]:
         """The truth as rows of the table, by marker and frame."""
         first = self.reading.recording.first_frame
-        amplitudes = {(a.marker, a.start): a.amplitude for a in self.damage.artifacts}
+        amplitudes = {(a.marker, a.start): a.amplitude for a in self.contamination.artifacts}
         rows = []
         for kind, event in ((kind, event) for kind, events in self.events.items() for event in events):
             size = amplitudes.get((event.marker, event.start), (0.0, 0.0, 0.0)) if kind != "gaps" else (0.0, 0.0, 0.0)
-            told = (kind, event.marker, first + event.start, first + event.stop - 1, event.axes, event.partner or "")
+            place = (kind, event.marker, first + event.start, first + event.stop - 1, event.axes, event.partner or "")
             sizes = [round(mm, 3) if any(size) else "" for mm in size]
-            rows.append(dict(zip(COLUMNS, (self.entry.subject, self.entry.recording, *told, *sizes), strict=True)))
+            rows.append(dict(zip(COLUMNS, (self.entry.subject, self.entry.recording, *place, *sizes), strict=True)))
         return sorted(rows, key=lambda row: (row["marker"], row["first_frame"], row["class"]))
 
     def write(self, folder: Path, truth: Path) -> None:
-        """Write the copy below `folder`, with nothing but the damaged samples changed, and its events below `truth`."""
+        """Write the contaminated copy, with nothing but the contaminated samples changed, and the truth.
+
+        Parameters
+        ----------
+        folder, truth : Path
+            The folders below which the copy and its events go.
+        """
         clean, source = self.reading.recording, Path(self.entry.source)
-        harmed = replace(clean, positions=self.damage.positions)
+        contaminated = replace(clean, positions=self.contamination.positions)
         subject, name = self.entry.folders
         target = folder / subject / source.name
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -74,8 +110,8 @@ class Damaged:
                 source,
                 temporary,
                 format=self.reading.format,
-                positions=harmed.positions,
-                changed=changed(clean, harmed),
+                positions=contaminated.positions,
+                changed=changed(clean, contaminated),
                 columns=self.reading.columns,
             )
         for kind, events in self.events.items():
@@ -83,7 +119,18 @@ class Damaged:
 
 
 def table(rows: Iterable[Mapping[str, Any]]) -> str:
-    """The rows of the truth as tab-separated text with a header."""
+    """Write the truth as a table.
+
+    Parameters
+    ----------
+    rows : iterable of mapping of str to Any
+        As ContaminatedFile.rows gives them.
+
+    Returns
+    -------
+    str
+        Tab-separated text with a header.
+    """
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
     writer.writeheader()

@@ -1,4 +1,4 @@
-"""Procedures of contamination: that of the artifact detection paper, and damage as it comes in practice."""
+"""Protocols of contamination: that of the artifact detection paper, and artifacts as they occur in practice."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from markermend.simulation.artifact_models import Draw, Recipe, integers, normal
 from markermend.simulation.contamination import Contamination
 
 SPREAD = 0.4
-"""Standard deviation of an amplitude, as a part of its mean (skurowski2022: 5 mm with 2, 10 mm with 4)."""
+"""Standard deviation of an amplitude, as a fraction of its mean (skurowski2022: 5 mm with 2, 10 mm with 4)."""
 
 PRACTICE = (
     ("steps", (0.06, 1.0), 4),
@@ -19,14 +19,25 @@ PRACTICE = (
     ("slow", (0.4, 1.5), 4),
     ("peaks", (0.0, 0.05), 10),
 )
-"""Class, duration in s, and number in a minute of 40 markers, in `in_practice`."""
+"""Class, duration in s, and number in a minute of 40 markers, of `in_practice`."""
 
 NEAR_MM = 250.0
-"""Markers nearer to each other than this are swapped in `in_practice`."""
+"""Labels of markers nearer to each other than this are exchanged in `in_practice`."""
 
 
 def recipes(amplitude: float) -> dict[str, Recipe]:
-    """The paper's recipes: normal amplitudes (mm), 50 samples on average, peaks of 1 to 5; on all axes."""
+    """Give the recipes of the paper's protocol.
+
+    Parameters
+    ----------
+    amplitude : float
+        Mean amplitude in mm.
+
+    Returns
+    -------
+    dict of str to Recipe
+        By class: normal amplitudes, 50 frames on average, peaks of 1 to 5, on all axes.
+    """
     size = normal(amplitude, SPREAD * amplitude)
     bulk = {kind: Recipe(size, poisson(50), 3) for kind in ("noise", "steps", "slow")}
     return {**bulk, "peaks": Recipe(size, integers(1, 5), 3)}
@@ -41,14 +52,39 @@ def in_practice(
     share: float,
     rng: np.random.Generator,
 ) -> Contamination:
-    """Damage trajectories in the ways that the paper leaves out; with a share of 0.1, as much as is common in raw data.
+    """Contaminate trajectories in the ways that the paper leaves out.
 
-    Artifacts hit one to three axes, come alone, on three neighbouring markers at once, as bursts of peaks, beside gaps, at
-    the ends of the recording, and as peaks and noise upon slow changes and steps. Labels of two and three markers are
-    swapped for a frame up to two seconds, and for good; markers freeze; gaps come alone, on three markers and with noisy
-    tails. positions: (frames, markers, 3), mm. rate: Hz. amplitude: mean, mm. Raises ValueError where there is no room.
+    Artifacts alter one to three axes. They occur alone, on three neighbouring markers at once, as bursts of peaks, next
+    to gaps, at the ends of the recording, and as peaks and noise on top of slow changes and steps. Labels of two and
+    three markers are exchanged for a frame up to two seconds, and for good; markers freeze; gaps occur alone, on three
+    markers at once and with noisy tails.
+
+    Parameters
+    ----------
+    positions : ndarray of float, shape (frames, markers, 3)
+        The clean trajectories in mm; NaN = missing.
+    markers : sequence of str
+        Names of the markers.
+    rate : float
+        Frame rate in Hz.
+    amplitude : float
+        Mean amplitude in mm.
+    share : float
+        How much: 0.1 gives as much as is common in raw data.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Contamination
+        The contaminated trajectories and the truth.
+
+    Raises
+    ------
+    ValueError
+        If the recording is too short for so much.
     """
-    harm = Contamination(positions, markers, margin=round(0.15 * rate), alone=False, rng=rng)
+    result = Contamination(positions, markers, margin=round(0.15 * rate), one_at_a_time=False, rng=rng)
     often = share / 0.1 * len(positions) / rate / 60 * len(markers) / 40
     size = normal(amplitude, SPREAD * amplitude)
 
@@ -59,26 +95,26 @@ def in_practice(
         return integers(max(1, round(low * rate)), max(1, round(high * rate)))
 
     rest = integers(len(positions) // 10, len(positions) // 3)
-    harm.swap(length=rest, within=NEAR_MM, at="stop", count=number(1))
-    harm.swap(length=lasting(0.1, 1.0), within=NEAR_MM, markers=3, count=number(1))
+    result.swap(length=rest, within_mm=NEAR_MM, at="stop", count=number(1))
+    result.swap(length=lasting(0.1, 1.0), within_mm=NEAR_MM, markers=3, count=number(1))
     for length in (lasting(0.0, 0.02), lasting(0.1, 2.0)):
-        harm.swap(length=length, within=NEAR_MM, count=number(2))
+        result.swap(length=length, within_mm=NEAR_MM, count=number(2))
     for length, width, count in ((lasting(0.05, 1.0), 1, 6), (lasting(0.1, 0.5), 3, 2)):
-        harm.gap(length=length, markers=width, at="anywhere", count=number(count))
-    harm.beside_gaps("tails", Recipe(size, lasting(0.02, 0.1), 3), gap=lasting(0.05, 0.5), count=number(6))
-    harm.freeze(length=lasting(0.05, 0.5), moving_mm=amplitude, count=number(4))
+        result.gap(length=length, markers=width, at="anywhere", count=number(count))
+    result.add_at_gaps("tails", Recipe(size, lasting(0.02, 0.1), 3), gap=lasting(0.05, 0.5), count=number(6))
+    result.freeze(length=lasting(0.05, 0.5), moving_mm=amplitude, count=number(4))
     usual = {kind: Recipe(size, lasting(*seconds), 3) for kind, seconds, _ in PRACTICE}
-    harm.burst(usual["peaks"], peaks=integers(3, 5), pause=lasting(0.12, 0.3), count=number(2))
+    result.add_bursts(usual["peaks"], peaks=integers(3, 5), pause=lasting(0.12, 0.3), count=number(2))
     for under in ("slow", "steps"):
         for over in ("peaks", "noise"):
-            harm.combined(under, usual[under], over, usual[over], count=number(1))
+            result.combine(under, usual[under], over, usual[over], count=number(1))
     for kind, _, count in PRACTICE:
-        harm.beside_gaps(kind, usual[kind], gap=lasting(0.05, 0.5), count=number(1))
-        harm.add(kind, usual[kind], at=str(rng.choice(["start", "stop"])), count=number(1))
-        harm.together(kind, usual[kind], markers=3, count=number(1))
+        result.add_at_gaps(kind, usual[kind], gap=lasting(0.05, 0.5), count=number(1))
+        result.add(kind, usual[kind], at=str(rng.choice(["start", "stop"])), count=number(1))
+        result.add_concurrent(kind, usual[kind], markers=3, count=number(1))
         for _ in range(number(count)):
-            harm.add(kind, replace(usual[kind], axes=int(rng.integers(1, 4))), count=1)
-    return harm
+            result.add(kind, replace(usual[kind], axes=int(rng.integers(1, 4))), count=1)
+    return result
 
 
 def one_at_a_time(
@@ -93,10 +129,38 @@ def one_at_a_time(
     """Distort a share of the time, one marker at a time, with equal shares of the classes that have a recipe.
 
     First noise, steps and slow changes in random order: their lengths are drawn, and the intervals between them are
-    Poisson counts given their sum. Then peaks in between. (skurowski2022, section 4.1.3.) Raises ValueError where the
-    recording is too short.
+    Poisson counts given their sum. Then peaks in between.
+
+    Parameters
+    ----------
+    positions : ndarray of float, shape (frames, markers, 3)
+        The clean trajectories in mm; NaN = missing.
+    markers : sequence of str
+        Names of the markers.
+    recipes : mapping of str to Recipe
+        How artifacts are drawn, by class.
+    share : float
+        Share of the frames that is distorted, over all classes.
+    margin : int
+        Frames kept free around each artifact.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Contamination
+        The contaminated trajectories and the truth.
+
+    Raises
+    ------
+    ValueError
+        If the recording is too short for so much.
+
+    References
+    ----------
+    skurowski2022, section 4.1.3.
     """
-    contamination = Contamination(positions, markers, margin=margin, alone=True, rng=rng)
+    contamination = Contamination(positions, markers, margin=margin, one_at_a_time=True, rng=rng)
     frames = len(positions)
     bulk: list[tuple[str, int]] = []
     for kind in ("noise", "steps", "slow"):
@@ -112,10 +176,10 @@ def one_at_a_time(
     for (kind, length), pause in zip(bulk, pauses[:-1], strict=True):
         start = at + int(pause)
         at = start + length
-        whole = np.flatnonzero(present[start:at].all(axis=0))
-        if not len(whole):
+        complete = np.flatnonzero(present[start:at].all(axis=0))
+        if not len(complete):
             raise ValueError(f"no marker is complete in frames {start} to {at}")
-        contamination.put(kind, recipes[kind], marker=int(rng.choice(whole)), start=start, stop=at)
+        contamination.put(kind, recipes[kind], marker=int(rng.choice(complete)), start=start, stop=at)
     if "peaks" in recipes:
         for length in _lengths(recipes["peaks"].length, share * frames / len(recipes), rng):
             recipe = recipes["peaks"]
@@ -142,9 +206,30 @@ def as_published(
     share: float,
     rng: np.random.Generator,
 ) -> Contamination:
-    """The paper's procedure with its recipes, 10 frames apart; lengths are in frames whatever the rate (Hz)."""
+    """Follow the paper's protocol with its recipes, artifacts 10 frames apart; lengths are in frames whatever the rate.
+
+    Parameters
+    ----------
+    positions : ndarray of float, shape (frames, markers, 3)
+        The clean trajectories in mm; NaN = missing.
+    markers : sequence of str
+        Names of the markers.
+    rate : float
+        Frame rate in Hz; not used.
+    amplitude : float
+        Mean amplitude in mm.
+    share : float
+        Share of the frames that is distorted.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Contamination
+        The contaminated trajectories and the truth.
+    """
     return one_at_a_time(positions, markers, recipes=recipes(amplitude), share=share, margin=10, rng=rng)
 
 
-PROCEDURES: dict[str, Callable[..., Contamination]] = {"paper": as_published, "practice": in_practice}
-"""The procedures by name, called with positions, markers, rate, amplitude, share and rng."""
+PROTOCOLS: dict[str, Callable[..., Contamination]] = {"paper": as_published, "practice": in_practice}
+"""The protocols by name, called with positions, markers, rate, amplitude, share and rng."""

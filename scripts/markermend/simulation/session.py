@@ -19,7 +19,7 @@ TRIALS = (
     ("daily", ("exercise", "walk", "stand", "sit", "reach"), "pc_real", (0, 1)),
     ("gait", ("walk", "reach"), "dec_real", (1,)),
 )
-"""Name, activities, storage, and whether it is damaged for subjects of even (0) and odd (1) number."""
+"""Name, activities, storage, and whether it is contaminated for subjects of even (0) and odd (1) number."""
 
 STATIC_S, NOISE_MM, FIRST_FRAME = 4.0, 0.2, 251
 """Duration of a static trial, measurement noise, and the number of the first frame where the capture began earlier."""
@@ -29,8 +29,18 @@ STATIC_S, NOISE_MM, FIRST_FRAME = 4.0, 0.2, 251
 class Take:
     """One recording of the session.
 
-    seen: what the file shall hold. clean: the complete trajectories. truth: where the two differ, events by class,
-    and gaps. storage: the C3D storage.
+    Attributes
+    ----------
+    name : str
+        Of the trial.
+    storage : str
+        A key of writer.STORAGES.
+    seen : Recording
+        What the file holds.
+    clean : Recording
+        The complete trajectories.
+    truth : dict[str, list[Event]]
+        Where the two differ: events by class, and gaps.
     """
 
     name: str
@@ -41,30 +51,55 @@ class Take:
 
 
 def session(*, seed: int, subject: int, duration: float, rate: float) -> Iterator[Take]:
-    """Record one subject (counted from 1): a static trial and moving ones of `duration` s at `rate` Hz.
+    """Record one subject: a static trial and dynamic ones.
 
-    Equal arguments give equal recordings; a subject's do not depend on how many others there are.
+    Equal arguments give equal recordings; those of a subject do not depend on how many others there are.
+
+    Parameters
+    ----------
+    seed : int
+        Of all randomness.
+    subject : int
+        Number of the subject, counted from 1.
+    duration : float
+        Of a dynamic trial in s.
+    rate : float
+        Frame rate in Hz.
+
+    Yields
+    ------
+    Take
+        The recordings, one after the other.
     """
     body = make_body(rng=np.random.default_rng([seed, subject]))
-    for trial, (name, activities, storage, damaged) in enumerate(TRIALS, start=1):
+    for trial, (name, activities, storage, contaminated) in enumerate(TRIALS, start=1):
         rng = np.random.default_rng([seed, subject, trial])
         length = STATIC_S if name == "static" else duration
         clean = walk(
             body=body, duration=length, rate=rate, activities=activities, noise=NOISE_MM, soft_tissue=1.0, rng=rng
         ).recording
         clean = replace(clean, first_frame=1 if name == "static" else FIRST_FRAME)
-        harm = Contamination(clean.positions, clean.markers, margin=round(0.2 * rate), alone=False, rng=rng)
-        if subject % 2 in damaged:
-            damage(harm, rate=rate, share=length / 15)
-        gaps = [Event(marker, start, stop, 1.0) for marker, start, stop in sorted(harm.gaps)]
-        seen = replace(clean, positions=harm.positions)
-        yield Take(name, storage, seen, clean, {**harm.events, "gaps": gaps})
+        result = Contamination(clean.positions, clean.markers, margin=round(0.2 * rate), one_at_a_time=False, rng=rng)
+        if subject % 2 in contaminated:
+            contaminate(result, rate=rate, share=length / 15)
+        seen = replace(clean, positions=result.positions)
+        yield Take(name, storage, seen, clean, {**result.events, "gaps": result.gap_events})
 
 
-def damage(harm: Contamination, *, rate: float, share: float) -> None:
-    """Damage a recording in every way: as much as is common in 15 s of raw data, times `share`."""
+def contaminate(result: Contamination, *, rate: float, share: float) -> None:
+    """Contaminate a recording in every way.
+
+    Parameters
+    ----------
+    result : Contamination
+        The recording; it is changed.
+    rate : float
+        Frame rate in Hz.
+    share : float
+        How much: 1 gives as much as is common in 15 s of raw data.
+    """
     for at in ("start", "stop"):
-        harm.gap(length=uniform(0.1 * rate, 0.6 * rate), markers=1, at=at, count=1)
+        result.gap(length=uniform(0.1 * rate, 0.6 * rate), markers=1, at=at, count=1)
     for seconds, markers, count in (
         ((1.5, 2.5), 1, 1),
         ((0.2, 0.5), ("RFIN", "RIDX", "RPKY"), 1),
@@ -72,16 +107,16 @@ def damage(harm: Contamination, *, rate: float, share: float) -> None:
         ((0.03, 1.0), 1, 12),
     ):
         length = uniform(seconds[0] * rate, seconds[1] * rate)
-        harm.gap(length=length, markers=markers, at="anywhere", count=round(count * share))
-    harm.swap(length=uniform(0.2 * rate, rate), within=250.0, count=round(2 * share))
+        result.gap(length=length, markers=markers, at="anywhere", count=round(count * share))
+    result.swap(length=uniform(0.2 * rate, rate), within_mm=250.0, count=round(2 * share))
     for kind, amplitude, seconds, count in (
         ("slow", (10.0, 30.0), (0.6, 2.0), 5),
         ("steps", (10.0, 40.0), (0.2, 1.99), 5),
         ("noise", (3.0, 10.0), (0.4, 1.0), 5),
     ):
         length = uniform(seconds[0] * rate, seconds[1] * rate)
-        harm.add(kind, Recipe(uniform(*amplitude), length, 3), count=round(count * share))
-    harm.add("peaks", Recipe(uniform(10.0, 50.0), integers(1, 5), 3), count=round(15 * share))
-    harm.freeze(length=uniform(0.1 * rate, 0.5 * rate), moving_mm=20.0, count=round(3 * share))
-    wander = Recipe(uniform(15.0, 30.0), uniform(0.02 * rate, 0.08 * rate), 3)
-    harm.beside_gaps("tails", wander, gap=uniform(0.1 * rate, 0.5 * rate), count=round(3 * share))
+        result.add(kind, Recipe(uniform(*amplitude), length, 3), count=round(count * share))
+    result.add("peaks", Recipe(uniform(10.0, 50.0), integers(1, 5), 3), count=round(15 * share))
+    result.freeze(length=uniform(0.1 * rate, 0.5 * rate), moving_mm=20.0, count=round(3 * share))
+    tail = Recipe(uniform(15.0, 30.0), uniform(0.02 * rate, 0.08 * rate), 3)
+    result.add_at_gaps("tails", tail, gap=uniform(0.1 * rate, 0.5 * rate), count=round(3 * share))

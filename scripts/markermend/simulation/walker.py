@@ -1,8 +1,7 @@
-"""A synthetic person with markers on: walks, turns, reaches, sits down, stands up, as a motion capture system sees it.
+"""A synthetic person with markers, who walks, turns, reaches, sits down and stands up, as a motion capture system records it.
 
-Truth for tests, demonstrations and evaluation: every trajectory is complete and free of artifacts, and it is known
-which segment each marker sits on. What a real recording has is there: joints, soft tissue that moves over the bone, and
-noise.
+Truth for tests, demonstrations and evaluation: every trajectory is complete and free of artifacts, and the segment of
+each marker is known. As in a real recording there are joints, soft tissue that moves over the bone, and noise.
 """
 
 from __future__ import annotations
@@ -32,11 +31,20 @@ SMOOTHING, RESPONSE = 0.045, 0.02
 
 @dataclass(frozen=True)
 class Walker:
-    """A synthetic recording and what is true of it.
+    """A synthetic recording and the truth about it.
 
-    recording: what the cameras saw. rigid: (frames, markers, 3), mm, the markers fixed to the bones, without soft
-    tissue or noise. segments: the name of each marker's segment. tree: the parent of each segment, None for the root.
-    bouts: the activities as (name, start, stop) in seconds.
+    Attributes
+    ----------
+    recording : Recording
+        As the cameras would record it.
+    rigid : ndarray of float, shape (frames, markers, 3)
+        Markers fixed to the bones, without soft tissue or noise, in mm.
+    segments : tuple of str
+        Name of the segment of each marker.
+    tree : dict of str to str | None
+        The parent of each segment, None for the root.
+    bouts : tuple[tuple[str, float, float], ...]
+        The activities as (name, start, stop) in s.
     """
 
     recording: Recording
@@ -56,19 +64,42 @@ def walk(
     soft_tissue: float,
     rng: np.random.Generator,
 ) -> Walker:
-    """Record a body doing the activities one after the other, over again until the duration (s) is filled.
+    """Record a body in several activities, one after the other and over again until the duration is filled.
 
-    activities: names from walker_motion.ACTIVITIES. noise: standard deviation of each coordinate, mm. soft_tissue:
-    factor on the motion of soft tissue, 1 = a few mm. The motion depends on rng alone, not on the rate (Hz).
+    The motion depends on rng alone, not on the rate.
+
+    Parameters
+    ----------
+    body : Body
+        The subject.
+    duration : float
+        In s.
+    rate : float
+        Frame rate in Hz.
+    activities : sequence of str
+        Keys of activities.ACTIVITIES.
+    noise : float
+        Standard deviation of each coordinate in mm.
+    soft_tissue : float
+        Factor on the motion of soft tissue; 1 gives a few mm.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Walker
+        The recording, complete and free of artifacts.
     """
     time = np.arange(round(duration * rate)) / rate
     motion = move(body, time=time, activities=activities, rng=rng)
     turned, origins = _pose(body, motion.angles, motion.heading)
     origins = origins + _path(body, turned, origins, rate)[:, None]
-    rigid = _attach(turned, origins, body.on, body.places)
+    rigid = _attach(turned, origins, body.marker_segments, body.marker_offsets)
     moved = soft_tissue * _soft_tissue(body, np.radians(motion.angles), turned, rigid, rate)
-    positions = _attach(turned, origins, body.on, body.places + moved) + rng.normal(0.0, noise, rigid.shape)
-    segments = tuple(body.segments[index] for index in body.on)
+    positions = _attach(turned, origins, body.marker_segments, body.marker_offsets + moved) + rng.normal(
+        0.0, noise, rigid.shape
+    )
+    segments = tuple(body.segments[index] for index in body.marker_segments)
     tree = {name: body.segments[up] if up >= 0 else None for name, up in zip(body.segments, body.parents, strict=True)}
     facts = {"synthetic": {"height": round(body.height, 1), "activities": list(activities)}}
     return Walker(Recording(body.markers, positions, float(rate), 1, facts), rigid, segments, tree, motion.bouts)
@@ -90,11 +121,11 @@ def _pose(body: Body, angles: np.ndarray, heading: np.ndarray) -> tuple[list[Rot
     return turned, origins
 
 
-def _attach(turned: list[Rotation], origins: np.ndarray, on: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """World positions of points that sit on segments; places: (points, 3) or (frames, points, 3)."""
-    placed = np.empty((len(origins), len(on), 3))
-    for point, segment in enumerate(on):
-        placed[:, point] = origins[:, segment] + turned[segment].apply(places[..., point, :])
+def _attach(turned: list[Rotation], origins: np.ndarray, segments: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """Laboratory positions of points on segments; offsets: (points, 3) or (frames, points, 3), in the segment's axes."""
+    placed = np.empty((len(origins), len(segments), 3))
+    for point, segment in enumerate(segments):
+        placed[:, point] = origins[:, segment] + turned[segment].apply(offsets[..., point, :])
     return placed
 
 
@@ -103,7 +134,7 @@ def _path(body: Body, turned: list[Rotation], origins: np.ndarray, rate: float) 
 
     The weight on each point of the soles is its share in a soft minimum of their heights.
     """
-    soles = _attach(turned, origins, body.soles_on, body.soles)
+    soles = _attach(turned, origins, body.sole_segments, body.soles)
     height = soles[:, :, 2] - soles[:, :, 2].min(axis=1, keepdims=True)
     share = np.exp(-height / YIELD)
     weight = share / share.sum(axis=1, keepdims=True)
@@ -111,18 +142,18 @@ def _path(body: Body, turned: list[Rotation], origins: np.ndarray, rate: float) 
     path = np.concatenate((np.zeros((1, 3)), np.cumsum((velocity[1:] + velocity[:-1]) / 2 / rate, axis=0)))
     path[:, 2] = YIELD * np.log(share.mean(axis=1)) - soles[:, :, 2].min(axis=1)
     path[:, :2] -= path[:, :2].mean(axis=0)
-    return gaussian_filter1d(path, SMOOTHING * rate, axis=0, mode="nearest")
+    return np.asarray(gaussian_filter1d(path, SMOOTHING * rate, axis=0, mode="nearest"))
 
 
 def _soft_tissue(body: Body, angles: np.ndarray, turned: list[Rotation], rigid: np.ndarray, rate: float) -> np.ndarray:
     """Displacement (frames, markers, 3), mm, in the segment's axes: skin slides with the joints and lags in acceleration."""
-    own = np.linalg.norm(angles[:, body.on], axis=2)
-    following = np.linalg.norm(angles[:, np.array(body.children)[body.on]], axis=2)
+    own = np.linalg.norm(angles[:, body.marker_segments], axis=2)
+    following = np.linalg.norm(angles[:, np.array(body.children)[body.marker_segments]], axis=2)
     drive = np.stack((own, following, own**2, following**2), axis=2)
     sliding = np.einsum("fmd,mdk->fmk", drive - drive.mean(axis=0), body.tissue)
     acceleration = np.gradient(np.gradient(rigid, 1 / rate, axis=0), 1 / rate, axis=0) / 1000
     local = np.empty_like(rigid)
-    for marker, segment in enumerate(body.on):
+    for marker, segment in enumerate(body.marker_segments):
         local[:, marker] = turned[segment].inv().apply(acceleration[:, marker])
     lagging = gaussian_filter1d(local, RESPONSE * rate, axis=0, mode="nearest")
-    return sliding - body.compliance[:, None] * lagging
+    return np.asarray(sliding - body.compliance[:, None] * lagging)

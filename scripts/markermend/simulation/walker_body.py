@@ -89,12 +89,33 @@ HEIGHT, HEIGHT_SD, PROPORTION_SD, PLACEMENT_SD = 1720.0, 85.0, 0.025, 5.0
 
 @dataclass(frozen=True)
 class Body:
-    """One subject with markers on.
+    """One subject with markers.
 
-    segments: names, each after its parent. parents: index per segment, -1 for the root. joints: (segments, 3), mm, in
-    the parent's axes. markers: names. on: segment index per marker. places: (markers, 3), mm, in the segment's axes.
-    soles: (feet * 2, 3), mm, with soles_on, their segment. tissue: (markers, 4, 3), soft tissue per unit of own joint
-    angle, next joint angle (mm/rad), both squared; compliance: (markers,), mm per m/s^2.
+    Attributes
+    ----------
+    height : float
+        In mm.
+    segments : tuple of str
+        Their names, each after its parent.
+    parents : tuple of int
+        Index of the parent of each segment, -1 for the root.
+    joints : ndarray of float, shape (segments, 3)
+        The proximal joint of each segment in the axes of its parent, in mm.
+    markers : tuple of str
+        Names of the markers.
+    marker_segments : ndarray of int, shape (markers,)
+        Index of the segment of each marker.
+    marker_offsets : ndarray of float, shape (markers, 3)
+        Its place in the axes of the segment, in mm.
+    soles : ndarray of float, shape (2 * feet, 3)
+        Points of the soles in the axes of their segments, in mm.
+    sole_segments : ndarray of int, shape (2 * feet,)
+        Indices of these segments.
+    tissue : ndarray of float, shape (markers, 4, 3)
+        Displacement of soft tissue per unit of the angle of the own joint and of the next joint along the limb
+        (mm/rad), and of their squares.
+    compliance : ndarray of float, shape (markers,)
+        Displacement of soft tissue in mm per m/s^2.
     """
 
     height: float
@@ -102,10 +123,10 @@ class Body:
     parents: tuple[int, ...]
     joints: np.ndarray
     markers: tuple[str, ...]
-    on: np.ndarray
-    places: np.ndarray
+    marker_segments: np.ndarray
+    marker_offsets: np.ndarray
     soles: np.ndarray
-    soles_on: np.ndarray
+    sole_segments: np.ndarray
     tissue: np.ndarray
     compliance: np.ndarray
 
@@ -116,17 +137,50 @@ class Body:
 
 
 def kind(segment: str) -> str:
-    """A segment's name without its side."""
+    """Give the name of a segment without its side.
+
+    Parameters
+    ----------
+    segment : str
+        Its name.
+
+    Returns
+    -------
+    str
+        Its kind.
+    """
     return segment.removeprefix("left_").removeprefix("right_")
 
 
 def names(segment: str) -> tuple[str, ...]:
-    """A segment's names with sides."""
+    """Give the names of the segments of a kind, with sides where they are paired.
+
+    Parameters
+    ----------
+    segment : str
+        The kind.
+
+    Returns
+    -------
+    tuple of str
+        One or two names.
+    """
     return (f"left_{segment}", f"right_{segment}") if segment in PAIRED else (segment,)
 
 
 def make_body(*, rng: np.random.Generator) -> Body:
-    """Draw one subject: height, proportions, where the markers sit and how its soft tissue moves."""
+    """Draw one subject: height, proportions, where the markers are placed and how the soft tissue moves.
+
+    Parameters
+    ----------
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Body
+        The subject.
+    """
     height = float(np.clip(rng.normal(HEIGHT, HEIGHT_SD), 1480.0, 2000.0))
     proportion = {segment: rng.normal(1.0, PROPORTION_SD) for segment in JOINTS}
     segments = tuple(name for segment in JOINTS for name in names(segment))
@@ -136,17 +190,17 @@ def make_body(*, rng: np.random.Generator) -> Body:
         [_mirrored(name, JOINTS[kind(name)]) * proportion[PARENTS.get(kind(name), "pelvis")] for name in segments]
     )
     markers: list[str] = []
-    on: list[int] = []
-    places: list[np.ndarray] = []
+    marker_segments: list[int] = []
+    marker_offsets: list[np.ndarray] = []
     for index, name in enumerate(segments):
         side = name[0].upper() if kind(name) in PAIRED else ""
         for marker, place in MARKERS[kind(name)].items():
             markers.append(side + marker)
-            on.append(index)
-            places.append(_mirrored(name, place) * proportion[kind(name)])
+            marker_segments.append(index)
+            marker_offsets.append(_mirrored(name, place) * proportion[kind(name)])
     feet = [(index, sole) for index, name in enumerate(segments) if kind(name) == "foot" for sole in SOLES.values()]
-    softness = np.array([SOFTNESS[kind(segments[index])] for index in on])
-    directions = rng.normal(0.0, 1.0, (len(on), 4, 3))
+    softness = np.array([SOFTNESS[kind(segments[index])] for index in marker_segments])
+    directions = rng.normal(0.0, 1.0, (len(marker_segments), 4, 3))
     directions /= np.linalg.norm(directions, axis=2, keepdims=True)
     return Body(
         height=height,
@@ -154,12 +208,12 @@ def make_body(*, rng: np.random.Generator) -> Body:
         parents=parents,
         joints=joints * height,
         markers=tuple(markers),
-        on=np.array(on),
-        places=np.array(places) * height + rng.normal(0.0, PLACEMENT_SD, (len(on), 3)),
+        marker_segments=np.array(marker_segments),
+        marker_offsets=np.array(marker_offsets) * height + rng.normal(0.0, PLACEMENT_SD, (len(marker_segments), 3)),
         soles=np.array([_mirrored(segments[index], sole) * proportion["foot"] for index, sole in feet]) * height,
-        soles_on=np.array([index for index, _ in feet]),
+        sole_segments=np.array([index for index, _ in feet]),
         tissue=directions * softness[:, None, None] * np.array([0.8, 0.8, 0.25, 0.25])[:, None],
-        compliance=0.05 * softness * rng.uniform(0.6, 1.4, len(on)),
+        compliance=0.05 * softness * rng.uniform(0.6, 1.4, len(marker_segments)),
     )
 
 

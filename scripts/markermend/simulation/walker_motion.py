@@ -1,49 +1,41 @@
-"""How the synthetic walker moves: joint angles over time, blended from activities.
-
-An angle is (flexion, abduction, rotation) in degrees, positive as a clinician counts them: legs and arms flex forward,
-knees backward, the trunk bends forward; abduction and rotation are away from the body, for the trunk to its left.
-"""
+"""How the synthetic walker moves: joint angles over time, blended from activities."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from markermend.simulation.activities import ACTIVITIES, Pose, minimum_jerk, stand
 from markermend.simulation.walker_body import Body, kind
 
 DURATIONS = {"stand": 1.5, "walk": 4.5, "reach": 3.0, "sit": 3.4, "exercise": 5.0}
-"""Mean duration of an activity, s; a bout's varies by a tenth."""
+"""Mean duration of an activity, s; that of a bout varies by a tenth."""
 
 CHANGES = {"stand": 0.8, "walk": 1.2, "reach": 0.8, "sit": 1.5, "exercise": 0.9}
-"""How long getting into (or, where that takes longer, out of) an activity takes, s."""
+"""Time in s to enter an activity, or to leave it where that takes longer."""
 
-STRIDE = np.linspace(0.0, 1.0, 11)
-GAIT = {
-    "hip": (28, 24, 17, 6, -5, -11, -4, 9, 28, 36, 28),
-    "knee": (6, 14, 17, 12, 7, 11, 33, 60, 52, 19, 6),
-    "ankle": (-1, -2, 4, 6, 8, 5, -12, -7, 7, 2, -1),
-}
-"""Sagittal angles over one stride from heel strike to heel strike: textbook curves, moved a few degrees so that with
-these limbs the pelvis goes on evenly and the standing foot does not slide."""
-
-WANDER = {"head": 3.0, "thorax": 1.2, "pelvis": 0.6, "hand": 5.0, "forearm": 3.0, "upper_arm": 2.5}
-"""Standard deviation in degrees of the slow wandering of a joint that no movement repeats exactly; legs 0.5."""
+VARIATION = {"head": 3.0, "thorax": 1.2, "pelvis": 0.6, "hand": 5.0, "forearm": 3.0, "upper_arm": 2.5}
+"""Standard deviation in degrees of the slow random variation of a joint angle, since no movement repeats exactly; legs 0.5."""
 
 QUIET = 0.12
-"""How much of that wandering is left in quiet standing."""
-
-
-Angle = np.ndarray | float
+"""The share of that variation in quiet standing."""
 
 
 @dataclass(frozen=True)
 class Motion:
-    """Joint angles in degrees (frames, segments, 3), heading of the pelvis in degrees (frames,), and the activities.
+    """How a body moves.
 
-    bouts: (name, start, stop) in seconds.
+    Attributes
+    ----------
+    angles : ndarray of float, shape (frames, segments, 3)
+        Joint angles in degrees.
+    heading : ndarray of float, shape (frames,)
+        Of the pelvis, in degrees.
+    bouts : tuple[tuple[str, float, float], ...]
+        The activities as (name, start, stop) in s.
     """
 
     angles: np.ndarray
@@ -51,56 +43,56 @@ class Motion:
     bouts: tuple[tuple[str, float, float], ...]
 
 
-class Pose:
-    """Angles of all joints over time, addressed by segment kind, with sides where they differ."""
+def smooth_noise(time: np.ndarray, *, every: float, shape: tuple[int, ...], rng: np.random.Generator) -> np.ndarray:
+    """Draw smooth random curves of unit variance that do not depend on the frame rate.
 
-    def __init__(self, body: Body, time: np.ndarray) -> None:
-        self.body = body
-        self.angles = np.zeros((len(time), len(body.segments), 3))
+    Parameters
+    ----------
+    time : ndarray of float, shape (frames,)
+        In s.
+    every : float
+        Distance between the knots in s.
+    shape : tuple of int
+        Of one frame.
+    rng : Generator
+        Source of randomness.
 
-    def add(self, segment: str, flexion: Angle = 0.0, abduction: Angle = 0.0, rotation: Angle = 0.0) -> None:
-        """Add to a joint's angles, on both sides where the name carries none."""
-        for index, name in enumerate(self.body.segments):
-            if segment in (name, kind(name)):
-                for axis, angle in enumerate((flexion, abduction, rotation)):
-                    self.angles[:, index, axis] += angle
-
-    def plant(self) -> None:
-        """Turn the ankles so that the soles are level but for what was added to the ankles."""
-        tilt = self.angles[:, self.body.segments.index("pelvis"), 0]
-        for side in ("left", "right"):
-            hip, knee, ankle = (self.body.segments.index(f"{side}_{part}") for part in ("thigh", "shank", "foot"))
-            self.angles[:, ankle, 0] += self.angles[:, knee, 0] - self.angles[:, hip, 0] + tilt
-
-
-def minimum_jerk(time: np.ndarray, start: float, stop: float) -> np.ndarray:
-    """Rise from 0 to 1 between two times, as people move (Flash & Hogan 1985)."""
-    s = np.clip((time - start) / (stop - start), 0.0, 1.0)
-    return s**3 * (10 - 15 * s + 6 * s**2)
-
-
-def bell(time: np.ndarray, start: float, stop: float) -> np.ndarray:
-    """Go from 0 to 1 and back between two times."""
-    middle = (start + stop) / 2
-    return minimum_jerk(time, start, middle) - minimum_jerk(time, middle, stop)
-
-
-def wander(time: np.ndarray, *, every: float, shape: tuple[int, ...], rng: np.random.Generator) -> np.ndarray:
-    """Smooth random curves of unit variance, (frames, *shape), that do not depend on the frame rate."""
+    Returns
+    -------
+    ndarray of float, shape (frames, *shape)
+        The curves.
+    """
     knots = np.arange(-2 * every, time[-1] + 3 * every, every)
-    return CubicSpline(knots, rng.normal(0.0, 1.0, (len(knots), *shape)))(time)
+    return np.asarray(CubicSpline(knots, rng.normal(0.0, 1.0, (len(knots), *shape)))(time))
 
 
 def move(body: Body, *, time: np.ndarray, activities: Sequence[str], rng: np.random.Generator) -> Motion:
-    """Blend the activities, one bout after the other and over again until the time is filled, into joint angles."""
+    """Blend activities into joint angles, one bout after the other and over again until the time is filled.
+
+    Parameters
+    ----------
+    body : Body
+        The walker's body.
+    time : ndarray of float, shape (frames,)
+        In s.
+    activities : sequence of str
+        Keys of activities.ACTIVITIES.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Motion
+        Joint angles and heading.
+    """
     bouts = _schedule(float(time[-1]), activities, rng)
     angles = np.zeros((len(time), len(body.segments), 3))
     heading = np.zeros(len(time)) + rng.uniform(-180.0, 180.0)
-    strides = 0.94 * rng.normal(1.0, 0.04) * time + 0.02 * wander(time, every=2.0, shape=(), rng=rng)
-    entered, lively = np.ones(len(time)), np.zeros(len(time))
+    strides = 0.94 * rng.normal(1.0, 0.04) * time + 0.02 * smooth_noise(time, every=2.0, shape=(), rng=rng)
+    entered, activity = np.ones(len(time)), np.zeros(len(time))
     for number, (name, start, stop) in enumerate(bouts):
         pose = Pose(body, time)
-        _stand(pose)
+        stand(pose)
         ACTIVITIES[name](pose, time, start, stop, strides, rng)
         if name != "walk":
             pose.plant()
@@ -109,12 +101,12 @@ def move(body: Body, *, time: np.ndarray, activities: Sequence[str], rng: np.ran
             half = max(CHANGES[name], CHANGES[bouts[number + 1][0]]) / 2
             left = minimum_jerk(time, stop - half, stop + half)
         angles += (entered - left)[:, None, None] * pose.angles
-        lively += (entered - left) * (QUIET if name == "stand" else 1.0)
+        activity += (entered - left) * (QUIET if name == "stand" else 1.0)
         entered = left
         if name == "walk":
             heading += rng.choice([-1, 1]) * rng.uniform(90, 190) * minimum_jerk(time, start + 0.8, stop - 0.6)
-    spread = np.array([WANDER.get(kind(name), 0.5) for name in body.segments])
-    angles += lively[:, None, None] * spread[:, None] * wander(time, every=0.7, shape=angles.shape[1:], rng=rng)
+    spread = np.array([VARIATION.get(kind(name), 0.5) for name in body.segments])
+    angles += activity[:, None, None] * spread[:, None] * smooth_noise(time, every=0.7, shape=angles.shape[1:], rng=rng)
     return Motion(angles, heading, bouts)
 
 
@@ -130,102 +122,3 @@ def _schedule(
         bouts.append((name, start, stop))
         start = stop
     return tuple(bouts)
-
-
-def _stand(pose: Pose) -> None:
-    """Quiet standing, the posture that every activity starts from."""
-    pose.add("pelvis", 5.0)
-    pose.add("thorax", -3.0)
-    pose.add("head", -2.0)
-    pose.add("upper_arm", 2.0, 9.0)
-    pose.add("forearm", 18.0)
-    pose.add("thigh", 6.0, 2.0, 4.0)
-    pose.add("shank", 3.0)
-
-
-def _quiet(pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: object) -> None:
-    """Stand and sway a little."""
-    sway = 2 * np.pi * 0.3 * time
-    pose.add("thorax", 0.4 * np.sin(sway), 0.3 * np.cos(sway))
-
-
-def _walk(
-    pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: np.random.Generator
-) -> None:
-    """Walk: gait curves half a stride apart, pelvis and thorax turning against each other, arms against the legs."""
-    vigour = rng.normal(1.0, 0.06)
-    pose.add("thigh", -6.0, -2.0)
-    pose.add("shank", -3.0)
-    for side, lag in (("left", 0.0), ("right", 0.5)):
-        phase = (strides + lag) % 1.0
-        for segment, joint in (("thigh", "hip"), ("shank", "knee"), ("foot", "ankle")):
-            curve = CubicSpline(STRIDE, GAIT[joint], bc_type="periodic")
-            pose.add(f"{side}_{segment}", vigour * curve(phase))
-        swing = np.cos(2 * np.pi * (phase - 0.48))
-        pose.add(f"{side}_thigh", 0.0, -3.0 * np.sin(2 * np.pi * (phase + 0.02)), 3.0 * swing)
-        pose.add(f"{side}_upper_arm", vigour * (20.0 * swing - 3.0), 0.0, 3.0 * swing)
-        pose.add(f"{side}_forearm", vigour * (9.0 + 13.0 * np.cos(2 * np.pi * (phase - 0.55))))
-        pose.add(f"{side}_hand", 6.0 * np.cos(2 * np.pi * (phase - 0.65)))
-    turn = np.cos(2 * np.pi * strides)
-    pose.add("pelvis", np.cos(4 * np.pi * strides), 3.0 * np.sin(2 * np.pi * strides), -4.5 * turn)
-    pose.add("thorax", 3.0, -3.0 * np.sin(2 * np.pi * strides), 10.0 * turn)
-    pose.add("head", -1.0, 0.0, -5.0 * turn)
-
-
-def _reach(
-    pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: np.random.Generator
-) -> None:
-    """Reach out with one arm and then the other, the trunk and the eyes following."""
-    middle = (start + stop) / 2
-    first, second = rng.permutation(["left", "right"])
-    for side, since, until in ((first, start - 0.2, middle), (second, middle, stop + 0.2)):
-        out = bell(time, since, until)
-        left = 1.0 if side == "left" else -1.0
-        pose.add(f"{side}_upper_arm", rng.uniform(75, 130) * out, rng.uniform(0, 30) * out, rng.uniform(-25, 25) * out)
-        pose.add(f"{side}_forearm", rng.uniform(0, 20) * out + 30 * bell(time, since, until) * (1 - out))
-        pose.add(f"{side}_hand", rng.uniform(-30, 10) * out, rng.uniform(-10, 15) * out, rng.uniform(-30, 30) * out)
-        pose.add("thorax", 12 * out, -6 * left * out, -22 * left * out)
-        pose.add("head", -8 * out, 0.0, rng.uniform(5, 30) * left * out)
-
-
-def _sit(
-    pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: np.random.Generator
-) -> None:
-    """Sit down, look around and stand up, leaning forward on the way."""
-    pose.add("thigh", 76.0, 6.0)
-    pose.add("shank", 85.0)
-    pose.add("pelvis", -8.0)
-    pose.add("upper_arm", 28.0)
-    pose.add("forearm", 45.0)
-    pose.add("hand", 10.0, 0.0, 20.0)
-    lean = bell(time, start - 0.7, start + 0.8) + bell(time, stop - 0.8, stop + 0.7)
-    pose.add("thorax", 6.0 + 38.0 * lean)
-    pose.add("head", -20.0 * lean, 0.0, rng.uniform(-40, 40) * bell(time, start + 0.6, stop - 0.4))
-
-
-def _exercise(
-    pose: Pose, time: np.ndarray, start: float, stop: float, strides: np.ndarray, rng: np.random.Generator
-) -> None:
-    """Circle the arms, bend elbows and wrists, turn head and trunk, lift the knees: a short range-of-motion set."""
-    turns = 2 * np.pi * 0.5 * (time - start)
-    middle = (start + stop) / 2
-    for side, lag, since, until in (("left", 0.0, start, middle), ("right", rng.uniform(0.5, 1.5), middle, stop)):
-        at = turns + lag
-        pose.add(f"{side}_upper_arm", 45 - 45 * np.cos(at), 25 + 25 * np.sin(at), 20 * np.sin(0.8 * at))
-        pose.add(f"{side}_forearm", 45 - 60 * np.sin(at + 0.6), 0.0, 35 * np.sin(1.3 * at))
-        pose.add(f"{side}_hand", 55 * np.sin(1.4 * at), 20 * np.cos(1.1 * at))
-        lift = bell(time, since, until)
-        pose.add(f"{side}_thigh", 65 * lift, 8 * lift, 10 * lift)
-        pose.add(f"{side}_shank", 85 * lift)
-        pose.add(f"{side}_foot", lift * 35 * np.sin(2 * turns), 0.0, 12 * lift)
-    pose.add("thorax", 10 + 14 * np.sin(turns), 14 * np.sin(0.7 * turns), 30 * np.sin(0.9 * turns + 1))
-    pose.add("head", 25 * np.sin(1.1 * turns), 15 * np.sin(0.6 * turns), 55 * np.sin(0.8 * turns + 2))
-
-
-ACTIVITIES: dict[str, Callable[..., None]] = {
-    "stand": _quiet,
-    "walk": _walk,
-    "reach": _reach,
-    "sit": _sit,
-    "exercise": _exercise,
-}

@@ -52,8 +52,8 @@ def test_found_with_partner_and_exact_bounds(walker, length, within):
     clean = walker.recording
     for seed in range(2):
         rng = np.random.default_rng([length, int(within), seed])
-        harm = Contamination(clean.positions, clean.markers, margin=20, alone=True, rng=rng)
-        harm.swap(length=integers(length, length), within=within, count=2)
+        harm = Contamination(clean.positions, clean.markers, margin=20, one_at_a_time=True, rng=rng)
+        harm.swap(length=integers(length, length), within_mm=within, count=2)
         found = find(replace(clean, positions=harm.positions))
         assert intervals(found) == intervals(harm.events["labels"])
         assert all(event.score > 1 and event.axes == "xyz" for event in found)

@@ -62,7 +62,7 @@ def test_swapped_markers_stand_in_each_others_place(contaminated):
         assert any(back.partner == event.marker and back.start == event.start for back in swaps)
 
 
-def test_gaps_of_every_sort(contaminated):
+def test_gaps_of_every_kind(contaminated):
     gaps, frames = contaminated.gaps, contaminated.clean.frames
     assert any(start == 0 for _, start, _ in gaps)
     assert any(stop == frames for _, _, stop in gaps)
@@ -89,7 +89,7 @@ def test_shapes(kind):
 
 def test_amplitudes_come_back_from_the_positions():
     clean = still()
-    damage = Contamination(clean, MARKERS, margin=5, alone=False, rng=np.random.default_rng(3))
+    damage = Contamination(clean, MARKERS, margin=5, one_at_a_time=False, rng=np.random.default_rng(3))
     for kind, axes in (("peaks", 1), ("steps", 2), ("slow", 3), ("noise", 1)):
         damage.add(kind, Recipe(uniform(8.0, 12.0), integers(300, 400), axes), count=4)
     for artifact in damage.artifacts:
@@ -105,7 +105,7 @@ def test_amplitudes_come_back_from_the_positions():
 
 
 @pytest.mark.parametrize("share", [0.05, 0.1, 0.2])
-def test_the_papers_procedure(share):
+def test_the_papers_protocol(share):
     result = one_at_a_time(still(), MARKERS, recipes=paper(), share=share, margin=2, rng=np.random.default_rng(7))
     found = masks(result, FRAMES)
     distorted = sum(mask.sum(axis=1) for mask in found.values())
@@ -159,7 +159,7 @@ def test_equal_seeds_give_equal_damage():
 def test_margin_is_kept_and_missing_samples_are_left_alone():
     clean = still(2000)
     clean[500:900, 2] = np.nan
-    damage = Contamination(clean, MARKERS, margin=20, alone=False, rng=np.random.default_rng(9))
+    damage = Contamination(clean, MARKERS, margin=20, one_at_a_time=False, rng=np.random.default_rng(9))
     damage.add("steps", Recipe(uniform(8.0, 12.0), integers(30, 60), 3), count=60)
     assert np.array_equal(np.isnan(damage.positions), np.isnan(clean))
     for marker in MARKERS:
@@ -172,11 +172,11 @@ def test_margin_is_kept_and_missing_samples_are_left_alone():
 
 
 def test_no_room_is_an_error():
-    damage = Contamination(still(200), MARKERS, margin=0, alone=True, rng=np.random.default_rng(0))
+    damage = Contamination(still(200), MARKERS, margin=0, one_at_a_time=True, rng=np.random.default_rng(0))
     with pytest.raises(ValueError, match="no room"):
         damage.add("steps", Recipe(uniform(8.0, 12.0), integers(90, 90), 1), count=3)
     with pytest.raises(ValueError, match="within 50"):
-        damage.swap(length=integers(5, 5), within=50.0, count=1)
+        damage.swap(length=integers(5, 5), within_mm=50.0, count=1)
     with pytest.raises(ValueError, match="do not fit"):
         damage.gap(length=integers(201, 201), markers=1, at="anywhere", count=1)
     with pytest.raises(ValueError, match="cannot be distorted"):
@@ -190,7 +190,7 @@ def practice(walker):
     return in_practice(clean.positions, clean.markers, **given)
 
 
-def test_damage_in_practice_is_of_every_sort(practice):
+def test_damage_in_practice_is_of_every_kind(practice):
     assert all(practice.events[kind] for kind in core_artifacts.CLASSES)
     assert {len(artifact.event.axes) for artifact in practice.artifacts} == {1, 2, 3}
     forms = {(artifact.kind, artifact.form) for artifact in practice.artifacts}

@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial.distance import pdist
 
 from markermend.numerics.intervals import runs
+from markermend.simulation.activities import ACTIVITIES, minimum_jerk
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import kind, make_body
-from markermend.simulation.walker_motion import ACTIVITIES, minimum_jerk
 
 DAILY = ["stand", "reach", "walk", "stand", "sit", "exercise"]
 
