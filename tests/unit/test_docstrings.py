@@ -46,7 +46,8 @@ def test_public_docstrings_follow_numpydoc(package, monkeypatch):
         pytest.skip("not converted yet")
     monkeypatch.chdir(PROJECT)
     paths = [LIBRARY / f"{package}.py"] if package == "api" else sorted((LIBRARY / package).rglob("*.py"))
-    assert [problem for path in paths if path.exists() for problem in problems(path)] == []
+    found = [problem for path in paths if path.exists() for problem in problems(path)]
+    assert not found, "\n".join(found)
 
 
 def test_the_list_of_exceptions_names_packages_only():

@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from markermend.planning import config as planning_config
-from markermend.planning import config_schema, decision_table, recordings
+from markermend.planning import config_schema, decision_table, recording_table, recordings
 from markermend.planning.recordings import BadDataSet, Entry
 
 Folders = tuple[str, str]
@@ -47,9 +47,9 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
     if os.path.isdir(path):
         found = recordings.find(path, results)
     elif os.path.isfile(path):
-        rows = recordings.read_rows(path)
+        rows = recording_table.read_rows(path)
         config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)
-        found = recordings.from_rows(rows, path)
+        found = recording_table.from_rows(rows, path)
     else:
         raise BadDataSet(
             f"recordings: no such folder or table: {path}\n"

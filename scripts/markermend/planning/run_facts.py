@@ -18,10 +18,25 @@ PACKAGES = ("numpy", "scipy", "pyarrow", "ezc3d", "jinja2", "plotly", "snakemake
 
 
 def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, started: datetime) -> dict[str, Any]:
-    """What is true of one run and of no result: versions, commit, configuration and times.
+    """Collect what is true of one run and of no result.
 
-    started: an aware time. Kept apart from the results, which hold no clock and no machine, so that they can be
-    compared.
+    The results hold no clock and no machine, so that they can be compared; these facts lie apart from them.
+
+    Parameters
+    ----------
+    project
+        The folder of the Snakefile.
+    config
+        The config.
+    recordings
+        Number of recordings.
+    started
+        When the run began, with its time zone.
+
+    Returns
+    -------
+    dict
+        Versions, commit, hashes of the code, configuration and times, for JSON.
     """
     return {
         "markermend": __version__,
@@ -38,7 +53,18 @@ def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, star
 
 
 def commit(project: Path) -> str | None:
-    """The commit of the project's checkout, with `-modified` where files differ from it; None where it is no checkout."""
+    """Name the commit of a checkout.
+
+    Parameters
+    ----------
+    project
+        Its folder.
+
+    Returns
+    -------
+    str or None
+        The full hash, with `-modified` where files differ from it; None for a folder that is no checkout.
+    """
     try:
         done = subprocess.run(
             ["git", "-C", str(project), "describe", "--always", "--abbrev=40", "--exclude=*", "--dirty=-modified"],

@@ -15,9 +15,19 @@ LISTED = 10
 
 
 def summary(paths: Iterable[Path], report: Path) -> str:
-    """Sum up the quality files of a data set's recordings: counts by status, changed samples, what was set aside and why.
+    """Sum up a run: recordings by what became of them, changed samples, what was set aside and why.
 
-    Files that do not exist count as unfinished. The path of the report is the last line, if there is one.
+    Parameters
+    ----------
+    paths
+        Quality files of the recordings; those that do not exist count as unfinished.
+    report
+        First page of the report; the last line names it where it exists.
+
+    Returns
+    -------
+    str
+        The lines.
     """
     found = [json.loads(path.read_text(encoding="utf-8")) if path.exists() else {} for path in paths]
     counts = Counter(quality.get("status", "unfinished") for quality in found)

@@ -1,16 +1,12 @@
 """The table of decisions: who gets which lines, and every way to be refused, with the place that is wrong."""
 
 import re
-from fnmatch import fnmatchcase
-from itertools import product
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from markermend.core.decisions import VERBS
 from markermend.export import change_table
-from markermend.planning.decision_table import COLUMNS, load, meet
+from markermend.planning.decision_table import COLUMNS, load
 from markermend.planning.recordings import BadDataSet, Entry
 from support.paths import PROJECT
 
@@ -181,15 +177,6 @@ def test_lines_that_cannot_both_be_followed_are_refused(tmp_path, one, other, cl
         loaded(tmp_path, place[0].format(first), place[1].replace("20", "21").format(second))
         loaded(tmp_path, place[0].format(first), place[1].replace("*ANK", "RANK").format(second))
         loaded(tmp_path, place[0].format(first), place[1].replace("run", "jump").format(second))
-
-
-patterns = st.text("ab*?", max_size=4)
-
-
-@given(patterns, patterns)
-def test_patterns_meet_where_some_name_fits_both(one, other):
-    names = ("".join(letters) for length in range(9) for letters in product("ab", repeat=length))
-    assert meet(one, other) == any(fnmatchcase(name, one) and fnmatchcase(name, other) for name in names)
 
 
 def test_more_than_a_command_line_holds_is_refused(tmp_path):

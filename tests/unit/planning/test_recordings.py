@@ -3,7 +3,7 @@ import os
 import pytest
 
 from markermend.planning import recordings
-from markermend.planning.recordings import BadDataSet, Entry
+from markermend.planning.recordings import BadDataSet
 
 
 def make(folder, *names):
@@ -85,65 +85,6 @@ def test_bytes_that_are_no_text_are_shown(tmp_path):
     assert set(found(tmp_path)) == {("S01", r"w\xe4lk")}
 
 
-@pytest.mark.parametrize("separator", ["\t", ",", ";"])
-def test_a_table_names_recordings_files_and_more(tmp_path, separator):
-    make(tmp_path, "raw/1.c3d", "raw/2.trc", "bob.json")
-    rows = [
-        "recording;subject;file;kind;rate;mesh",
-        "walk;Bob;raw/1.c3d;;;bob.json",
-        "",
-        "stand;Bob;raw/2.trc;static;50",
-    ]
-    path = tmp_path / "recordings.tsv"
-    path.write_text("\ufeff" + "\r\n".join(rows).replace(";", separator), encoding="utf-8")
-    raw = str(tmp_path / "raw")
-    assert recordings.from_rows(recordings.read_rows(str(path)), str(path)) == [
-        Entry("Bob", "stand", f"{raw}/2.trc", kind="static", rate=50.0),
-        Entry("Bob", "walk", f"{raw}/1.c3d", mesh=str(tmp_path / "bob.json")),
-    ]
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("recording\tfile\na\tb\n", "has no column subject; columns are recording, subject, file, kind, rate, mesh"),
-        ("", "has no column recording, subject, file"),
-        ("recording\tsubject\tfile\n", "has no rows"),
-        ("recording\tsubject\tfile\na\tb\tc\td\n", "line 2 has 4 cells for 3 columns"),
-    ],
-)
-def test_a_table_that_cannot_be_read_says_why(tmp_path, text, message):
-    path = tmp_path / "recordings.tsv"
-    path.write_text(text)
-    with pytest.raises(BadDataSet, match=message):
-        recordings.read_rows(str(path))
-
-
-def test_a_binary_file_is_no_table(tmp_path):
-    path = tmp_path / "walk.c3d"
-    path.write_bytes(b"\x02\x50\xff\xfe" * 100)
-    with pytest.raises(BadDataSet, match="not a table in UTF-8 text"):
-        recordings.read_rows(str(path))
-
-
-def test_every_problem_of_a_table_is_named_at_once(tmp_path):
-    make(tmp_path, "1.c3d", "2.mov")
-    rows = [
-        {"recording": "walk", "subject": "Bob", "file": "1.c3d"},
-        {"recording": "walk", "subject": "Bob", "file": "2.mov"},
-        {"recording": "run", "subject": "Bob", "file": "3.c3d", "mesh": "bob.json"},
-    ]
-    with pytest.raises(BadDataSet) as error:
-        recordings.from_rows(rows, str(tmp_path / "recordings.tsv"))
-    lines = str(error.value).splitlines()
-    assert lines[1:] == [
-        f"no such file: {tmp_path}/3.c3d",
-        f"no such file: {tmp_path}/bob.json",
-        f"not a known format (c3d, trc, csv, tsv): {tmp_path}/2.mov",
-        "twice: recording walk of subject Bob",
-    ]
-
-
 def test_a_broken_link_is_a_recording_and_alike_names_are_refused(tmp_path):
     (tmp_path / "S").mkdir()
     (tmp_path / "S" / "gone.c3d").symlink_to(tmp_path / "nowhere.c3d")
@@ -153,9 +94,3 @@ def test_a_broken_link_is_a_recording_and_alike_names_are_refused(tmp_path):
     (tmp_path / "S" / r"\xff.c3d").touch()
     with pytest.raises(BadDataSet, match="told apart"):
         recordings.find(str(tmp_path), str(tmp_path / "out"))
-
-
-def test_a_repeated_column_is_refused(tmp_path):
-    (tmp_path / "t.tsv").write_text("recording\tsubject\tfile\tsubject\na\tS\ta.c3d\tT\n")
-    with pytest.raises(BadDataSet, match="column subject more than once"):
-        recordings.read_rows(str(tmp_path / "t.tsv"))

@@ -1,0 +1,129 @@
+"""One line of the table of decisions: its cells read as the stages take them, or what is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from markermend.core.artifacts import ARTIFACTS, STAGE_OF
+from markermend.core.changes import GAP
+from markermend.core.decisions import LEAVE, VERBS
+
+NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS}, "filled": GAP}
+"""Classes by the names of their detectors, and what changes.tsv calls a gap that was filled."""
+
+METHOD_NAMES = {"swap": "exchange"}
+"""Methods that changes.tsv calls otherwise than the config."""
+
+
+class Problem(Exception):
+    """A cell that cannot be used.
+
+    Parameters
+    ----------
+    column
+        Name of its column.
+    text
+        What is wrong with it.
+    """
+
+    def __init__(self, column: str, text: str) -> None:
+        super().__init__(f"column {column}: {text}")
+
+
+def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[str, Any]]:
+    """Read a decision.
+
+    Parameters
+    ----------
+    row
+        The cells that are not empty, by their columns.
+    methods
+        Names that the decision `method` may give.
+
+    Yields
+    ------
+    tuple of (str, Any)
+        The parts of the decision as the stages read it, by name; those without a value are left out.
+
+    Raises
+    ------
+    Problem
+        For a cell that means nothing, or that is empty where it must not be.
+    """
+    for column in ("recording", "marker", "decision"):
+        if column not in row:
+            raise Problem(column, "is empty")
+    if row["decision"] not in VERBS:
+        raise Problem("decision", _unknown(row["decision"], VERBS))
+    yield "marker", row["marker"]
+    yield "decision", row["decision"]
+    frames = {column: _whole(column, row[column]) for column in ("first_frame", "last_frame") if column in row}
+    if len(frames) == 1:
+        (column,) = {"first_frame", "last_frame"} - set(frames)
+        raise Problem(column, "is empty: give both frames, or neither for the whole recording")
+    if frames and frames["first_frame"] > frames["last_frame"]:
+        raise Problem("last_frame", f"{frames['last_frame']} comes before the first, {frames['first_frame']}")
+    if row["decision"] == "class" and not frames:
+        raise Problem("first_frame", "is empty: an artifact has a first and a last frame")
+    yield from frames.items()
+    if value := _value_of(row, methods):
+        yield "value", value
+    if "note" in row:
+        yield "note", " ".join(row["note"].split())
+
+
+def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
+    """Read the value of a decision. Raises Problem."""
+    verb, value = row["decision"], row.get("value", "")
+    value = METHOD_NAMES.get(value, value) if verb == "method" else NAMES.get(value, value)
+    if verb in ("protect", "missing") and value:
+        raise Problem("value", f"{value!r}: {verb} takes no value")
+    if verb in ("accept", "reject") and value and value not in (*STAGE_OF, GAP):
+        raise Problem("value", _unknown(value, (*STAGE_OF, GAP)))
+    if verb == "method" and value not in (LEAVE, *methods):
+        raise Problem("value", _unknown(value, (LEAVE, *methods)))
+    if verb == "class":
+        kind, _, partner = value.partition(":")
+        if (kind, partner) == ("swap", "") or (kind == "swap" and set("*?") & set(row["marker"])):
+            raise Problem(
+                "value", f"{value!r}: a swap is between two markers, write one as the marker and swap:OTHER here"
+            )
+        if kind not in STAGE_OF or (partner and kind != "swap"):
+            raise Problem("value", _unknown(value, [kind for kind in STAGE_OF if kind != "swap"] + ["swap:OTHER"]))
+        if partner == row["marker"]:
+            raise Problem("value", f"{value!r}: the other marker is the same")
+    return value
+
+
+def _whole(column: str, text: str) -> int:
+    """Read a whole number. Raises Problem."""
+    try:
+        return int(text)
+    except ValueError:
+        raise Problem(column, f"{text!r} is not a frame number") from None
+
+
+def _unknown(word: str, known: Collection[str]) -> str:
+    """Say that a word is none of those known, and which was meant."""
+    return f"{word!r} is none of {', '.join(known)}{suggestion(word, known)}"
+
+
+def suggestion(word: str, known: Collection[str]) -> str:
+    """Ask whether a similar word was meant.
+
+    Parameters
+    ----------
+    word
+        What somebody wrote.
+    known
+        The words that mean something.
+
+    Returns
+    -------
+    str
+        The end of a sentence; empty where no word is similar.
+    """
+    close = get_close_matches(word, sorted(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""

@@ -1,0 +1,65 @@
+"""Tables that people write: text separated by tabs, commas or semicolons."""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter
+from collections.abc import Sequence
+
+from markermend.planning.recordings import BadDataSet
+
+
+def read_table(
+    path: str, *, what: str, columns: Sequence[str], required: Sequence[str]
+) -> list[tuple[int, dict[str, str]]]:
+    """Read a table.
+
+    Parameters
+    ----------
+    path
+        File of the table.
+    what
+        The option that names it, for messages.
+    columns
+        The columns that mean something.
+    required
+        The columns that must be there.
+
+    Returns
+    -------
+    list of (int, dict of str to str)
+        Line number and filled cells, by their columns, of each row that has any.
+
+    Raises
+    ------
+    BadDataSet
+        For what is no table, for columns that are missing, unknown or repeated, and for cells outside of the columns.
+    """
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            header = file.readline()
+            separator = next((mark for mark in "\t,;" if mark in header), "\t")
+            file.seek(0)
+            reader = csv.reader(file, delimiter=separator)
+            table = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise BadDataSet(f"{what}: {path} is not a table in UTF-8 text ({error})") from error
+    names = table[0][1] if table else []
+    repeated = [name for name, count in Counter(names).items() if count > 1 and name]
+    if repeated:
+        raise BadDataSet(f"{what}: {path} has column {', '.join(repeated)} more than once")
+    known = f"columns are {', '.join(columns)}"
+    if absent := [name for name in required if name not in names]:
+        raise BadDataSet(f"{what}: {path} has no column {', '.join(absent)}; {known}")
+    if strange := [name for name in names if name and name not in columns]:
+        raise BadDataSet(f"{what}: {path} has column {', '.join(strange)}, which means nothing; {known}")
+    rows = []
+    for number, cells in table[1:]:
+        if len(cells) > len(names):
+            raise BadDataSet(f"{what}: {path} line {number} has {len(cells)} cells for {len(names)} columns")
+        row = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
+        if "" in row:
+            raise BadDataSet(f"{what}: {path} line {number} has {row['']!r} in a column without a name")
+        if row:
+            rows.append((number, row))
+    return rows

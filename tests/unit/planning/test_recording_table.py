@@ -1,0 +1,61 @@
+"""The table of recordings."""
+
+import pytest
+
+from markermend.planning import recording_table
+from markermend.planning.recordings import BadDataSet, Entry
+
+
+@pytest.mark.parametrize("separator", ["\t", ",", ";"])
+def test_a_table_names_recordings_files_and_more(tmp_path, separator):
+    (tmp_path / "raw").mkdir()
+    for name in ("raw/1.c3d", "raw/2.trc", "bob.json"):
+        (tmp_path / name).touch()
+    rows = [
+        "recording;subject;file;kind;rate;mesh",
+        "walk;Bob;raw/1.c3d;;;bob.json",
+        "",
+        "stand;Bob;raw/2.trc;static;50",
+    ]
+    path = tmp_path / "recordings.tsv"
+    path.write_text("\ufeff" + "\r\n".join(rows).replace(";", separator), encoding="utf-8")
+    raw = str(tmp_path / "raw")
+    assert recording_table.from_rows(recording_table.read_rows(str(path)), str(path)) == [
+        Entry("Bob", "stand", f"{raw}/2.trc", kind="static", rate=50.0),
+        Entry("Bob", "walk", f"{raw}/1.c3d", mesh=str(tmp_path / "bob.json")),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("recording\tfile\na\tb\n", "has no column subject; columns are recording, subject, file, kind, rate, mesh"),
+        ("", "has no column recording, subject, file"),
+        ("recording\tsubject\tfile\n", "has no rows"),
+        ("recording\tsubject\tfile\na\tb\tc\td\n", "line 2 has 4 cells for 3 columns"),
+    ],
+)
+def test_a_table_that_cannot_be_read_says_why(tmp_path, text, message):
+    path = tmp_path / "recordings.tsv"
+    path.write_text(text)
+    with pytest.raises(BadDataSet, match=message):
+        recording_table.read_rows(str(path))
+
+
+def test_every_problem_of_a_table_is_named_at_once(tmp_path):
+    for name in ("1.c3d", "2.mov"):
+        (tmp_path / name).touch()
+    rows = [
+        {"recording": "walk", "subject": "Bob", "file": "1.c3d"},
+        {"recording": "walk", "subject": "Bob", "file": "2.mov"},
+        {"recording": "run", "subject": "Bob", "file": "3.c3d", "mesh": "bob.json"},
+    ]
+    with pytest.raises(BadDataSet) as error:
+        recording_table.from_rows(rows, str(tmp_path / "recordings.tsv"))
+    lines = str(error.value).splitlines()
+    assert lines[1:] == [
+        f"no such file: {tmp_path}/3.c3d",
+        f"no such file: {tmp_path}/bob.json",
+        f"not a known format (c3d, trc, csv, tsv): {tmp_path}/2.mov",
+        "twice: recording walk of subject Bob",
+    ]
