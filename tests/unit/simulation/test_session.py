@@ -58,7 +58,7 @@ def test_a_subject_does_not_depend_on_the_others():
     assert not np.array_equal(one[1].clean.positions, other[1].clean.positions)
 
 
-def test_damage_is_of_every_sort():
+def test_contamination_is_of_every_kind():
     daily = list(session(seed=3, subject=1, duration=15.0, rate=100.0))[1]
     assert {kind: len(found) for kind, found in daily.truth.items()} == {
         "frozen": 3, "peaks": 15, "noise": 5, "labels": 4, "steps": 5, "slow": 5, "tails": 3, "gaps": 27,

@@ -5,32 +5,9 @@ import pytest
 from scipy.spatial.distance import pdist
 
 from markermend.numerics.intervals import runs
-from markermend.simulation.activities import ACTIVITIES, minimum_jerk
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import kind, make_body
-
-DAILY = ["stand", "reach", "walk", "stand", "sit", "exercise"]
-
-
-def person(seed, *, duration=20.0, rate=100.0, activities=DAILY, noise=0.2, soft_tissue=1.0):
-    rng = np.random.default_rng(seed)
-    body = make_body(rng=rng)
-    return walk(
-        body=body, duration=duration, rate=rate, activities=activities, noise=noise, soft_tissue=soft_tissue, rng=rng
-    )
-
-
-def marker(walker, name):
-    return walker.rigid[:, walker.recording.markers.index(name)]
-
-
-def speed(walker, name):
-    return np.linalg.norm(np.gradient(marker(walker, name), 1 / walker.recording.rate, axis=0), axis=1) / 1000
-
-
-def acceleration(walker, name):
-    twice = np.gradient(np.gradient(marker(walker, name), axis=0), axis=0) * walker.recording.rate**2
-    return np.linalg.norm(twice, axis=1) / 1000
+from support.walkers import marker, person, speed
 
 
 def test_a_seed_is_a_recording():
@@ -97,31 +74,6 @@ def test_noise_is_as_asked():
     assert np.abs((difference[1:] * difference[:-1]).mean()) < 0.001
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_bodies_are_of_human_size(seed):
-    body = make_body(rng=np.random.default_rng(seed))
-    lengths = {name: np.linalg.norm(joint) for name, joint in zip(body.segments, body.joints, strict=True)}
-    assert 1480 <= body.height <= 2000
-    assert 320 < lengths["left_shank"] < 540
-    assert 320 < lengths["right_foot"] < 540
-    assert 240 < lengths["left_forearm"] < 420
-    assert lengths["left_shank"] == lengths["right_shank"]
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_speeds_and_accelerations_are_human(seed):
-    walker = person(seed, duration=16.0)
-    stand, walking = walker.bouts[0], next(bout for bout in walker.bouts if bout[0] == "walk")
-    rows = slice(round((walking[1] + 1) * 100), round((walking[2] - 1) * 100))
-    assert speed(walker, "LASI")[: round((stand[2] - 0.5) * 100)].max() < 0.1
-    assert 0.7 < np.median(speed(walker, "LASI")[rows]) < 1.7
-    assert 3.0 < speed(walker, "LTOE").max() < 7.5
-    assert 1.0 < speed(walker, "LFIN").max() < 6.0
-    assert speed(walker, "LFHD").max() < 3.0
-    assert acceleration(walker, "LFHD").max() < 30
-    assert acceleration(walker, "LTOE").max() < 90
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_feet_stand_on_the_ground(seed):
     walker = person(seed, duration=16.0)
@@ -135,36 +87,3 @@ def test_feet_stand_on_the_ground(seed):
     standing = np.minimum(speed(walker, "LTOE"), speed(walker, "RTOE"))[rows]
     assert np.median(standing) < 0.25
     assert sum(1 for _ in runs(speed(walker, "LTOE")[rows] > 2)) >= 2
-
-
-def test_sitting_lowers_the_pelvis_and_standing_up_raises_it_again():
-    walker = person(9, duration=9.0, activities=["stand", "sit", "stand"])
-    height = marker(walker, "LASI")[:, 2]
-    bout = walker.bouts[1]
-    seated = height[round((bout[1] + 1.2) * 100) : round((bout[2] - 1.2) * 100)]
-    assert np.median(height[:50]) - np.median(seated) > 250
-    assert abs(height[round((bout[2] + 1.0) * 100)] - height[0]) < 40
-
-
-def test_a_standing_person_hardly_moves():
-    walker = person(11, duration=4.0, activities=["stand"], noise=0.0)
-    assert walker.recording.positions.std(axis=0).max() < 12
-    assert speed(walker, "LFIN").max() < 0.05
-
-
-def test_activities_come_in_turn_and_fill_the_time():
-    walker = person(10, duration=40.0)
-    names = [name for name, _, _ in walker.bouts]
-    assert names == (DAILY * 5)[: len(names)]
-    assert set(names) == set(ACTIVITIES)
-    assert walker.bouts[-1][2] >= 40 > walker.bouts[-1][1]
-    assert walker.recording.frames == 4000
-
-
-def test_minimum_jerk_starts_and_ends_at_rest():
-    time = np.linspace(-1, 2, 3001)
-    rise = minimum_jerk(time, 0.0, 1.0)
-    assert (rise[time <= 0] == 0).all()
-    assert (rise[time >= 1] == 1).all()
-    assert np.gradient(rise, time).max() == pytest.approx(1.875, rel=1e-3)
-    assert np.abs(np.gradient(rise, time)[[999, 2001]]).max() < 1e-4
