@@ -50,7 +50,7 @@ def work(call):
         recording,
         found=found,
         neighbours=body.neighbour_indices(recording.markers),
-        relatives=body.relative_indices(recording.markers),
+        relatives=body.segment_mate_indices(recording.markers),
         predictors={predictor.name: predictor for predictor in members(sorted(names), settings)},
         options=RepairOptions(**own),
         decisions=decisions.read(decided, recording.first_frame),

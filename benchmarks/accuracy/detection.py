@@ -80,7 +80,7 @@ def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
 
     What frozen and tails find is missing for all that come later.
     """
-    near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
+    near, relatives = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
     scene = Scene(recording.positions, recording.rate, near, segment_mates=relatives)
     predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
     claimed, found = np.zeros(recording.positions.shape, bool), {}
@@ -109,7 +109,7 @@ def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[n
     names = {name for methods in options.methods.values() for name in methods if name in REGISTRY} | {"local_ridge"}
     settings = {name: config[name] for name in SHARED}
     predictors = {predictor.name: predictor for predictor in members(sorted(names), settings)}
-    near, relatives = body.neighbour_indices(recording.markers), body.relative_indices(recording.markers)
+    near, relatives = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
     given = {"neighbours": near, "relatives": relatives, "predictors": predictors, "options": options}
     result = repair(recording, found=found, **given)
     refused = bool(result.changes) and all(change.reason for change in result.changes)

@@ -72,7 +72,7 @@ def read(
     """
     recording = stage_files.read_recording(markers)
     network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
-    near, relatives = network.neighbour_indices(recording.markers), network.relative_indices(recording.markers)
+    near, relatives = network.neighbour_indices(recording.markers), network.segment_mate_indices(recording.markers)
     found = [event for path in earlier for event in stage_files.read_events(path)]
     exchanges = [event for event in found if event.partner is not None]
     artifacts = [event for event in found if event.partner is None]

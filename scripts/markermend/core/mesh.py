@@ -1,6 +1,6 @@
-"""What a functional body mesh is: rigid segments of markers in a tree, and who predicts whom.
+"""The functional body mesh: rigid segments of markers in a tree, and the neighbours that each marker is predicted from.
 
-A mesh serves one or more recordings of a subject. Marker names tie it to them, never positions in an array.
+A mesh serves one or more recordings of a subject. It refers to markers by name, never by their index in an array.
 """
 
 from __future__ import annotations
@@ -16,10 +16,24 @@ import numpy as np
 class Segment:
     """Markers that move as one rigid body.
 
-    residual_mm: deviation of a marker from a rigid body, per axis. parent: index of the parent segment, None for the
-    root of a component. parent_marker: the marker that it hangs on (for a root, one of a child stands in).
-    edge_cost: cost of hanging on parent_marker, mm, None where unknown. component: subject or prop, counted from 0,
-    largest first. confidence: 0 to 1, how clearly the segment stands apart from the others.
+    Attributes
+    ----------
+    name : str
+        Of the segment.
+    markers : tuple of str
+        Its markers.
+    residual_mm : float
+        Deviation of a marker from a rigid body, per axis, in mm.
+    parent : int or None
+        Index of the parent segment, None for the root of a component.
+    parent_marker : str or None
+        The marker of the parent that the segment is attached to; for a root, a marker of one of its children.
+    edge_cost : float or None
+        Cost of the attachment in mm, None where unknown.
+    component : int
+        Number of the subject or prop that it belongs to, from 0, the largest first.
+    confidence : float
+        How clearly the segment is separated from the others, 0 to 1.
     """
 
     name: str
@@ -36,10 +50,25 @@ class Segment:
 class Mesh:
     """The functional body mesh of one subject and marker set.
 
-    markers: all that its recordings hold, sorted. segments: parents before their children. predictors: for each marker
-    its siblings, then its parent marker, then nearest others while there are too few. neighbours: for each marker the
-    others of its component, nearest first. Markers hardly ever seen are in no segment, and their lists are empty.
-    absent: by recording, the markers that this recording does not hold.
+    Markers that are hardly ever seen are in no segment, and their lists are empty.
+
+    Attributes
+    ----------
+    recordings : tuple of str
+        Names of the recordings that it was inferred from.
+    markers : tuple of str
+        All markers of these recordings, sorted.
+    segments : tuple of Segment
+        Parents before their children.
+    predictors : dict[str, tuple[str, ...]]
+        For each marker its segment mates, then the marker that its segment is attached to, then the nearest others
+        while there are too few.
+    neighbours : dict[str, tuple[str, ...]]
+        For each marker the others of its component, nearest first.
+    warnings : tuple of str
+        One sentence each.
+    absent : dict[str, tuple[str, ...]]
+        By recording, the markers that it does not hold.
     """
 
     recordings: tuple[str, ...]
@@ -51,21 +80,65 @@ class Mesh:
     absent: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def segment_of(self, marker: str) -> int | None:
-        """Index of the segment that holds a marker, None if none does."""
+        """Find the segment of a marker.
+
+        Parameters
+        ----------
+        marker : str
+            Its name.
+
+        Returns
+        -------
+        int or None
+            Index of the segment; None where no segment holds the marker.
+        """
         return next((s for s, segment in enumerate(self.segments) if marker in segment.markers), None)
 
     def neighbour_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
-        """For each of a recording's markers the places of its neighbours among them, nearest first."""
-        return _places(self.neighbours, markers)
+        """Give the neighbours of each marker of a recording.
 
-    def relative_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
-        """For each of a recording's markers the places among them of its siblings and its parent marker."""
-        return _places(self.predictors, markers)
+        Parameters
+        ----------
+        markers : sequence of str
+            Markers of the recording.
+
+        Returns
+        -------
+        list of ndarray of int
+            For each marker the indices of its neighbours, nearest first.
+        """
+        return _indices(self.neighbours, markers)
+
+    def segment_mate_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
+        """Give the segment mates of each marker of a recording, and the marker that its segment is attached to.
+
+        Parameters
+        ----------
+        markers : sequence of str
+            Markers of the recording.
+
+        Returns
+        -------
+        list of ndarray of int
+            For each marker the indices of its `predictors`.
+        """
+        return _indices(self.predictors, markers)
 
     def without(self, markers: Collection[str]) -> Mesh:
-        """Give the mesh of a recording that lacks some markers; lists of predictors are refilled with the next nearest.
+        """Give the mesh of a recording that lacks some markers.
 
-        Segments keep their places, so that parents stay valid; one may be left without markers.
+        Segments keep their places, so that parents stay valid; one may be left without markers. Lists of predictors are
+        refilled with the nearest neighbours.
+
+        Parameters
+        ----------
+        markers : collection of str
+            The markers that it lacks.
+
+        Returns
+        -------
+        Mesh
+            The mesh of the others.
         """
         if not markers:
             return self
@@ -75,10 +148,10 @@ class Mesh:
 
         neighbours = {marker: present(self.neighbours[marker]) for marker in present(self.markers)}
         predictors = {}
-        for marker, near in neighbours.items():
-            kept = present(self.predictors[marker])
-            spare = [name for name in near if name not in kept]
-            predictors[marker] = (*kept, *spare[: len(self.predictors[marker]) - len(kept)])
+        for marker, nearest in neighbours.items():
+            left = present(self.predictors[marker])
+            spare = [name for name in nearest if name not in left]
+            predictors[marker] = (*left, *spare[: len(self.predictors[marker]) - len(left)])
         segments = tuple(
             replace(
                 segment,
@@ -92,18 +165,35 @@ class Mesh:
         )
 
     def as_json(self) -> dict[str, Any]:
-        """Give the mesh as JSON values."""
+        """Give the mesh as JSON values.
+
+        Returns
+        -------
+        dict of str to Any
+            What from_json takes.
+        """
         return asdict(self)
 
 
-def _places(named: dict[str, tuple[str, ...]], markers: Sequence[str]) -> list[np.ndarray]:
-    """For each of a recording's markers the places among them of those that are named for it."""
+def _indices(named: dict[str, tuple[str, ...]], markers: Sequence[str]) -> list[np.ndarray]:
+    """For each marker of a recording the indices of those that are listed for it."""
     place = {marker: m for m, marker in enumerate(markers)}
     return [np.array([place[name] for name in named[marker]], int) for marker in markers]
 
 
 def from_json(entry: dict[str, Any]) -> Mesh:
-    """Build a mesh from one entry of mesh.json."""
+    """Build a mesh from an entry of mesh.json.
+
+    Parameters
+    ----------
+    entry : dict of str to Any
+        As Mesh.as_json gives it.
+
+    Returns
+    -------
+    Mesh
+        The mesh.
+    """
     return Mesh(
         recordings=tuple(entry["recordings"]),
         markers=tuple(entry["markers"]),

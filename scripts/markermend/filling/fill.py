@@ -71,7 +71,7 @@ def fill_gaps(
         restored.positions,
         restored.rate,
         mesh.neighbour_indices(restored.markers),
-        segment_mates=mesh.relative_indices(restored.markers),
+        segment_mates=mesh.segment_mate_indices(restored.markers),
     )
     return fill_scene(restored, scene, make_ensembles(options, predictors, decisions), options, decisions, repairs)
 

@@ -137,5 +137,5 @@ def test_neighbours_as_places_in_a_recording(body, pooled):
     names = body[0][::-1]
     for marker, near in zip(names, pooled.neighbour_indices(names), strict=True):
         assert tuple(names[place] for place in near) == pooled.neighbours[marker]
-    for marker, near in zip(names, pooled.relative_indices(names), strict=True):
+    for marker, near in zip(names, pooled.segment_mate_indices(names), strict=True):
         assert tuple(names[place] for place in near) == pooled.predictors[marker]
