@@ -20,11 +20,11 @@ def applied_changes(measured: Recording, restored: Restored, changes: Sequence[C
 
     Parameters
     ----------
-    measured
+    measured : Recording
         The recording as ingested.
-    restored
+    restored : Restored
         The recording after repair and filling.
-    changes
+    changes : sequence of Change
         What repair and filling did to each stretch.
 
     Returns

@@ -15,17 +15,17 @@ class ArtifactClass:
 
     Attributes
     ----------
-    stage
+    stage : str
         Name of the detector: of its rule, its script, its config section and its log.
-    name
+    name : str
         The class as people name it, in tables and decisions.
-    plural
+    plural : str
         The class in running text.
-    text
+    text : str
         What one looks like, for people.
-    number
+    number : int
         Number at the start of the name of its events file.
-    unmeasured
+    unmeasured : str
         Why nobody measured such samples, so that they are never repaired and count as missing; empty where
         a repair may start from what was measured.
     """
@@ -81,5 +81,5 @@ CLASSES = tuple(artifact.stage for artifact in ARTIFACTS)
 BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact in ARTIFACTS}
 """The classes by their detectors."""
 
-STAGE_OF: Mapping[str, str] = {artifact.name: artifact.stage for artifact in ARTIFACTS}
-"""The detector of each class by the class's name."""
+BY_NAME: Mapping[str, ArtifactClass] = {artifact.name: artifact for artifact in ARTIFACTS}
+"""The classes by their names."""

@@ -41,9 +41,9 @@ class Alternative:
 
     Attributes
     ----------
-    method
+    method : str
         Name of the method.
-    expected_error_mm
+    expected_error_mm : float
         The largest expected error (68 %) over the stretch, mm, to 0.001.
     """
 
@@ -57,9 +57,9 @@ class MemberWeight:
 
     Attributes
     ----------
-    member
+    member : str
         Name of the predictor.
-    weight
+    weight : float
         Its weight, from 0 to 1, to 0.001; those of a gap add up to 1.
     """
 
@@ -73,38 +73,38 @@ class Change:
 
     Attributes
     ----------
-    marker
+    marker : str
         Name of the marker.
-    start, stop
+    start, stop : int
         First frame, and the frame after the last, as rows counted from 0.
-    classes
+    classes : tuple of str
         What the stretch was found to be: names of the classes of artifacts in detector order, or GAP alone, or
         DECLARED_MISSING alone.
-    outcome
+    outcome : Outcome
         What became of it.
-    score
+    score : float, optional
         The evidence for an artifact, in units of the detector's threshold; None for gaps and declared samples.
-    axes
+    axes : str
         The axes on which the detector fired, such as "xz"; empty where there is no evidence.
-    partner
+    partner : str, optional
         The other marker of exchanged labels.
-    method
+    method : str, optional
         What replaced the samples; None where nothing did.
-    alternatives
+    alternatives : tuple of Alternative
         All methods that could be used, with the error to be expected of each.
-    member_weights
+    member_weights : tuple of MemberWeight
         The predictors that filled a gap, the largest weight first.
-    samples
+    samples : int
         How many samples were changed; for a stretch that was left, its length.
-    largest_change_mm
+    largest_change_mm : float, optional
         The largest distance between a measured sample and what stands there now, mm; None where no measured sample
         was replaced, or where the stage did not know what was measured.
-    expected_error_mm, expected_error95_mm
+    expected_error_mm, expected_error95_mm : float, optional
         The largest radii of the balls that hold the true position with probability 0.68 and 0.95, mm; None where
         nothing was written.
-    decisions
+    decisions : tuple of str
         The decisions of a person that bear on it, in the words of the table.
-    reason
+    reason : Reason, optional
         Why the stretch was left or blanked; None where it was repaired, exchanged or filled.
     """
 
@@ -147,7 +147,7 @@ def largest(values: np.ndarray) -> float | None:
 
     Parameters
     ----------
-    values
+    values : ndarray of float
         Figures in mm of any shape; NaN = unknown.
 
     Returns

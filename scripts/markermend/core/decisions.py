@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
-from markermend.core.artifacts import BY_STAGE, STAGE_OF
+from markermend.core.artifacts import BY_NAME, BY_STAGE
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
 
@@ -28,10 +28,22 @@ EVER = 2**62
 
 @dataclass(frozen=True, order=True)
 class Decision:
-    """One decision on the markers of a name, or a pattern with * and ?, over [start, stop).
+    """One decision of a person on a stretch of one or more markers.
 
-    verb: one of VERBS. value: a class (`swap:PARTNER` for a swap that was not found) or a method. note: the person's
-    reason. person: False where a setting says so and not a person.
+    Attributes
+    ----------
+    marker : str
+        Name of the marker, or a pattern with * and ?.
+    start, stop : int
+        First frame, and the frame after the last, as rows counted from 0.
+    verb : str
+        One of VERBS.
+    value : str
+        A class (`swap:PARTNER` for an exchange of labels that was not found) or a method.
+    note : str
+        The person's reason.
+    person : bool
+        False where a setting says so and not a person.
     """
 
     marker: str
@@ -45,32 +57,56 @@ class Decision:
     @property
     def text(self) -> str:
         """The decision in the words of the table."""
-        said = f"{self.verb} {self.value}".rstrip()
-        return f"{said} ({self.note})" if self.note else said
+        text = f"{self.verb} {self.value}".rstrip()
+        return f"{text} ({self.note})" if self.note else text
 
     @property
     def reason(self) -> Reason:
-        """Why what the decision keeps was kept."""
+        """The reason of a stretch that stays as it is because of this decision."""
         if self.person:
             return Reason(Cause.DECIDED, f"a person decided: {self.text}")
         return Reason(Cause.PROTECTED, "protected")
 
     @property
     def kinds(self) -> frozenset[str]:
-        """The classes that it is about; unless it says so, no gap."""
-        return frozenset([self.value.partition(":")[0]] if self.value else STAGE_OF)
+        """The classes that it is about: all but gaps where it names none."""
+        return frozenset([self.value.partition(":")[0]] if self.value else BY_NAME)
 
     @property
     def partner(self) -> str | None:
-        """The other marker of a swap that was not found."""
+        """The other marker of an exchange of labels that was not found."""
         return self.value.partition(":")[2] or None
 
     def matches(self, marker: str) -> bool:
-        """Whether it is about a marker."""
+        """Tell whether the decision is about a marker.
+
+        Parameters
+        ----------
+        marker : str
+            Name of the marker.
+
+        Returns
+        -------
+        bool
+            Whether the name fits.
+        """
         return marker == self.marker or fnmatchcase(marker, self.marker.replace("[", "[[]"))
 
     def on(self, markers: Iterable[str], start: int, stop: int) -> bool:
-        """Whether it is about any of these markers in any frame of [start, stop)."""
+        """Tell whether the decision is about a stretch of one of several markers.
+
+        Parameters
+        ----------
+        markers : iterable of str
+            Names of the markers.
+        start, stop : int
+            First frame, and the frame after the last.
+
+        Returns
+        -------
+        bool
+            Whether any of the names fits and any frame is shared.
+        """
         return start < self.stop and self.start < stop and any(map(self.matches, markers))
 
 
@@ -78,8 +114,16 @@ class Decision:
 class Ruling:
     """What the decisions come to for one finding or gap.
 
-    left: why it stays as it is, None where nobody says so. confirmed: the limits do not hold. method: the only one to
-    use, None: as usual. texts: the decisions that bear on it.
+    Attributes
+    ----------
+    left : Reason, optional
+        Why it stays as it is; None where nobody says so.
+    confirmed : bool
+        Whether a person confirmed it, so that no limit holds.
+    method : str, optional
+        The only method to use; None where no person named one.
+    texts : tuple of str
+        The decisions that bear on it, in the words of the table.
     """
 
     left: Reason | None = None
@@ -89,9 +133,19 @@ class Ruling:
 
 
 def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decision]:
-    """Take the decisions on one recording from the objects of decision_table.read.
+    """Make the decisions on one recording from their JSON values.
 
-    first_frame: the capture program's number of row 0.
+    Parameters
+    ----------
+    entries : iterable of mapping
+        The decisions, with frames in the capture program's numbering, both part of the stretch.
+    first_frame : int
+        The capture program's number of row 0.
+
+    Returns
+    -------
+    list of Decision
+        The decisions in the same order.
     """
     return [
         Decision(
@@ -107,17 +161,52 @@ def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decisio
 
 
 def protecting(patterns: Iterable[str]) -> list[Decision]:
-    """What the setting `protect` decides: markers that are never touched."""
+    """Make the decisions that stand for the setting `protect`.
+
+    Parameters
+    ----------
+    patterns : iterable of str
+        Names of markers that are never touched, with * and ?.
+
+    Returns
+    -------
+    list of Decision
+        One for each pattern, about all frames.
+    """
     return [Decision(pattern, -EVER, EVER, "protect", person=False) for pattern in patterns]
 
 
 def kind_of(stage: str, event: Event) -> str:
-    """The class of a finding as people name it."""
+    """Name the class of a finding.
+
+    Parameters
+    ----------
+    stage : str
+        The detector.
+    event : Event
+        The finding.
+
+    Returns
+    -------
+    str
+        The class as people name it.
+    """
     return "swap" if event.partner else BY_STAGE[stage].name
 
 
 def names(event: Event) -> tuple[str, ...]:
-    """The markers of a finding: two where labels are swapped."""
+    """Name the markers of a finding.
+
+    Parameters
+    ----------
+    event : Event
+        The finding.
+
+    Returns
+    -------
+    tuple of str
+        The event's own marker, and its partner where labels are exchanged.
+    """
     return (event.marker, event.partner) if event.partner else (event.marker,)
 
 
@@ -129,21 +218,48 @@ def rule(
     stop: int,
     methods: Collection[str] | None = None,
 ) -> Ruling:
-    """Tell what the decisions come to for a finding of these classes, or a gap, over [start, stop).
+    """Combine the decisions that bear on a finding or a gap.
 
-    markers: the finding's, and its partner. methods: those that can be used here, None = any.
+    Parameters
+    ----------
+    decisions : iterable of Decision
+        All decisions on the recording.
+    kinds : collection of str
+        The classes of the finding, or `gap`.
+    markers : collection of str
+        The markers of the finding.
+    start, stop : int
+        First frame, and the frame after the last.
+    methods : collection of str, optional
+        The methods that can be used here; None = any.
+
+    Returns
+    -------
+    Ruling
+        What the decisions come to: what protects stands over what rejects, and that over what confirms.
     """
-    near = [decision for decision in decisions if decision.on(markers, start, stop)]
-    against = [d for d in near if d.verb == "protect"]
-    against += [d for d in near if d.verb == "reject" and not d.kinds.isdisjoint(kinds)]
-    against += [d for d in near if d.verb == "method" and d.value == LEAVE]
+    own = [decision for decision in decisions if decision.on(markers, start, stop)]
+    against = [d for d in own if d.verb == "protect"]
+    against += [d for d in own if d.verb == "reject" and not d.kinds.isdisjoint(kinds)]
+    against += [d for d in own if d.verb == "method" and d.value == LEAVE]
     if against:
-        return Ruling(against[0].reason, texts=told(against[:1]))
-    how = [d for d in near if d.verb == "method" and (methods is None or d.value in methods)]
-    backing = [d for d in near if d.verb in ("accept", "class") and not d.kinds.isdisjoint(kinds)] + how
-    return Ruling(None, bool(backing), how[0].value if how else None, told(backing))
+        return Ruling(against[0].reason, texts=texts_of(against[:1]))
+    wanted = [d for d in own if d.verb == "method" and (methods is None or d.value in methods)]
+    confirming = [d for d in own if d.verb in ("accept", "class") and not d.kinds.isdisjoint(kinds)] + wanted
+    return Ruling(None, bool(confirming), wanted[0].value if wanted else None, texts_of(confirming))
 
 
-def told(decisions: Iterable[Decision]) -> tuple[str, ...]:
-    """What persons said, each once."""
+def texts_of(decisions: Iterable[Decision]) -> tuple[str, ...]:
+    """List what persons decided, in the words of the table.
+
+    Parameters
+    ----------
+    decisions : iterable of Decision
+        The decisions; those of settings are passed over.
+
+    Returns
+    -------
+    tuple of str
+        Each text once.
+    """
     return tuple(dict.fromkeys(decision.text for decision in decisions if decision.person))

@@ -14,7 +14,18 @@ from markermend.numerics.intervals import runs
 class Event:
     """One finding on one marker over [start, stop).
 
-    score: >= 1, in units of the threshold. axes: those that fired, such as "xz". partner: the other marker of a swap.
+    Attributes
+    ----------
+    marker : str
+        Name of the marker.
+    start, stop : int
+        First frame, and the frame after the last, as rows counted from 0.
+    score : float
+        The evidence in units of the detector's threshold, at least 1.
+    axes : str
+        The axes on which the detector fired, such as "xz".
+    partner : str, optional
+        The marker under whose label the samples are recorded, where labels are exchanged.
     """
 
     marker: str
@@ -31,10 +42,23 @@ class Event:
 
 
 def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: Sequence[str]) -> list[Event]:
-    """Turn a mask (frames, markers) into events.
+    """Turn a mask into events.
 
-    score: (frames, markers), evidence in units of the threshold, its maximum over the interval is the event's (at
-    least 1). fired: bool (frames, markers, 3), the axes that fired.
+    Parameters
+    ----------
+    mask : ndarray of bool, shape (frames, markers)
+        The samples that were found.
+    score : ndarray of float, shape (frames, markers)
+        The evidence in units of the threshold; NaN = none. Its maximum over the interval is the event's, at least 1.
+    fired : ndarray of bool, shape (frames, markers, 3)
+        The axes on which the detector fired.
+    markers : sequence of str
+        Names of the markers of the second axis.
+
+    Returns
+    -------
+    list of Event
+        One event for each stretch of the mask, sorted.
     """
     found = []
     for m, marker in enumerate(markers):
@@ -47,7 +71,18 @@ def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: S
 
 
 def tidy(events: Iterable[Event]) -> list[Event]:
-    """Sort events and merge those of one marker and partner that overlap or touch, so that they are disjoint per marker."""
+    """Sort events, and make those of each marker disjoint.
+
+    Parameters
+    ----------
+    events : iterable of Event
+        The events in any order.
+
+    Returns
+    -------
+    list of Event
+        Events of one marker and partner that overlap or touch are merged; of others that overlap the first stands.
+    """
     merged: list[Event] = []
     for event in sorted(events, key=lambda event: event.order):
         last = merged[-1] if merged else None
@@ -65,7 +100,27 @@ def tidy(events: Iterable[Event]) -> list[Event]:
 
 
 def mask(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.ndarray:
-    """Bool (frames, markers): True where any of the events stands. Events on unknown markers raise KeyError."""
+    """Mark the samples of events.
+
+    Parameters
+    ----------
+    events : iterable of Event
+        The events.
+    frames : int
+        Number of frames.
+    markers : sequence of str
+        Names of the markers of the second axis.
+
+    Returns
+    -------
+    ndarray of bool, shape (frames, markers)
+        True where any of the events is.
+
+    Raises
+    ------
+    KeyError
+        For an event on an unknown marker.
+    """
     index = {marker: m for m, marker in enumerate(markers)}
     covered = np.zeros((frames, len(markers)), bool)
     for event in events:
@@ -74,21 +129,57 @@ def mask(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.nda
 
 
 def coordinates(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.ndarray:
-    """Bool (frames, markers, 3): True where any of the events stands, on the axes that fired. See mask."""
+    """Mark the coordinates of events.
+
+    Parameters
+    ----------
+    events : iterable of Event
+        The events.
+    frames : int
+        Number of frames.
+    markers : sequence of str
+        Names of the markers of the second axis.
+
+    Returns
+    -------
+    ndarray of bool, shape (frames, markers, 3)
+        True where any of the events is, on the axes on which the detector fired.
+    """
     found = list(events)
     own = [[event for event in found if axis in event.axes] for axis in "xyz"]
     return np.stack([mask(some, frames, markers) for some in own], axis=2)
 
 
 def carrying(vectors: np.ndarray) -> str:
-    """The axes that carry a finding (n, 3): those whose largest component is at least half of the largest of all."""
+    """Name the axes along which a deviation is large.
+
+    Parameters
+    ----------
+    vectors : ndarray of float, shape (n, 3)
+        The deviation over the frames of a finding.
+
+    Returns
+    -------
+    str
+        The axes whose largest component is at least half of the largest of all, such as "xz".
+    """
     size = np.abs(vectors).max(axis=0)
     return "".join(axis for axis, part in zip("xyz", size, strict=True) if part >= 0.5 * size.max())
 
 
 @dataclass(frozen=True)
 class OpenStep:
-    """A jump without a counterpart: the frame that it leads to, and its size in mm."""
+    """A jump without a counterpart.
+
+    Attributes
+    ----------
+    marker : str
+        Name of the marker.
+    frame : int
+        The frame that the jump leads to.
+    size_mm : float
+        Its length, mm.
+    """
 
     marker: str
     frame: int

@@ -17,19 +17,19 @@ class Originals:
 
     Attributes
     ----------
-    markers
+    markers : tuple of str
         Names of the markers of the recording.
-    marker
-        Index of each sample's marker among them, int (n,).
-    frame
-        Its frame as a row counted from 0, int (n,).
-    positions
-        What was measured, (n, 3), mm, bit for bit; NaN where the marker was missing.
-    origin
-        What stands there now, uint8 (n,): positions in `markermend.core.recording.ORIGINS`.
-    classes
-        The class of the change of each sample as the table of changes has it, such as "peak+slow" or "gap"; n strings.
-    first_frame
+    marker : ndarray of int, shape (n,)
+        Index of each sample's marker among them.
+    frame : ndarray of int, shape (n,)
+        Its frame as a row counted from 0.
+    positions : ndarray of float, shape (n, 3)
+        What was measured, mm, bit for bit; NaN where the marker was missing.
+    origin : ndarray of uint8, shape (n,)
+        What stands there now: places in `markermend.core.recording.ORIGINS`.
+    classes : tuple of str
+        The class of the change of each sample as the table of changes has it, such as "peak+slow" or "gap".
+    first_frame : int
         The capture program's number of row 0.
     """
 
@@ -43,7 +43,7 @@ class Originals:
 
     @property
     def measured(self) -> np.ndarray:
-        """Bool (n,): True where a sample had been measured, False where it was missing and was written."""
+        """Whether each sample had been measured, bool (n,); the others were missing."""
         known: np.ndarray = ~np.isnan(self.positions).any(axis=1)
         return known
 
@@ -53,11 +53,11 @@ def find_originals(measured: Recording, restored: Restored, applied: Sequence[Ch
 
     Parameters
     ----------
-    measured
+    measured : Recording
         The recording as ingested.
-    restored
+    restored : Restored
         The same after repair and filling; not modified.
-    applied
+    applied : sequence of Change
         The changes as applied, see `markermend.core.applied_changes`.
 
     Returns
@@ -87,17 +87,17 @@ def restore_originals(positions: np.ndarray, markers: Sequence[str], originals: 
 
     Parameters
     ----------
-    positions
-        Cleaned positions, (frames, markers, 3), mm, NaN = missing; not modified.
-    markers
+    positions : ndarray of float, shape (frames, markers, 3)
+        Cleaned positions, mm, NaN = missing; not modified.
+    markers : sequence of str
         Names of the markers of the second axis.
-    originals
+    originals : Originals
         The original values of that recording.
 
     Returns
     -------
-    ndarray
-        Positions as ingested, (frames, markers, 3), mm, bit for bit: NaN where the marker was missing.
+    ndarray of float, shape (frames, markers, 3)
+        Positions as ingested, mm, bit for bit; NaN where the marker was missing.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def origin_names(originals: Originals) -> list[str]:
 
     Parameters
     ----------
-    originals
+    originals : Originals
         The samples.
 
     Returns

@@ -41,11 +41,11 @@ class Limit:
 
     Attributes
     ----------
-    setting
+    setting : str
         The key in the config, such as `repair.max_error_mm`.
-    value
+    value : float
         The value of that setting.
-    actual
+    actual : float
         The value that exceeded it, or that fell short of it, in the same unit.
     """
 
@@ -65,11 +65,11 @@ class Reason:
 
     Attributes
     ----------
-    cause
+    cause : Cause
         The kind of reason, for programs.
-    text
+    text : str
         The reason with its figures, for people; it names the limit where there is one.
-    limit
+    limit : Limit, optional
         The setting that was the cause, None where no setting was.
     """
 

@@ -10,7 +10,7 @@ import numpy as np
 from markermend.numerics.intervals import runs
 
 ORIGINS = ("measured", "peak", "noise", "step", "swap", "slow", "filled", "missing")
-"""What a written sample is: as measured, repaired by class, filled, or missing. Stored by name, coded by position here."""
+"""What a written sample is: as measured, repaired by class, filled, or missing; stored by name, in memory its place here."""
 
 MEASURED, FILLED, MISSING = ORIGINS.index("measured"), ORIGINS.index("filled"), ORIGINS.index("missing")
 
@@ -20,7 +20,15 @@ class BadRecording(Exception):
 
 
 class SetAside(Exception):
-    """A recording that an earlier stage set aside; carries that stage's name and its reason."""
+    """A recording that an earlier stage set aside.
+
+    Parameters
+    ----------
+    stage : str
+        Name of that stage.
+    reason : str
+        Why it set the recording aside.
+    """
 
     def __init__(self, stage: str, reason: str) -> None:
         super().__init__(reason)
@@ -32,9 +40,18 @@ class SetAside(Exception):
 class Recording:
     """The labelled markers of one recording.
 
-    markers: unique names, one per trajectory. positions: float64 (frames, markers, 3), mm, laboratory axes as
-    recorded, NaN = missing (all three axes or none). rate: Hz. first_frame: the capture program's number of row 0.
-    facts: what is known about how the recording came to be (JSON values only).
+    Attributes
+    ----------
+    markers : tuple of str
+        Unique names, one per trajectory.
+    positions : ndarray of float, shape (frames, markers, 3)
+        Positions in mm along the laboratory's axes as recorded; NaN = missing (all three axes or none).
+    rate : float
+        Frames per second.
+    first_frame : int
+        The capture program's number of row 0.
+    facts : dict
+        How the recording came to be, JSON values only.
     """
 
     markers: tuple[str, ...]
@@ -56,17 +73,21 @@ class Recording:
 
     @property
     def missing(self) -> np.ndarray:
-        """Bool (frames, markers): True where the marker was not seen."""
+        """Whether each marker was not seen, bool (frames, markers)."""
         return np.isnan(self.positions).any(axis=2)
 
 
 @dataclass(frozen=True)
 class Restored(Recording):
-    """A recording after repair or filling, with the story of every sample.
+    """A recording after repair or filling, with the origin and the expected error of every sample.
 
-    origin: uint8 (frames, markers), positions in ORIGINS. error, error95: float64 (frames, markers), mm, the radii of
-    the balls around the written position that hold the true one with probability 0.68 and 0.95; 0 where measured,
-    NaN where missing.
+    Attributes
+    ----------
+    origin : ndarray of uint8, shape (frames, markers)
+        What each sample is: its place in ORIGINS.
+    error, error95 : ndarray of float, shape (frames, markers)
+        Radii in mm of the balls around the written position that hold the true one with probability 0.68 and 0.95; 0
+        where measured, NaN where missing.
     """
 
     origin: np.ndarray = field(default_factory=lambda: np.empty((0, 0), np.uint8))
@@ -75,12 +96,34 @@ class Restored(Recording):
 
 
 def gaps(recording: Recording) -> list[tuple[int, int, int]]:
-    """List the gaps of a recording as (marker index, start, stop), half-open, by marker then start."""
+    """List the gaps of a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+
+    Returns
+    -------
+    list of tuple of int
+        Index of the marker, first frame and frame after the last of each gap, by marker, then by frame.
+    """
     missing = recording.missing
     return [(m, start, stop) for m in range(missing.shape[1]) for start, stop in runs(missing[:, m])]
 
 
 def changed(before: Recording, after: Recording) -> np.ndarray:
-    """Bool (frames, markers): True where the position is not the same, bit for bit; missing equals missing."""
+    """Find the samples that differ between two versions of a recording.
+
+    Parameters
+    ----------
+    before, after : Recording
+        The versions, with the same frames and markers.
+
+    Returns
+    -------
+    ndarray of bool, shape (frames, markers)
+        True where the positions are not equal; a missing sample equals a missing sample.
+    """
     same = (before.positions == after.positions) | (np.isnan(before.positions) & np.isnan(after.positions))
     return ~same.all(axis=2)

@@ -1,4 +1,4 @@
-"""changes.tsv: the list of changes for people, one row each. It is only written: programs read the files of changes."""
+"""The table changes.tsv: all changes for people, one row each; it is only written, programs read the files of changes."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
 
     Parameters
     ----------
-    changes
+    changes : sequence of Change
         The changes as applied, in the order of the rows.
-    recording
+    recording : Recording
         The recording, whose name, rate and numbering of frames the table uses.
 
     Returns

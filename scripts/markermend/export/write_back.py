@@ -1,4 +1,4 @@
-"""From restored trajectories back to the recording's own file: what changed, the list of changes, and the certificate."""
+"""From restored trajectories back to the recording's own file, with a certificate of what changed in it."""
 
 from __future__ import annotations
 
@@ -14,18 +14,51 @@ from markermend.storage.folder_names import printable
 
 
 def check_invariant(measured: Recording, restored: Restored) -> None:
-    """Raise BadRecording where a sample said to be measured is not the one that was ingested."""
+    """Check that samples of origin `measured` are those that were ingested.
+
+    Parameters
+    ----------
+    measured : Recording
+        The recording as ingested.
+    restored : Restored
+        The same after repair and filling.
+
+    Raises
+    ------
+    BadRecording
+        Where any differs.
+    """
     wrong = changed(measured, restored) & (restored.origin == MEASURED)
     if wrong.any():
         raise BadRecording(f"{int(wrong.sum())} samples marked as measured differ from the recording: run it again")
 
 
 def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Restored) -> dict[str, Any]:
-    """Write the cleaned copy of the source and return its certificate.
+    """Write the cleaned copy of a file.
 
-    Only samples that changed differ from the source; the copy is compared with it byte by byte (text: cell by cell) by
-    code that had no part in writing it. Raises BadRecording where the source is not the file that was ingested, or
-    where any other byte differs.
+    The copy is compared with the file byte by byte (text: cell by cell) by code that had no part in writing it.
+
+    Parameters
+    ----------
+    source : Path
+        The original file.
+    cleaned : Path
+        The copy, in which only samples that changed differ.
+    measured : Recording
+        The recording as ingested.
+    restored : Restored
+        The same after repair and filling.
+
+    Returns
+    -------
+    dict
+        The certificate: checksums, how many samples and bytes changed, and the samples that the file's number format
+        cannot hold and that stay as they were (`refused`). JSON values.
+
+    Raises
+    ------
+    BadRecording
+        Where the source is not the file that was ingested, or where any other byte would differ.
     """
     check_invariant(measured, restored)
     facts = measured.facts["source"]
@@ -68,9 +101,23 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
 
 
 def pass_through(source: Path, cleaned: Path, stage: str, reason: str) -> dict[str, Any]:
-    """Copy a recording that was set aside, byte for byte, and return a certificate that says so.
+    """Copy a file whose recording was set aside, byte for byte.
 
-    Where the source is gone (a broken link, say) the copy is an empty file, and the certificate has no checksum of it.
+    Parameters
+    ----------
+    source : Path
+        The original file; where it is gone (a broken link, say) the copy is an empty file.
+    cleaned : Path
+        The copy.
+    stage : str
+        Name of the stage that set the recording aside.
+    reason : str
+        Why.
+
+    Returns
+    -------
+    dict
+        A certificate that says so, without a checksum of a file that is gone. JSON values.
     """
     gone = not source.is_file()
     with atomic.replacing(cleaned) as temporary:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any
 
-from markermend.core.artifacts import ARTIFACTS, STAGE_OF
+from markermend.core.artifacts import ARTIFACTS, BY_NAME
 from markermend.core.changes import GAP
 from markermend.core.decisions import LEAVE, VERBS
 
@@ -80,8 +80,8 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
     value = METHOD_NAMES.get(value, value) if verb == "method" else NAMES.get(value, value)
     if verb in ("protect", "missing") and value:
         raise Problem("value", f"{value!r}: {verb} takes no value")
-    if verb in ("accept", "reject") and value and value not in (*STAGE_OF, GAP):
-        raise Problem("value", _unknown(value, (*STAGE_OF, GAP)))
+    if verb in ("accept", "reject") and value and value not in (*BY_NAME, GAP):
+        raise Problem("value", _unknown(value, (*BY_NAME, GAP)))
     if verb == "method" and value not in (LEAVE, *methods):
         raise Problem("value", _unknown(value, (LEAVE, *methods)))
     if verb == "class":
@@ -90,8 +90,8 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
             raise Problem(
                 "value", f"{value!r}: a swap is between two markers, write one as the marker and swap:OTHER here"
             )
-        if kind not in STAGE_OF or (partner and kind != "swap"):
-            raise Problem("value", _unknown(value, [kind for kind in STAGE_OF if kind != "swap"] + ["swap:OTHER"]))
+        if kind not in BY_NAME or (partner and kind != "swap"):
+            raise Problem("value", _unknown(value, [kind for kind in BY_NAME if kind != "swap"] + ["swap:OTHER"]))
         if partner == row["marker"]:
             raise Problem("value", f"{value!r}: the other marker is the same")
     return value

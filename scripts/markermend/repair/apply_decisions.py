@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.artifacts import BY_STAGE, CLASSES, STAGE_OF
+from markermend.core.artifacts import BY_NAME, BY_STAGE, CLASSES
 from markermend.core.changes import DECLARED_MISSING, Change, Outcome
-from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, told
+from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, texts_of
 from markermend.core.events import Event, tidy
 from markermend.core.recording import Recording
 from markermend.numerics.intervals import runs
@@ -84,7 +84,7 @@ def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: S
     rest = [decision for decision in decisions if decision.verb != "protect"]
     ruling = rule(rest, [kind_of(stage, event)], markers, event.start, event.stop)
     classes = [d for d in rest if d.verb == "class" and _replaces(d, markers, event)]
-    return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=told(classes))
+    return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=texts_of(classes))
 
 
 def _replaces(decision: Decision, markers: Sequence[str], event: Event) -> bool:
@@ -106,7 +106,7 @@ def _set(recording: Recording, decisions: Iterable[Decision]) -> dict[str, list[
             concerned = [recording.markers.index(name) for name in names(event)]
             if start < stop and not recording.missing[start:stop, concerned].all():
                 (kind,) = decision.kinds
-                made.setdefault(STAGE_OF[kind], []).extend(both)
+                made.setdefault(BY_NAME[kind].stage, []).extend(both)
     return {stage: tidy(events) for stage, events in made.items()}
 
 

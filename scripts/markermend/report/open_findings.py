@@ -21,11 +21,11 @@ def worst_first(measured: Recording, restored: Restored, changes: Sequence[Chang
 
     Parameters
     ----------
-    measured
+    measured : Recording
         The recording as ingested.
-    restored
+    restored : Restored
         The recording after repair and filling.
-    changes
+    changes : sequence of Change
         What repair and filling did to each stretch.
 
     Returns
@@ -42,9 +42,9 @@ def reasons_for_blanking(applied: Iterable[Change], changes: Iterable[Change]) -
 
     Parameters
     ----------
-    applied
+    applied : sequence of Change
         The changes as applied.
-    changes
+    changes : sequence of Change
         What repair and filling did to each stretch.
 
     Returns
@@ -69,13 +69,13 @@ def left_open(
 
     Parameters
     ----------
-    restored
+    restored : Restored
         The recording after repair and filling.
-    found
+    found : mapping of str to sequence of Event
         The events by detector. A finding that no stage accounts for is listed too.
-    applied
+    applied : sequence of Change
         The changes as applied.
-    changes
+    changes : sequence of Change
         What repair and filling did to each stretch. What was taken away is a change, and a gap if it was not filled.
 
     Returns
@@ -99,9 +99,9 @@ def open_gaps(restored: Recording, changes: Iterable[Change]) -> list[Change]:
 
     Parameters
     ----------
-    restored
+    restored : Restored
         The recording after repair and filling.
-    changes
+    changes : sequence of Change
         What repair and filling did to each stretch.
 
     Returns
@@ -123,7 +123,7 @@ def overlap(one: Change, other: Change | Event) -> bool:
 
     Parameters
     ----------
-    one, other
+    one, other : Change or Event
         The stretches.
 
     Returns

@@ -11,7 +11,8 @@ import pyarrow as pa
 
 from markermend.core.changes import Alternative, Change, MemberWeight, Outcome
 from markermend.core.reasons import Cause, Limit, Reason
-from markermend.storage.stage_files import read_facts, read_table, write_table
+from markermend.storage.parquet_tables import read_table, write_table
+from markermend.storage.stage_files import read_facts
 
 SCHEMA = pa.schema(
     [
@@ -46,14 +47,14 @@ def write(path: Path, changes: Iterable[Change], facts: Mapping[str, Any]) -> No
 
     Parameters
     ----------
-    path
+    path : Path
         The Parquet file.
-    changes
+    changes : sequence of Change
         What was done to each stretch.
-    facts
+    facts : mapping
         What the stage says of itself, JSON values.
     """
-    write_table(path, pa.Table.from_pylist([_row(change) for change in changes], schema=SCHEMA), dict(facts))
+    write_table(path, pa.Table.from_pylist([_row(change) for change in changes], schema=SCHEMA), facts)
 
 
 def read(path: Path) -> tuple[Change, ...]:
@@ -61,7 +62,7 @@ def read(path: Path) -> tuple[Change, ...]:
 
     Parameters
     ----------
-    path
+    path : Path
         A file that `write` wrote.
 
     Returns

@@ -23,16 +23,32 @@ def encode(name: str, reserved: Collection[str] = ()) -> str:
 
     Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, the
     first character of a reserved name (in any case), and the last one of a name that ends in many repeats (which
-    Snakemake takes for an endless recursion) become `%XX`, one per byte of UTF-8. A result over 255 bytes is
-    cut and ends in `~` and 16 hex digits of the full name's sha256. Raises ValueError for an empty name.
+    Snakemake takes for an endless recursion) become `%XX`, one per byte of UTF-8.
+
+    Parameters
+    ----------
+    name : str
+        Name of a subject or a recording.
+    reserved : collection of str
+        Folder names in lower case that stand for something else.
+
+    Returns
+    -------
+    str
+        The folder name; one of over 255 bytes is cut and ends in `~` and 16 hex digits of the full name's sha256.
+
+    Raises
+    ------
+    ValueError
+        For an empty name.
     """
     if not name:
         raise ValueError("a name must not be empty")
-    parts = [character if ordinary(character) else percent(character) for character in name]
+    parts = [character if _ordinary(character) else _percent(character) for character in name]
     if name[0] == "." or name.casefold() in reserved:
-        parts[0] = percent(name[0])
+        parts[0] = _percent(name[0])
     if len(name) > 1 and re.search(r"(.+?)\1{9}$", name):
-        parts[-1] = percent(name[-1])
+        parts[-1] = _percent(name[-1])
     encoded = "".join(parts)
     if len(encoded.encode()) <= LONGEST:
         return encoded
@@ -47,22 +63,49 @@ def encode(name: str, reserved: Collection[str] = ()) -> str:
 
 
 def decode(folder: str) -> str:
-    """Undo `encode`. Raises ValueError for a name that was cut."""
+    """Undo `encode`.
+
+    Parameters
+    ----------
+    folder : str
+        A folder name.
+
+    Returns
+    -------
+    str
+        The name.
+
+    Raises
+    ------
+    ValueError
+        For a name that was cut.
+    """
     if re.search("~[0-9a-f]{16}$", folder):
         raise ValueError(f"{folder} was shortened: the name cannot be read back from it")
     return unquote_to_bytes(folder).decode()
 
 
 def printable(text: str) -> str:
-    r"""Write bytes of a file name that are not UTF-8 as `\xNN`, so that the text can be stored and shown."""
+    r"""Write bytes of a file name that are not UTF-8 as `\xNN`, so that the text can be stored and shown.
+
+    Parameters
+    ----------
+    text : str
+        Text with surrogates in place of such bytes.
+
+    Returns
+    -------
+    str
+        Text that can be encoded.
+    """
     return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
-def ordinary(character: str) -> bool:
+def _ordinary(character: str) -> bool:
     """Tell whether a character stands for itself in a folder name."""
     return character in "_-." or unicodedata.category(character)[0] in "LMN"
 
 
-def percent(character: str) -> str:
+def _percent(character: str) -> str:
     """Percent-encode a character whatever it is."""
     return "".join(f"%{byte:02X}" for byte in character.encode())

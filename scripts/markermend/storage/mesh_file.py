@@ -1,4 +1,4 @@
-"""mesh.json: the meshes of a subject on disk."""
+"""The file mesh.json: the meshes of a subject."""
 
 from __future__ import annotations
 
@@ -12,9 +12,24 @@ from markermend.storage import atomic, stage_files
 
 
 def for_recording(value: dict[str, Any], name: str) -> Mesh:
-    """Pick from the content of mesh.json the mesh of a recording, less the markers that the recording does not hold.
+    """Pick the mesh of a recording.
 
-    Raises BadRecording where the file has no mesh for it.
+    Parameters
+    ----------
+    value : dict
+        The content of mesh.json.
+    name : str
+        Name of the recording.
+
+    Returns
+    -------
+    Mesh
+        The mesh without the markers that the recording does not hold.
+
+    Raises
+    ------
+    BadRecording
+        Where the file has no mesh for the recording.
     """
     for entry in value["meshes"]:
         if name in entry["recordings"]:
@@ -24,11 +39,39 @@ def for_recording(value: dict[str, Any], name: str) -> Mesh:
 
 
 def read(path: Path, name: str) -> Mesh:
-    """Read from mesh.json the mesh of a recording; raises SetAside where the mesh stage set the subject aside."""
+    """Read the mesh of a recording.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        Name of the recording.
+
+    Returns
+    -------
+    Mesh
+        The mesh without the markers that the recording does not hold.
+
+    Raises
+    ------
+    SetAside
+        Where the mesh stage set the subject aside.
+    """
     return for_recording(stage_files.read_json(path), name)
 
 
 def write(path: Path, meshes: Sequence[Mesh], facts: dict[str, Any]) -> None:
-    """Write meshes, in the order of their recordings, as mesh.json."""
+    """Write meshes in the order of their recordings.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    meshes : sequence of Mesh
+        The meshes of a subject.
+    facts : dict
+        What the stage says of itself, JSON values.
+    """
     ordered = sorted(meshes, key=lambda mesh: mesh.recordings)
     atomic.write_json(path, {"meshes": [mesh.as_json() for mesh in ordered], "facts": facts})

@@ -1,4 +1,4 @@
-"""originals.parquet: the original value of every changed sample, one row each."""
+"""The file originals.parquet: the original value of every changed sample, one row each."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import pyarrow as pa
 
 from markermend.core.originals import Originals, origin_names
 from markermend.core.recording import ORIGINS
-from markermend.storage.stage_files import column, read_facts, read_table, vector, write_table
+from markermend.storage.parquet_tables import column, read_table, vector, write_table
+from markermend.storage.stage_files import read_facts
 
 SCHEMA = pa.schema(
     [
@@ -34,11 +35,11 @@ def write(path: Path, originals: Originals, facts: Mapping[str, Any]) -> None:
 
     Parameters
     ----------
-    path
+    path : Path
         The Parquet file.
-    originals
+    originals : Originals
         The samples.
-    facts
+    facts : mapping
         What the stage says of itself, JSON values.
     """
     columns = [
@@ -58,22 +59,27 @@ def read(path: Path) -> Originals:
 
     Parameters
     ----------
-    path
+    path : Path
         A file that `write` wrote.
 
     Returns
     -------
     Originals
         The samples, their positions bit for bit.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
     """
-    facts, table = read_facts(path), read_table(path).combine_chunks()
+    facts, table = read_facts(path), read_table(path)
     markers = tuple(facts["markers"])
     index, codes = ({name: n for n, name in enumerate(names)} for names in (markers, ORIGINS))
     return Originals(
         markers,
         np.array([index[name] for name in table["marker"].to_pylist()], int),
-        vector(table["row"].combine_chunks()),
-        np.stack([vector(table[axis].combine_chunks()) for axis in "xyz"], axis=1),
+        vector(table["row"]),
+        np.stack([vector(table[axis]) for axis in "xyz"], axis=1),
         np.array([codes[name] for name in table["origin"].to_pylist()], np.uint8),
         tuple(table["class"].to_pylist()),
         facts["first_frame"],

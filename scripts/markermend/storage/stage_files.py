@@ -1,4 +1,4 @@
-"""The files between stages: the only module that reads or writes them. Every write is atomic and byte-deterministic."""
+"""The files between stages: trajectories and events as Parquet tables, and the note that a recording was set aside."""
 
 from __future__ import annotations
 
@@ -9,15 +9,11 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
-from numpy.typing import DTypeLike
 
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS, Recording, Restored, SetAside
-from markermend.storage.atomic import replacing, write_json
-
-KEY = b"markermend"
-"""The footer key under which a Parquet file carries its facts, as JSON."""
+from markermend.storage.atomic import write_json
+from markermend.storage.parquet_tables import column, read_footer, read_table, vector, write_table
 
 EVENT_SCHEMA = pa.schema(
     [
@@ -29,33 +25,69 @@ EVENT_SCHEMA = pa.schema(
         ("partner", pa.string()),
     ]
 )
+"""The columns of a file of events."""
 
 
 def read_json(path: Path) -> Any:
-    """Read JSON; raises SetAside where an earlier stage set the recording aside."""
+    """Read a JSON file that a stage wrote.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Any
+        Its content.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
+    """
     value = json.loads(path.read_text(encoding="utf-8"))
     if isinstance(value, dict) and "set_aside" in value:
         raise SetAside(**value["set_aside"])
     return value
 
 
-def write_table(path: Path, table: pa.Table, facts: dict[str, Any]) -> None:
-    """Write a table with its facts in the footer."""
-    footer = json.dumps(facts, sort_keys=True, ensure_ascii=False, allow_nan=False).encode()
-    with replacing(path) as temporary:
-        pq.write_table(table.replace_schema_metadata({KEY: footer}), temporary, compression="zstd")
-
-
 def read_facts(path: Path) -> dict[str, Any]:
-    """Read the facts in a Parquet footer; raises SetAside where the recording was set aside."""
-    facts = json.loads(pq.read_schema(path).metadata[KEY])
+    """Read the facts of a Parquet file that a stage wrote.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    dict
+        What the stage said of the file: JSON values.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
+    """
+    facts = read_footer(path)
     if "set_aside" in facts:
         raise SetAside(**facts["set_aside"])
     return facts
 
 
 def set_aside(path: Path, stage: str, reason: str) -> None:
-    """Write, in place of a Parquet or JSON file, the note that `stage` set the recording aside."""
+    """Write, in place of a Parquet or JSON file, the note that the recording was set aside.
+
+    Parameters
+    ----------
+    path : Path
+        The file, with the suffix `.parquet` where it is one.
+    stage : str
+        Name of the stage that set the recording aside.
+    reason : str
+        Why.
+    """
     note = {"set_aside": {"stage": stage, "reason": reason}}
     if path.suffix == ".parquet":
         write_table(path, pa.Table.from_arrays([], []), note)
@@ -64,9 +96,17 @@ def set_aside(path: Path, stage: str, reason: str) -> None:
 
 
 def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> None:
-    """Write trajectories (and, for a Restored one, origin and errors) one row per frame, columns `{marker}.x` and so on.
+    """Write trajectories, one row per frame.
 
-    The recording's markers, rate and first frame join the facts in the footer.
+    Parameters
+    ----------
+    path : Path
+        The Parquet file.
+    recording : Recording
+        Its positions become the columns `{marker}.x`, `.y`, `.z`; for a Restored one origin and errors are stored, too. Its
+        markers, rate, first frame and number of frames join the facts in the footer.
+    facts : dict
+        What the stage says of itself, JSON values.
     """
     columns: dict[str, pa.Array] = {}
     for m, marker in enumerate(recording.markers):
@@ -87,59 +127,83 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
     write_table(path, pa.Table.from_arrays(list(columns.values()), list(columns)), {**recording.facts, **facts, **own})
 
 
-def read_table(path: Path) -> pa.Table:
-    """The table in a Parquet file; by ParquetFile, because pq.read_table imports pandas."""
-    with pq.ParquetFile(path) as file:
-        return file.read(use_threads=False)
-
-
-def vector(array: pa.Array) -> np.ndarray:
-    """An Arrow array without nulls as a vector; by DLPack, because Array.to_numpy imports pandas."""
-    return np.from_dlpack(array)
-
-
-def column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
-    """A vector as an Arrow array; from its buffer, because pa.array(ndarray) imports pandas."""
-    contiguous: np.ndarray = np.ascontiguousarray(values, kind)
-    arrow = pa.from_numpy_dtype(contiguous.dtype)
-    return pa.Array.from_buffers(arrow, len(contiguous), [None, pa.py_buffer(contiguous)])
-
-
 def read_recording(path: Path) -> Recording:
-    """Read trajectories written by write_recording: a Restored one where origins are stored.
+    """Read trajectories.
 
-    Raises SetAside where an earlier stage set the recording aside.
+    Parameters
+    ----------
+    path : Path
+        A file that `write_recording` wrote.
+
+    Returns
+    -------
+    Recording
+        The trajectories; a Restored recording where origins are stored.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
     """
     facts = read_facts(path)
     table = read_table(path)
-    markers = tuple(facts["markers"])
-    frames = facts["frames"]
+    markers, frames = tuple(facts["markers"]), facts["frames"]
     positions = np.full((frames, len(markers), 3), np.nan)
     for m, marker in enumerate(markers):
         for a, axis in enumerate("xyz"):
-            positions[:, m, a] = vector(table[f"{marker}.{axis}"].combine_chunks())
+            positions[:, m, a] = vector(table[f"{marker}.{axis}"])
     common = (markers, positions, facts["rate"], facts["first_frame"], facts)
     if not any(name.endswith(".origin") for name in table.column_names):
         return Recording(*common)
     origin = np.zeros((frames, len(markers)), np.uint8)
     error, error95 = np.zeros((2, frames, len(markers)))
-    codes = {name: code for code, name in enumerate(ORIGINS)}
     for m, marker in enumerate(markers):
-        stored = table[f"{marker}.origin"].combine_chunks()
-        translate = np.array([codes[name] for name in stored.dictionary.to_pylist()], np.uint8)
-        origin[:, m] = translate[vector(stored.indices)]
-        error[:, m] = vector(table[f"{marker}.error"].combine_chunks())
-        error95[:, m] = vector(table[f"{marker}.error95"].combine_chunks())
+        origin[:, m] = _origins(table[f"{marker}.origin"])
+        error[:, m] = vector(table[f"{marker}.error"])
+        error95[:, m] = vector(table[f"{marker}.error95"])
     return Restored(*common, origin, error, error95)
 
 
+def _origins(stored: pa.ChunkedArray) -> np.ndarray:
+    """The origins of a marker, stored by name, as places in ORIGINS."""
+    whole = stored.combine_chunks()
+    codes = {name: code for code, name in enumerate(ORIGINS)}
+    return np.array([codes[name] for name in whole.dictionary.to_pylist()], np.uint8)[vector(whole.indices)]
+
+
 def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> None:
-    """Write events, sorted by marker and start."""
+    """Write events, sorted by marker and start.
+
+    Parameters
+    ----------
+    path : Path
+        The Parquet file.
+    events : iterable of Event
+        The events.
+    facts : dict
+        What the stage says of itself, JSON values.
+    """
     rows = [vars(event) for event in sorted(events, key=lambda event: event.order)]
     write_table(path, pa.Table.from_pylist(rows, schema=EVENT_SCHEMA), facts)
 
 
 def read_events(path: Path) -> list[Event]:
-    """Read events; raises SetAside where an earlier stage set the recording aside."""
+    """Read events.
+
+    Parameters
+    ----------
+    path : Path
+        A file that `write_events` wrote.
+
+    Returns
+    -------
+    list of Event
+        The events.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
+    """
     read_facts(path)
     return [Event(**row) for row in read_table(path).to_pylist()]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from markermend.core.artifacts import CLASSES, STAGE_OF
+from markermend.core.artifacts import BY_NAME, CLASSES
 from markermend.core.changes import GAP
 from markermend.core.decisions import EVER, Decision, Ruling, kind_of, protecting, read, rule
 from markermend.core.events import Event
@@ -52,7 +52,7 @@ def test_a_finding_is_named_as_in_the_table_of_changes():
     assert kind_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
 
 
-@pytest.mark.parametrize("kind", [*STAGE_OF, GAP])
+@pytest.mark.parametrize("kind", [*BY_NAME, GAP])
 @pytest.mark.parametrize("verb", ["accept", "reject"])
 def test_without_a_class_all_artifacts_are_meant_and_no_gap(verb, kind):
     general, special = (rule([Decision("L*", 0, 99, verb, value)], [kind], *STRETCH) for value in ("", kind))

@@ -5,14 +5,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from markermend.core.artifacts import CLASSES, STAGE_OF
+from markermend.core.artifacts import BY_NAME, CLASSES
 from markermend.core.decisions import EVER, Decision
 from markermend.core.events import Event
 from markermend.core.recording import Recording, changed
 from markermend.repair.apply_decisions import judge
 
 MARKERS, FRAMES = ("A1", "A2", "B"), 30
-KINDS = tuple(kind for kind in STAGE_OF if kind != "swap")
+KINDS = tuple(kind for kind in BY_NAME if kind != "swap")
 
 
 def recording(gaps=()):

@@ -1,0 +1,112 @@
+"""Parquet tables with facts in the footer; every write is atomic and gives the same bytes for the same content.
+
+Arrays go to Arrow and back without pandas, whose import would take longer than most stages.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import DTypeLike
+
+from markermend.storage.atomic import replacing
+
+KEY = b"markermend"
+"""The footer key under which a file carries its facts, as JSON."""
+
+
+def write_table(path: Path, table: pa.Table, facts: Mapping[str, Any]) -> None:
+    """Write a table with facts in its footer.
+
+    Parameters
+    ----------
+    path : Path
+        The Parquet file.
+    table : pyarrow.Table
+        The table.
+    facts : mapping
+        JSON values.
+    """
+    footer = json.dumps(facts, sort_keys=True, ensure_ascii=False, allow_nan=False).encode()
+    with replacing(path) as temporary:
+        pq.write_table(table.replace_schema_metadata({KEY: footer}), temporary, compression="zstd")
+
+
+def read_table(path: Path) -> pa.Table:
+    """Read the table in a Parquet file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    pyarrow.Table
+        The table.
+    """
+    # Not by pq.read_table, which imports pandas.
+    with pq.ParquetFile(path) as file:
+        return file.read(use_threads=False)
+
+
+def read_footer(path: Path) -> dict[str, Any]:
+    """Read the facts in a footer.
+
+    Parameters
+    ----------
+    path : Path
+        The Parquet file.
+
+    Returns
+    -------
+    dict
+        JSON values.
+    """
+    facts: dict[str, Any] = json.loads(pq.read_schema(path).metadata[KEY])
+    return facts
+
+
+def column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
+    """Make an Arrow array of a vector.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+        The values.
+    kind : dtype-like
+        The type to store them as.
+
+    Returns
+    -------
+    pyarrow.Array
+        The values without nulls.
+    """
+    # From the buffer, because pa.array(ndarray) imports pandas.
+    contiguous: np.ndarray = np.ascontiguousarray(values, kind)
+    arrow = pa.from_numpy_dtype(contiguous.dtype)
+    return pa.Array.from_buffers(arrow, len(contiguous), [None, pa.py_buffer(contiguous)])
+
+
+def vector(values: pa.Array | pa.ChunkedArray) -> np.ndarray:
+    """Make a vector of an Arrow array.
+
+    Parameters
+    ----------
+    values : pyarrow.Array or pyarrow.ChunkedArray
+        An array without nulls.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The values.
+    """
+    whole = values.combine_chunks() if isinstance(values, pa.ChunkedArray) else values
+    # By DLPack, because Array.to_numpy imports pandas.
+    return np.from_dlpack(whole)
