@@ -7,7 +7,7 @@ Writes: index.html, summary.tsv, plotly.min.js (the one plotting script that all
 import json
 
 from markermend.command.stage import Stage
-from markermend.report import rendering
+from markermend.report import dataset_summary, rendering
 from markermend.storage import atomic
 
 STAGE = Stage("report", __doc__)
@@ -20,7 +20,7 @@ STAGE.writes("script", "the plotting script")
 def work(call):
     summaries = [json.loads(path.read_text(encoding="utf-8")) for path in call.qc]
     atomic.write_text(call.index, rendering.index(summaries))
-    atomic.write_text(call.summary, rendering.table(summaries))
+    atomic.write_text(call.summary, dataset_summary.table(summaries))
     with atomic.replacing(call.script) as temporary:
         temporary.write_bytes(rendering.plotly_script().read_bytes())
     aside = sum(summary["status"] == "set aside" for summary in summaries)

@@ -1,4 +1,4 @@
-"""A person's decisions and what they came to, for that person: what each did, which did nothing, and lines for new ones."""
+"""The outcomes of a person's decisions: what each did, which did nothing, and lines for new ones."""
 
 from __future__ import annotations
 
@@ -16,9 +16,18 @@ from markermend.core.recording import Recording
 
 @dataclass(frozen=True)
 class DecisionOutcome:
-    """What a decision came to: its place and words as the table has them, and how many findings and gaps it settled.
+    """The outcome of a decision.
 
-    warning: what is wrong with it, None where nothing is.
+    Attributes
+    ----------
+    place : str
+        Marker and frames as in the table of decisions.
+    text : str
+        The decision in the words of the table.
+    settled : int
+        How many findings and gaps it settled.
+    warning : str or None
+        What is wrong with it, None where nothing is.
     """
 
     place: str
@@ -30,16 +39,28 @@ class DecisionOutcome:
 def outcomes(
     entries: Iterable[Mapping[str, Any]], result: Recording, changes: Sequence[Change]
 ) -> list[DecisionOutcome]:
-    """Say what came of each decision on a recording.
+    """Give the outcome of each decision on a recording.
 
-    entries: as decision_table.load gives them. result: the recording after repair and filling. changes: what these did.
+    Parameters
+    ----------
+    entries : Iterable[Mapping[str, Any]]
+        As decision_table.load gives them.
+    result : Recording
+        The recording after repair and filling.
+    changes : sequence of Change
+        What these did.
+
+    Returns
+    -------
+    list of DecisionOutcome
+        One for each decision.
     """
     decided = read(entries, result.first_frame)
     return [_outcome(decision, result, changes) for decision in decided]
 
 
 def _outcome(decision: Decision, result: Recording, changes: Sequence[Change]) -> DecisionOutcome:
-    """Say what came of one decision."""
+    """The outcome of one decision."""
     settled = sum(
         decision.text in change.decisions
         and decision.on({change.marker, change.partner or change.marker}, change.start, change.stop)
@@ -68,14 +89,27 @@ def _nothing(decision: Decision, result: Recording) -> str | None:
 
 
 def _place(decision: Decision, first_frame: int) -> str:
-    """Where a decision stands, in the capture program's numbering."""
+    """Marker and frames of a decision, in the capture program's numbering."""
     if decision.start == -EVER:
         return decision.marker
     return f"{decision.marker}, frames {decision.start + first_frame} to {decision.stop + first_frame - 1}"
 
 
 def drafts(findings: Sequence[Change], recording: Recording) -> str:
-    """Lines for the table of decisions, one for each finding, in which the decision is still to be written."""
+    """Write lines for the table of decisions, in which the decisions are still to be written.
+
+    Parameters
+    ----------
+    findings : sequence of Change
+        The findings.
+    recording : Recording
+        The recording that they are in.
+
+    Returns
+    -------
+    str
+        One line for each finding, in the format of the table.
+    """
     text = io.StringIO()
     writer = csv.writer(text, delimiter="\t", lineterminator="\n")
     name, subject = recording.facts.get("recording", ""), recording.facts.get("subject", "")

@@ -15,17 +15,30 @@ from markermend.core.recording import Recording, Restored, changed
 from markermend.numerics.intervals import runs
 
 UNITS_PER_MM = 100
-"""Resolution of a plot; far below what one can see, so no tunable."""
+"""Resolution of a plot; far finer than visible, so it is no option."""
 
 
 def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: float, frames: int) -> dict[str, Any]:
-    """Cut out what surrounds a finding, before and after, as JSON values.
+    """Extract the trajectories around a finding, before and after.
 
-    context_s: how much to show on either side, s. frames: most frames to show; a longer window shows every second,
-    third, ... of its frames. Keys: `first` and `step` (capture program's numbers), `frames`, `span` (the finding,
-    half-open, same numbers), `rate`, `origin` (number of row 0), `before`, `after` (runs of changed samples with one
-    unchanged neighbour on either side; after x, y, z come the radii that hold the truth with probability 0.68 and
-    0.95), `partner` (the other marker of a swap).
+    Parameters
+    ----------
+    finding : Change
+        The finding.
+    before, after : Recording
+        The recording as ingested and as cleaned.
+    context_s : float
+        How much to show on either side, in s.
+    frames : int
+        The most frames to show; a longer window shows every second, third, ... of its frames.
+
+    Returns
+    -------
+    dict of str to Any
+        JSON values: `first` and `step` (capture program's numbers), `frames`, `span` (the finding, half-open, same
+        numbers), `rate`, `origin` (number of row 0), `before`, `after` (runs of changed samples with one unchanged
+        neighbour on either side; after x, y, z come the radii that hold the truth with probability 0.68 and 0.95), and
+        `partner` (the other marker of an exchange of labels).
     """
     context = round(context_s * before.rate)
     first, stop = max(0, finding.start - context), min(before.frames, finding.stop + context)
@@ -50,12 +63,36 @@ def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: f
 
 
 def series(values: np.ndarray, where: np.ndarray) -> list[list[Any]]:
-    """Write the rows of values (frames, columns), in mm, at which `where` holds."""
+    """Write some rows of values.
+
+    Parameters
+    ----------
+    values : ndarray of float, shape (frames, columns)
+        In mm.
+    where : ndarray of bool, shape (frames,)
+        The rows to write.
+
+    Returns
+    -------
+    list of list of Any
+        One list per run of rows: offset, and the differences of each column.
+    """
     return [[start, *(delta(column) for column in values[start:stop].T)] for start, stop in runs(where)]
 
 
 def delta(values: np.ndarray) -> list[int]:
-    """Write numbers in mm as hundredths, each the difference from the one before. No value may be NaN."""
+    """Write numbers as differences in hundredths.
+
+    Parameters
+    ----------
+    values : ndarray of float
+        In mm; no value may be NaN.
+
+    Returns
+    -------
+    list of int
+        The first, and each less the one before.
+    """
     hundredths = np.rint(values * UNITS_PER_MM).astype(np.int64)
     differences: list[int] = np.diff(hundredths, prepend=0).tolist()
     return differences
@@ -64,11 +101,11 @@ def delta(values: np.ndarray) -> list[int]:
 def _result(before: Recording, after: Restored, window: slice, m: int) -> list[list[Any]]:
     """The changed samples of one marker in a window, joined to their neighbours, with their expected errors."""
     position = after.positions[window, m]
-    touched = _one(before, after, window, m)
-    beside = np.zeros_like(touched)
-    beside[1:] |= touched[:-1]
-    beside[:-1] |= touched[1:]
-    where = (touched | beside) & ~np.isnan(position).any(axis=1)
+    differs = _one(before, after, window, m)
+    adjacent = np.zeros_like(differs)
+    adjacent[1:] |= differs[:-1]
+    adjacent[:-1] |= differs[1:]
+    where = (differs | adjacent) & ~np.isnan(position).any(axis=1)
     errors = np.nan_to_num(np.column_stack((after.error[window, m], after.error95[window, m])))
     return series(np.column_stack((position, errors)), where)
 

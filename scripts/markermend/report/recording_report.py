@@ -1,4 +1,4 @@
-"""Everything that the stages left behind about one recording, gathered for its summary and its page."""
+"""All that the stages wrote about one recording, collected for its summary and its page."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
-from markermend.report import rendering, timeline
+from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
 from markermend.report.decision_outcomes import DecisionOutcome, drafts, outcomes
 from markermend.report.methods_text import paragraph
@@ -24,15 +24,29 @@ from markermend.storage.folder_names import decode
 from markermend.storage.mesh_file import for_recording
 
 TICKS = 8
-"""About so many times along the map of what is missing."""
+"""About how many times are marked along the map of missing samples."""
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """One recording before and after, what was found, changed and left in it, and how.
+    """One recording before and after cleaning, what was found, changed and left in it, and how.
 
-    found: events by detector, for those that ran. record: what repair and filling did to each stretch. changes, left:
-    what came of it, worst first. stages: the options of every stage.
+    Attributes
+    ----------
+    before, after : Recording
+        As ingested, and after repair and filling.
+    mesh : Mesh
+        The subject's mesh, for this recording.
+    found : dict[str, list[Event]]
+        Events by detector, for those that ran.
+    record : tuple of Change
+        What repair and filling did to each stretch.
+    changes, left : list of Change
+        What was changed and what was left as it is, worst first.
+    certificate : dict of str to Any
+        What export states about the cleaned file.
+    stages : dict[str, dict[str, Any]]
+        The options of every stage.
     """
 
     before: Recording
@@ -47,12 +61,12 @@ class Evidence:
 
     @property
     def decided(self) -> list[DecisionOutcome]:
-        """What came of a person's decisions."""
+        """The outcomes of a person's decisions."""
         return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
 
     @property
     def warnings(self) -> list[str]:
-        """What ingest, the mesh and export warned of, and decisions that did nothing."""
+        """Warnings of ingest, mesh and export, and of decisions that did nothing."""
         warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
         if refused := self.certificate["refused"]:
             warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
@@ -60,23 +74,40 @@ class Evidence:
 
 
 def read(call: Any) -> Evidence:
-    """Read what the stages wrote; call: a namespace with the paths that qc reads.
+    """Read what the stages wrote.
 
-    Raises SetAside where a stage set the recording aside.
+    Parameters
+    ----------
+    call : Any
+        A namespace with the paths that the stage qc reads.
+
+    Returns
+    -------
+    Evidence
+        The recording and everything known about its cleaning.
+
+    Raises
+    ------
+    SetAside
+        If a stage set the recording aside.
+    BadRecording
+        If the filled recording does not state the origins of its samples.
     """
     before, after = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     if not isinstance(after, Restored):
-        raise BadRecording(f"{call.filled.name} does not say where its samples come from: run the fill stage again")
+        raise BadRecording(f"{call.filled.name} does not state where its samples come from: run the fill stage again")
     certificate = stage_files.read_json(call.certificate)
     if "untouched" in certificate:
         raise SetAside(**certificate["untouched"])
     meshes = stage_files.read_json(call.mesh)
-    told = [stage_files.read_facts(path) for path in call.events]
-    found = {facts["stage"]: stage_files.read_events(path) for facts, path in zip(told, call.events, strict=True)}
+    facts_found = [stage_files.read_facts(path) for path in call.events]
+    found = {
+        facts["stage"]: stage_files.read_events(path) for facts, path in zip(facts_found, call.events, strict=True)
+    }
     record = change_file.read(call.changes)
     found = _as_repaired(found, record)
     changes = worst_first(before, after, record)
-    steps = [before.facts, meshes.get("facts", {}), *told, stage_files.read_facts(call.repaired), after.facts]
+    steps = [before.facts, meshes.get("facts", {}), *facts_found, stage_files.read_facts(call.repaired), after.facts]
     return Evidence(
         before=before,
         after=after,
@@ -102,7 +133,20 @@ def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dic
 
 
 def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:
-    """Sum up the recording: see quality.summarize."""
+    """Summarize a recording, see summary.summarize.
+
+    Parameters
+    ----------
+    seen : Evidence
+        What the stages wrote.
+    weights : mapping of str to float
+        Points of attention, see summary.attention.
+
+    Returns
+    -------
+    dict of str to Any
+        JSON values.
+    """
     summary = report_summary.summarize(
         before=seen.before,
         after=seen.after,
@@ -117,7 +161,22 @@ def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:
 
 
 def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:
-    """Sum up a recording that was set aside, from what ingest wrote, if anything, and the names of its folders."""
+    """Summarize a recording that was set aside.
+
+    Parameters
+    ----------
+    markers : Path
+        What ingest wrote, if it got that far.
+    page : Path
+        Where the page goes; its folders name subject and recording.
+    note : SetAside
+        The stage that set the recording aside, and why.
+
+    Returns
+    -------
+    dict of str to Any
+        JSON values.
+    """
     try:
         facts = stage_files.read_facts(markers)
     except SetAside:
@@ -130,7 +189,18 @@ def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]
 
 
 def name_of(folder: Path) -> str:
-    """The name behind a folder's name, or that one where it was cut."""
+    """Give the name that the name of a folder encodes.
+
+    Parameters
+    ----------
+    folder : Path
+        Of a recording or a subject.
+
+    Returns
+    -------
+    str
+        The name; that of the folder where it was cut.
+    """
     try:
         return decode(folder.name)
     except ValueError:
@@ -138,19 +208,45 @@ def name_of(folder: Path) -> str:
 
 
 def place(page: Path) -> dict[str, str]:
-    """Where a page lies, relative to the results."""
+    """Give the place of a page relative to the results.
+
+    Parameters
+    ----------
+    page : Path
+        Its path.
+
+    Returns
+    -------
+    dict of str to str
+        Under the key `page`.
+    """
     return {"page": "/".join(page.absolute().parts[-3:])}
 
 
 def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any]) -> str:
-    """Write the recording's page. options: `plots`, `context_s`, `plot_frames`, see the qc stage."""
+    """Write the page of a recording.
+
+    Parameters
+    ----------
+    seen : Evidence
+        What the stages wrote.
+    summary : mapping of str to Any
+        What summarize gives.
+    options : mapping of str to Any
+        `plots`, `context_s` and `plot_frames` of the stage qc.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     artifacts = [finding for finding in seen.left if not finding.is_gap]
     chosen = [*seen.changes[: options["plots"]], *artifacts[: options["plots"]]]
     drawn = {
         finding: (f"finding-{number}", cut(seen, finding, options))
         for number, finding in enumerate(dict.fromkeys(chosen))
     }
-    rows = report_summary.per_marker(seen.before, seen.after)
+    rows = sample_statistics.per_marker(seen.before, seen.after)
     marks = timeline.lines(seen.before, seen.after)
     busy = [{**row, **mark} for row, mark in zip(rows, marks, strict=True) if any(mark.values())]
     return rendering.page(
@@ -173,6 +269,21 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
 
 
 def cut(seen: Evidence, finding: Change, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Cut out what a finding's plot shows."""
+    """Extract what the plot of a finding shows.
+
+    Parameters
+    ----------
+    seen : Evidence
+        What the stages wrote.
+    finding : Change
+        The finding.
+    options : mapping of str to Any
+        `context_s` and `plot_frames` of the stage qc.
+
+    Returns
+    -------
+    dict of str to Any
+        See plot_data.excerpt.
+    """
     context_s, frames = options["context_s"], options["plot_frames"]
     return excerpt(finding, seen.before, seen.after, context_s=context_s, frames=frames)

@@ -1,4 +1,4 @@
-"""Pages for people: one for each recording, and one for the data set. Everything works offline, from any folder.
+"""HTML pages: one for each recording, and one for the data set. They work offline, from any folder.
 
 Names come from files and may be hostile: the templates escape them, embedded data cannot end its script element, and
 links quote every part of a path.
@@ -7,8 +7,6 @@ links quote every part of a path.
 from __future__ import annotations
 
 import importlib.util
-import json
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -16,30 +14,30 @@ from typing import Any
 from urllib.parse import quote
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
 
 from markermend import __version__
 from markermend.core.artifacts import ARTIFACTS
 from markermend.planning.run_summary import STATUSES
+from markermend.report.dataset_summary import distinct_methods, ordered, totals
 from markermend.report.methods_text import REFERENCES
+from markermend.report.template_filters import FILTERS
 
 TEMPLATES = Path(__file__).with_name("templates")
 
-COLUMNS = (
-    "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
-    "missing_share_before", "missing_share_after", "changed_samples", "changed_share", "repaired", "blanked",
-    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm", "warnings",
-    "attention", "page",
-)  # fmt: skip
-"""The columns of summary.tsv."""
-
-
-COUNTED = ("repaired", "blanked", "findings_open", "filled", "gaps_open")
-"""The keys of a summary that hold a number of findings."""
-
 
 def page(**parts: Any) -> str:
-    """Write the page of a recording; parts: what page.html.j2 names."""
+    """Write the page of a recording.
+
+    Parameters
+    ----------
+    **parts : Any
+        What page.html.j2 names.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     summary = parts["summary"]
     detectors = {artifact.stage: f"{artifact.plural}: {artifact.text}" for artifact in ARTIFACTS}
     shown = {"rate": summary["rate"], "first_frame": summary["first_frame"]}
@@ -47,12 +45,34 @@ def page(**parts: Any) -> str:
 
 
 def page_aside(summary: Mapping[str, Any]) -> str:
-    """Write the page of a recording that was set aside."""
+    """Write the page of a recording that was set aside.
+
+    Parameters
+    ----------
+    summary : mapping of str to Any
+        Of the recording.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     return render("aside.html.j2", summary=summary)
 
 
 def index(summaries: Sequence[Mapping[str, Any]]) -> str:
-    """Write the page of the data set, from the summaries of its recordings in any order."""
+    """Write the page of the data set.
+
+    Parameters
+    ----------
+    summaries : Sequence[Mapping[str, Any]]
+        Of its recordings, in any order.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     entries = [{**summary, "href": href(summary["page"])} for summary in ordered(summaries)]
     names = sorted({entry["subject"] for entry in entries})
     return render(
@@ -61,69 +81,41 @@ def index(summaries: Sequence[Mapping[str, Any]]) -> str:
         aside=[entry for entry in entries if entry["status"] == "set aside"],
         total=totals(entries),
         subjects={name: totals([entry for entry in entries if entry["subject"] == name]) for name in names},
-        texts=methods(entries),
+        texts=distinct_methods(entries),
         statuses=STATUSES,
         references=REFERENCES,
     )
 
 
-def table(summaries: Sequence[Mapping[str, Any]]) -> str:
-    """Write summary.tsv: one row per recording, worst first; counts in place of lists, empty cells for what is unknown."""
-    rows = ["\t".join(COLUMNS)]
-    rows += ["\t".join(cell(summary.get(column)) for column in COLUMNS) for summary in ordered(summaries)]
-    return "\n".join(rows) + "\n"
-
-
-def cell(value: Any) -> str:
-    """Write one value as a cell on one line."""
-    if isinstance(value, Mapping):
-        value = value["events"]
-    elif isinstance(value, list):
-        value = len(value)
-    return "" if value is None else " ".join(str(value).split())
-
-
-def ordered(summaries: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """Sort recordings, those set aside first, then by the attention that they want."""
-    return sorted(summaries, key=lambda s: (-s.get("attention", float("inf")), s["subject"], s["recording"]))
-
-
-def totals(entries: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Add up recordings: how many of each status, samples, changes, and what was missing."""
-    done = [entry for entry in entries if entry["status"] != "set aside"]
-    sizes = [entry["frames"] * entry["markers"] for entry in done]
-    samples = sum(sizes)
-
-    def share(key: str) -> float:
-        return sum(e[key] * size for e, size in zip(done, sizes, strict=True)) / samples if samples else 0.0
-
-    return {
-        **{status: sum(entry["status"] == status for entry in entries) for status in STATUSES},
-        "recordings": len(entries),
-        "samples": samples,
-        "changed_samples": sum(entry["changed_samples"] for entry in done),
-        "changed_share": share("changed_share"),
-        "missing_share_before": share("missing_share_before"),
-        "missing_share_after": share("missing_share_after"),
-        **{key: sum(entry[key]["events"] for entry in done) for key in COUNTED},
-    }
-
-
-def methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Give each different methods text once, with the number of recordings that it holds for, most first."""
-    texts = {entry["methods"]["text"]: entry["methods"] for entry in entries if "methods" in entry}
-    counts = Counter(entry["methods"]["text"] for entry in entries if "methods" in entry)
-    order = sorted(texts, key=lambda text: (-counts[text], text))
-    return [{**texts[text], "recordings": counts[text]} for text in order]
-
-
 def href(path: str) -> str:
-    """Link from the report to a page; path: relative to the results."""
+    """Link from the report to a page.
+
+    Parameters
+    ----------
+    path : str
+        Of the page, relative to the results.
+
+    Returns
+    -------
+    str
+        The link, every part of it quoted.
+    """
     return "../" + "/".join(quote(part, safe="") for part in path.split("/"))
 
 
 def plotly_script() -> Path:
-    """Path of the plotting script that the installed package plotly carries; the package is not imported."""
+    """Find the plotting script of the installed package plotly, which is not imported.
+
+    Returns
+    -------
+    Path
+        Its path.
+
+    Raises
+    ------
+    FileNotFoundError
+        If the package is not installed.
+    """
     found = importlib.util.find_spec("plotly")
     if found is None or found.origin is None:
         raise FileNotFoundError("the package plotly is not installed: install it (envs/base.yaml) and run again")
@@ -131,13 +123,32 @@ def plotly_script() -> Path:
 
 
 def render(template: str, **parts: Any) -> str:
-    """Fill in a template."""
+    """Fill in a template.
+
+    Parameters
+    ----------
+    template : str
+        Name of its file.
+    **parts : Any
+        What it names.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     return environment().get_template(template).render(version=__version__, **parts) + "\n"
 
 
 @cache
 def environment() -> Environment:
-    """Set up the templates: everything is escaped, and a name that is not there is an error."""
+    """Set up the templates: everything is escaped, and a name that is not given is an error.
+
+    Returns
+    -------
+    Environment
+        The environment, the same at every call.
+    """
     made = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -145,43 +156,5 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters.update(embed=embed, figure=figure, short=short, count=count, percent=percent, tojson_text=compact)
+    made.filters.update(FILTERS)
     return made
-
-
-def compact(value: Any) -> str:
-    """Write JSON on one line, with sorted keys."""
-    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-def embed(value: Any) -> Markup:
-    """Write JSON that is safe inside a script element: no character of it can end the element or start another."""
-    escaped = compact(value)
-    for character in "<>&":
-        escaped = escaped.replace(character, f"\\u{ord(character):04x}")
-    return Markup(escaped)
-
-
-def figure(value: float | None, digits: int) -> str:
-    """Write a number with so many decimals; an en dash where there is none."""
-    return "–" if value is None else f"{value:.{digits}f}"
-
-
-def short(value: float | None) -> str:
-    """Write a number with the decimals that it needs; an en dash where there is none."""
-    return "–" if value is None else f"{value:.10g}"
-
-
-def count(value: int) -> str:
-    """Write a whole number with thin spaces between its thousands."""
-    return f"{value:,}".replace(",", "\u202f")
-
-
-def percent(share: float) -> str:
-    """Write a share as a percentage; what is not quite 0 or 100 never looks like it."""
-    value = 100 * share
-    if 0 < value < 0.05:
-        return "<0.1"
-    if 99.95 <= value < 100:
-        return ">99.9"
-    return f"{value:.1f}"

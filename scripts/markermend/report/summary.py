@@ -1,8 +1,8 @@
-"""What cleaning did to a recording, in numbers: what was missing, found, changed and left, and how much attention it wants.
+"""What cleaning did to a recording, in numbers: what was missing, found, changed and left, and the attention that it needs.
 
 A sample is one marker at one frame. It counts as *changed* where what was written differs from what was measured, bit
-for bit: a value that was replaced, a gap that was filled, or a value that was taken away because no repair could be
-trusted. Samples of origin `measured` must never be among them; a recording in which they are says so as a warning.
+for bit: a value that was replaced, a gap that was filled, or a value that was taken away because no repair was reliable.
+Samples of origin `measured` must never be among them; a recording in which they are carries a warning.
 """
 
 from __future__ import annotations
@@ -14,58 +14,9 @@ from typing import Any
 import numpy as np
 
 from markermend.core.changes import Change, Outcome
-from markermend.core.events import Event, mask
-from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, Restored, changed, gaps
-
-DIGITS = 6
-"""Decimals of shares and times, fixed so that equal recordings give equal bytes."""
-
-
-def largest_change(before: Recording, after: Recording) -> float | None:
-    """Largest distance in mm between a measured sample and what replaced it; None where none was replaced."""
-    both = changed(before, after) & ~before.missing & ~after.missing
-    if not both.any():
-        return None
-    return round(float(np.linalg.norm(after.positions[both] - before.positions[both], axis=1).max()), 3)
-
-
-def broken_promises(before: Recording, after: Restored) -> list[str]:
-    """Warn where the story of the samples does not fit their values."""
-    touched = changed(before, after)
-    lied = int((touched & (after.origin == MEASURED)).sum())
-    hidden = int(((after.origin == MISSING) != after.missing).sum())
-    warnings = []
-    if lied:
-        warnings.append(f"{lied} samples are marked as measured but differ from the original: do not use this result")
-    if hidden:
-        warnings.append(f"{hidden} samples are marked as missing but are not, or the other way round")
-    return warnings
-
-
-def per_marker(before: Recording, after: Restored) -> list[dict[str, Any]]:
-    """Count for each marker, in the order of the recording, what was missing, what still is, and what was changed.
-
-    Longest gaps in s. Samples by origin: `filled` and `repaired`.
-    """
-    longest = [dict.fromkeys(before.markers, 0) for _ in range(2)]
-    number = Counter(before.markers[m] for m, _, _ in gaps(before))
-    for state, recording in zip(longest, (before, after), strict=True):
-        for m, start, stop in gaps(recording):
-            state[recording.markers[m]] = max(state[recording.markers[m]], stop - start)
-    repaired = (after.origin != MEASURED) & (after.origin != MISSING) & (after.origin != FILLED)
-    return [
-        {
-            "marker": marker,
-            "gaps": number[marker],
-            "missing_share_before": share(before.missing[:, m]),
-            "missing_share_after": share(after.missing[:, m]),
-            "longest_gap_before_s": round(longest[0][marker] / before.rate, DIGITS),
-            "longest_gap_after_s": round(longest[1][marker] / before.rate, DIGITS),
-            "filled": int((after.origin[:, m] == FILLED).sum()),
-            "repaired": int(repaired[:, m].sum()),
-        }
-        for m, marker in enumerate(before.markers)
-    ]
+from markermend.core.events import Event
+from markermend.core.recording import ORIGINS, Recording, Restored, changed
+from markermend.report.sample_statistics import DIGITS, extent, finite, inconsistent_origins, largest_change, share
 
 
 def summarize(
@@ -78,19 +29,33 @@ def summarize(
     warnings: Sequence[str],
     weights: Mapping[str, float],
 ) -> dict[str, Any]:
-    """Sum up one recording as JSON values.
+    """Summarize one recording.
 
-    before, after: as ingested, and after repair and filling. found: events by class, for the detectors that ran.
-    changes, left: what was changed and what was not; an artifact that a person left is not open. weights: see
-    `attention`. NaN samples are missing ones.
+    Parameters
+    ----------
+    before, after : Recording
+        The recording as ingested, and after repair and filling; NaN = missing.
+    found : Mapping[str, Sequence[Event]]
+        Events by class, for the detectors that ran.
+    changes, left : sequence of Change
+        What was changed and what was not; an artifact that a person left is not open.
+    warnings : sequence of str
+        What the stages warned of.
+    weights : mapping of str to float
+        See attention.
+
+    Returns
+    -------
+    dict of str to Any
+        JSON values.
     """
-    touched = changed(before, after)
-    errors = after.error[touched & ~after.missing]
-    errors95 = after.error95[touched & ~after.missing]
+    differs = changed(before, after)
+    errors = after.error[differs & ~after.missing]
+    errors95 = after.error95[differs & ~after.missing]
     gaps_left = [finding for finding in left if finding.is_gap]
     summary: dict[str, Any] = {
         **identity(before.facts),
-        "status": status(before.facts, touched),
+        "status": status(before.facts, differs),
         "stage": None,
         "reason": None,
         "frames": before.frames,
@@ -101,8 +66,8 @@ def summarize(
         "missing_share_before": share(before.missing),
         "missing_share_after": share(after.missing),
         "findings": {stage: extent(events, before) for stage, events in found.items()},
-        "changed_samples": int(touched.sum()),
-        "changed_share": share(touched),
+        "changed_samples": int(differs.sum()),
+        "changed_share": share(differs),
         "origins": {name: int((after.origin == code).sum()) for code, name in enumerate(ORIGINS)},
         **outcomes(changes),
         "findings_open": totals([finding for finding in left if not finding.is_gap and not finding.decisions]),
@@ -114,14 +79,27 @@ def summarize(
         "expected_error_median_mm": finite(np.median, errors),
         "expected_error_max_mm": finite(np.max, errors),
         "expected_error95_max_mm": finite(np.max, errors95),
-        "warnings": [*warnings, *broken_promises(before, after)],
+        "warnings": [*warnings, *inconsistent_origins(before, after)],
     }
     parts = attention(summary, weights)
     return {**summary, "attention": round(sum(parts.values()), 3), "attention_parts": parts}
 
 
 def set_aside(facts: Mapping[str, Any], stage: str, reason: str) -> dict[str, Any]:
-    """Sum up a recording that was set aside; facts: what ingest found out about it, if it got that far."""
+    """Summarize a recording that was set aside.
+
+    Parameters
+    ----------
+    facts : mapping of str to Any
+        What ingest found out about it, if it got that far.
+    stage, reason : str
+        The stage that set it aside, and why.
+
+    Returns
+    -------
+    dict of str to Any
+        JSON values.
+    """
     return {
         **identity(facts),
         "status": "set aside",
@@ -135,11 +113,21 @@ def set_aside(facts: Mapping[str, Any], stage: str, reason: str) -> dict[str, An
 
 
 def attention(summary: Mapping[str, Any], weights: Mapping[str, float]) -> dict[str, float]:
-    """Score how much a recording wants a person's look: points by what they are for, which add up to the score.
+    """Score how much a recording needs a person's attention.
 
-    weights: points per percent of the samples changed (`changed_percent`), per percent still missing
-    (`missing_percent`), per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`)
-    and per warning (`warning`). A complete recording that nothing was done to scores 0.
+    Parameters
+    ----------
+    summary : mapping of str to Any
+        Of the recording.
+    weights : mapping of str to float
+        Points per percent of the samples changed (`changed_percent`), per percent still missing (`missing_percent`),
+        per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`) and per warning
+        (`warning`).
+
+    Returns
+    -------
+    dict of str to float
+        Points by cause, which add up to the score; a complete recording that nothing was done to scores 0.
     """
     points = {
         "changed": weights["changed_percent"] * 100 * summary["changed_share"],
@@ -152,7 +140,18 @@ def attention(summary: Mapping[str, Any], weights: Mapping[str, float]) -> dict[
 
 
 def identity(facts: Mapping[str, Any]) -> dict[str, Any]:
-    """Name a recording: its own name, its subject's, its file's, and what kind of recording it is."""
+    """Name a recording.
+
+    Parameters
+    ----------
+    facts : mapping of str to Any
+        Of the recording.
+
+    Returns
+    -------
+    dict of str to Any
+        Names of recording, subject and file, and the kind of recording.
+    """
     return {
         "recording": facts.get("recording"),
         "subject": facts.get("subject"),
@@ -161,20 +160,39 @@ def identity(facts: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def status(facts: Mapping[str, Any], touched: np.ndarray) -> str:
-    """What became of a recording that went through: static, cleaned or unchanged."""
+def status(facts: Mapping[str, Any], differs: np.ndarray) -> str:
+    """Give the status of a recording that was not set aside.
+
+    Parameters
+    ----------
+    facts : mapping of str to Any
+        Of the recording.
+    differs : ndarray of bool
+        Which samples were changed.
+
+    Returns
+    -------
+    str
+        static, cleaned or unchanged.
+    """
     if facts.get("kind") == "static":
         return "static"
-    return "cleaned" if touched.any() else "unchanged"
-
-
-def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:
-    """How many events there are, and how many samples they cover."""
-    return {"events": len(events), "samples": int(mask(events, recording.frames, recording.markers).sum())}
+    return "cleaned" if differs.any() else "unchanged"
 
 
 def outcomes(changes: Sequence[Change]) -> dict[str, dict[str, int]]:
-    """Count the changes by what was done: gaps `filled`, artifacts `repaired` or `blanked` (taken away)."""
+    """Count changes by what was done.
+
+    Parameters
+    ----------
+    changes : sequence of Change
+        What was changed.
+
+    Returns
+    -------
+    dict[str, dict[str, int]]
+        Under `filled` gaps, under `repaired` and `blanked` artifacts that were repaired or taken away.
+    """
     return {
         "filled": totals([change for change in changes if change.is_gap]),
         "repaired": totals([change for change in changes if not change.is_gap and change.outcome != Outcome.BLANKED]),
@@ -183,16 +201,16 @@ def outcomes(changes: Sequence[Change]) -> dict[str, dict[str, int]]:
 
 
 def totals(findings: Sequence[Change]) -> dict[str, int]:
-    """How many findings there are, and how many samples they hold."""
+    """Count findings and the samples that they hold.
+
+    Parameters
+    ----------
+    findings : sequence of Change
+        The findings.
+
+    Returns
+    -------
+    dict of str to int
+        Under the keys `events` and `samples`.
+    """
     return {"events": len(findings), "samples": sum(finding.samples for finding in findings)}
-
-
-def share(where: np.ndarray) -> float:
-    """The share of True, 0 where there is nothing to count."""
-    return round(float(where.mean()), DIGITS) if where.size else 0.0
-
-
-def finite(statistic: Any, values: np.ndarray) -> float | None:
-    """A statistic of the finite values, to 0.001; None where there are none."""
-    kept = values[np.isfinite(values)]
-    return round(float(statistic(kept)), 3) if kept.size else None

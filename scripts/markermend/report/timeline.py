@@ -10,14 +10,25 @@ from markermend.core.recording import FILLED, MEASURED, MISSING, Recording, Rest
 from markermend.numerics.intervals import runs
 
 WIDTH = 1000
-"""Columns of a map; a stretch that is shorter than one column still fills it."""
+"""Columns of a map; a stretch shorter than one column fills it."""
 
 VISIBLE = 3
 """Least width of a mark, in columns, so that one frame out of thousands can be seen."""
 
 
 def lines(before: Recording, after: Restored) -> list[dict[str, str]]:
-    """Draw each marker's line as SVG path data, in units of WIDTH columns: keys `open`, `filled`, `repaired`."""
+    """Draw one line per marker.
+
+    Parameters
+    ----------
+    before, after : Recording
+        The recording as ingested and as cleaned.
+
+    Returns
+    -------
+    list[dict[str, str]]
+        For each marker SVG path data in units of WIDTH columns, under the keys `open`, `filled` and `repaired`.
+    """
     states = {
         "open": after.missing,
         "filled": (after.origin == FILLED) & before.missing,
@@ -27,7 +38,18 @@ def lines(before: Recording, after: Restored) -> list[dict[str, str]]:
 
 
 def path(where: np.ndarray) -> str:
-    """Draw the stretches at which a bool vector (frames) holds as horizontal strokes at height 0."""
+    """Draw stretches as horizontal strokes at height 0.
+
+    Parameters
+    ----------
+    where : ndarray of bool, shape (frames,)
+        Where to draw.
+
+    Returns
+    -------
+    str
+        SVG path data.
+    """
     columns = np.zeros(WIDTH, bool)
     for start, stop in runs(where):
         left, right = start * WIDTH // len(where), -(-stop * WIDTH // len(where))
@@ -36,7 +58,20 @@ def path(where: np.ndarray) -> str:
 
 
 def ticks(recording: Recording, wanted: int) -> list[dict[str, Any]]:
-    """Places for about `wanted` round times along a map: `percent` of its width, `second`, and the frame's number."""
+    """Place round times along a map.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+    wanted : int
+        About how many.
+
+    Returns
+    -------
+    list[dict[str, Any]]
+        `percent` of the width, `second`, and the capture program's number of the `frame`.
+    """
     duration = recording.frames / recording.rate
     step = round_step(duration / max(wanted, 1))
     return [
@@ -50,6 +85,17 @@ def ticks(recording: Recording, wanted: int) -> list[dict[str, Any]]:
 
 
 def round_step(length: float) -> float:
-    """The smallest of 1, 2, 5 times a power of ten that is not below a length."""
+    """Round a length up to 1, 2 or 5 times a power of ten.
+
+    Parameters
+    ----------
+    length : float
+        Positive.
+
+    Returns
+    -------
+    float
+        The smallest that is not below the length.
+    """
     power = 10.0 ** np.floor(np.log10(length))
     return float(next(factor * power for factor in (1, 2, 5, 10) if factor * power >= length * (1 - 1e-9)))

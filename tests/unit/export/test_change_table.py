@@ -2,12 +2,19 @@
 
 import csv
 import io
+from dataclasses import replace
 
 import numpy as np
+import pytest
 
+from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Alternative, Change, Outcome
+from markermend.core.events import Event
+from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import Recording
 from markermend.export.change_table import COLUMNS, change_table
+from support import report_files
+from support.html_pages import HOSTILE
 
 CHANGES = [
     Change(
@@ -48,3 +55,38 @@ def test_figures_are_blank_where_there_are_none():
 
 def test_without_changes_there_is_a_header():
     assert change_table([], Recording((), np.empty((0, 0, 3)), 1.0)) == "\t".join(COLUMNS) + "\n"
+
+
+FOUND = {"peaks": [Event("A", 30, 32, 2.0), Event("B", 40, 42, 3.0)]}
+
+
+@pytest.fixture(scope="module")
+def restored():
+    """A recording from frame 701 on: a peak of A that a person accepted, one of B that a person rejected."""
+    positions = np.random.default_rng(1).normal(0, 100, (60, 3, 3)).cumsum(axis=0)
+    before = report_files.named(Recording(("A", "B", "C"), positions, 100.0, 701), "walk", "Bob")
+    after = report_files.restore(before, positions + 1, FOUND, error=1.0, keep=("B",))
+    repairs = [replace(change, decisions=(f"accept ({HOSTILE})",)) for change in after.repairs]
+    reason = Reason(Cause.DECIDED, "a person decided: reject")
+    left = [replace(change, reason=reason, decisions=("reject",)) for change in after.repairs_left]
+    return before, replace(after, changes=(*repairs, *left))
+
+
+def test_the_table_of_changes_says_what_a_person_decided(restored):
+    before, after = restored
+    text = change_table(applied_changes(before, after, after.changes), after)
+    (row,) = csv.DictReader(io.StringIO(text, newline=""), delimiter="\t")
+    assert (row["marker"], row["decision"]) == ("A", f"accept ({HOSTILE})")
+
+
+def test_a_gap_in_place_of_a_finding_carries_the_decisions_on_both(restored):
+    before, after = restored
+    positions, origin = before.positions.copy(), np.zeros(before.missing.shape, np.uint8)
+    positions[30:32, 0], origin[30:32, 0] = 1.0, 6
+    decisions = ("method spline", "missing")
+    gap = Change("A", 30, 32, ("gap",), Outcome.FILLED, method="spline", decisions=decisions)
+    away = Change("A", 30, 32, ("missing",), Outcome.BLANKED, decisions=("missing",))
+    filled = replace(after, positions=positions, origin=origin)
+    text = change_table(applied_changes(before, filled, [away, gap]), filled)
+    (row,) = csv.DictReader(io.StringIO(text, newline=""), delimiter="\t")
+    assert (row["class"], row["method"], row["decision"]) == ("missing", "spline", "missing; method spline")

@@ -1,15 +1,21 @@
-"""What a person is told about the decisions: how much each settled, and which did nothing and why."""
+"""The outcomes of decisions, on the page and in numbers: how much each settled, and which did nothing and why."""
 
 import csv
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import qc
 from markermend.core.changes import Change, Outcome
+from markermend.core.events import Event
+from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import Recording
 from markermend.planning.decision_table import COLUMNS
 from markermend.report.decision_outcomes import drafts, outcomes
+from support import report_files
+from support.html_pages import HOSTILE, Page
 
 CHANGES = [
     Change("LANK", 4, 6, ("peak",), Outcome.REPAIRED, decisions=("accept (hop)",)),
@@ -76,3 +82,55 @@ def test_lines_for_new_decisions_fit_the_table():
         ("LANK", "705", "706", ""),
         ('R"A\tNK', "701", "701", "gap"),
     ]
+
+
+FOUND = {"peaks": [Event("A", 30, 32, 2.0), Event("B", 40, 42, 3.0)]}
+
+ACCEPT = {"marker": "A", "decision": "accept", "note": HOSTILE}
+
+REJECT = {"marker": "B", "decision": "reject", "first_frame": 741, "last_frame": 742}
+
+IDLE = {"marker": "C", "decision": "accept"}
+
+
+@pytest.fixture(scope="module")
+def restored():
+    """A recording from frame 701 on: a peak of A that a person accepted, one of B that a person rejected."""
+    positions = np.random.default_rng(1).normal(0, 100, (60, 3, 3)).cumsum(axis=0)
+    before = report_files.named(Recording(("A", "B", "C"), positions, 100.0, 701), "walk", "Bob")
+    after = report_files.restore(before, positions + 1, FOUND, error=1.0, keep=("B",))
+    repairs = [replace(change, decisions=(f"accept ({HOSTILE})",)) for change in after.repairs]
+    reason = Reason(Cause.DECIDED, "a person decided: reject")
+    left = [replace(change, reason=reason, decisions=("reject",)) for change in after.repairs_left]
+    return before, replace(after, changes=(*repairs, *left))
+
+
+@pytest.fixture(scope="module")
+def made(restored, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("results")
+    made = report_files.write(folder, *restored, FOUND, decisions=[ACCEPT, REJECT, IDLE])
+    qc.main(made.qc())
+    return made
+
+
+def test_the_page_says_what_was_decided_and_is_not_hurt_by_a_note(made):
+    page = Page(made.page)
+    assert f"a person decided: accept ({HOSTILE})" in page.text
+    assert "a person decided: reject" in page.text
+    assert "Decisions</h2>" in made.page and "B, frames 741 to 742" in page.text
+    assert {tag for tag, attributes in page.tags if "onerror" in attributes} == set()
+    assert "walk\tA\t731\t732\t\t\t\tBob" in made.page
+
+
+def test_what_a_person_left_needs_no_attention_and_what_did_nothing_does(made):
+    summary = made.summary
+    assert (summary["decisions"], summary["findings_open"]["events"]) == (3, 0)
+    assert summary["warnings"] == ["decision 'accept' on C: there is no finding or gap that it changes"]
+    assert summary["attention_parts"]["artifacts left"] == 0
+
+
+def test_the_methods_text_mentions_decisions_only_where_there_are_some(made, restored, tmp_path):
+    assert "the decisions of that person took precedence" in made.summary["methods"]["text"]
+    plain = report_files.write(tmp_path, *restored, FOUND)
+    qc.main(plain.qc())
+    assert "Decisions</h2>" not in plain.page

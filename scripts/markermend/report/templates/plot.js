@@ -1,4 +1,4 @@
-// Plots are drawn when a person asks for them, from data that stands compactly in the page.
+// Plots are drawn on demand, from data that the page holds compactly.
 const drawing = document.body;
 let library = null;
 function loadLibrary() {
@@ -6,13 +6,13 @@ function loadLibrary() {
     const script = document.createElement("script");
     script.src = "../../report/plotly.min.js";
     script.onload = resolve;
-    script.onerror = () => reject(new Error("report/plotly.min.js is missing: finish the run, or keep the report folder beside the subjects' folders"));
+    script.onerror = () => reject(new Error("report/plotly.min.js is missing: finish the run, or keep the report folder next to the subjects' folders"));
     document.head.append(script);
   });
   return library;
 }
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); }
-// Each run is [offset, differences of x, of y, of z, ...] in hundredths of a mm; runs are set apart by null.
+// Each run is [offset, differences of x, of y, of z, ...] in hundredths of a mm; runs are separated by null.
 function unpack(runs, finding) {
   const columns = runs.length ? runs[0].length : 4;
   const frames = [];
@@ -68,8 +68,8 @@ function traces(finding) {
           fillcolor: "rgba(" + colour("band") + "," + alpha + ")" });
       }
     }
-    if (partner) add(axis, "swap partner, original", true, { x: partner.frames, y: partner.values[axis],
-      line: { color: colour("partner"), width: 1.5, dash: "dot" }, ...hover("swap partner, original", axis) });
+    if (partner) add(axis, "partner of the swap, original", true, { x: partner.frames, y: partner.values[axis],
+      line: { color: colour("partner"), width: 1.5, dash: "dot" }, ...hover("partner of the swap, original", axis) });
     add(axis, "original", true, { x: before.frames, y: before.values[axis], mode: before.frames.length < 400 ? "lines+markers" : "lines",
       line: { color: colour("original"), width: 1.4 }, marker: { size: 3 }, ...hover("original", axis) });
     if (finding.after.length) add(axis, "repaired or filled", true, { x: after.frames, y: after.values[axis],
@@ -78,7 +78,7 @@ function traces(finding) {
   if (finding.after.length) differences(before, after, add);
   return list;
 }
-// What was measured less what stands there now, over the expected error.
+// The measured minus the cleaned trajectory, and the expected error.
 function differences(before, after, add) {
   const measured = new Map(before.frames.map((frame, i) => [frame, i]));
   const flat = { frames: after.frames, values: [after.frames.map((frame) => (frame === null ? null : 0)), ...after.values.slice(3)] };
@@ -93,7 +93,7 @@ function differences(before, after, add) {
     });
     const name = "change in " + "xyz"[axis];
     add(3, name, true, { x: after.frames, y, showlegend: y.some((value) => value), line: { color: colour("xyz"[axis]), width: 1.6 },
-      hovertemplate: "measured " + "xyz"[axis] + " was %{y:+.2f} mm off<extra></extra>" });
+      hovertemplate: "measured " + "xyz"[axis] + " differed by %{y:+.2f} mm<extra></extra>" });
   }
 }
 function layout(finding, width) {

@@ -1,5 +1,5 @@
 "use strict";
-// Tables sort by a click on a heading, and show the rows that hold what is typed and chosen above them.
+// A click on a heading sorts its table; a table shows the rows that match what is typed and chosen above it.
 function cellValue(row, column) {
   const cell = row.cells[column];
   const text = cell.dataset.v ?? cell.textContent.trim();

@@ -1,0 +1,125 @@
+"""The summaries of all recordings of a data set put together: table, order, totals, methods texts."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from markermend.planning.run_summary import STATUSES
+
+COLUMNS = (
+    "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
+    "missing_share_before", "missing_share_after", "changed_samples", "changed_share", "repaired", "blanked",
+    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm", "warnings",
+    "attention", "page",
+)  # fmt: skip
+"""The columns of summary.tsv."""
+
+COUNTED = ("repaired", "blanked", "findings_open", "filled", "gaps_open")
+"""The keys of a summary that hold a number of findings."""
+
+
+def table(summaries: Sequence[Mapping[str, Any]]) -> str:
+    """Write summary.tsv.
+
+    Parameters
+    ----------
+    summaries : Sequence[Mapping[str, Any]]
+        Of the recordings, in any order.
+
+    Returns
+    -------
+    str
+        One row per recording, worst first; counts in place of lists, empty cells for what is unknown.
+    """
+    rows = ["\t".join(COLUMNS)]
+    rows += ["\t".join(cell(summary.get(column)) for column in COLUMNS) for summary in ordered(summaries)]
+    return "\n".join(rows) + "\n"
+
+
+def cell(value: Any) -> str:
+    """Write one value as a cell on one line.
+
+    Parameters
+    ----------
+    value : Any
+        Of a summary.
+
+    Returns
+    -------
+    str
+        The cell.
+    """
+    if isinstance(value, Mapping):
+        value = value["events"]
+    elif isinstance(value, list):
+        value = len(value)
+    return "" if value is None else " ".join(str(value).split())
+
+
+def ordered(summaries: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """Sort recordings, those set aside first, then by attention.
+
+    Parameters
+    ----------
+    summaries : Sequence[Mapping[str, Any]]
+        Of the recordings.
+
+    Returns
+    -------
+    list[Mapping[str, Any]]
+        The same, worst first.
+    """
+    return sorted(summaries, key=lambda s: (-s.get("attention", float("inf")), s["subject"], s["recording"]))
+
+
+def totals(entries: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Add up recordings.
+
+    Parameters
+    ----------
+    entries : Sequence[Mapping[str, Any]]
+        Their summaries.
+
+    Returns
+    -------
+    dict of str to Any
+        Numbers of recordings by status, numbers of samples and changes, and shares missing.
+    """
+    done = [entry for entry in entries if entry["status"] != "set aside"]
+    sizes = [entry["frames"] * entry["markers"] for entry in done]
+    samples = sum(sizes)
+
+    def share(key: str) -> float:
+        return sum(e[key] * size for e, size in zip(done, sizes, strict=True)) / samples if samples else 0.0
+
+    return {
+        **{status: sum(entry["status"] == status for entry in entries) for status in STATUSES},
+        "recordings": len(entries),
+        "samples": samples,
+        "changed_samples": sum(entry["changed_samples"] for entry in done),
+        "changed_share": share("changed_share"),
+        "missing_share_before": share("missing_share_before"),
+        "missing_share_after": share("missing_share_after"),
+        **{key: sum(entry[key]["events"] for entry in done) for key in COUNTED},
+    }
+
+
+def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """List the distinct methods texts.
+
+    Parameters
+    ----------
+    entries : Sequence[Mapping[str, Any]]
+        Summaries of recordings.
+
+    Returns
+    -------
+    list[dict[str, Any]]
+        Each text once, with the number of recordings that it holds for, most first.
+    """
+    texts = {entry["methods"]["text"]: entry["methods"] for entry in entries if "methods" in entry}
+    counts = Counter(entry["methods"]["text"] for entry in entries if "methods" in entry)
+    order = sorted(texts, key=lambda text: (-counts[text], text))
+    return [{**texts[text], "recordings": counts[text]} for text in order]

@@ -1,0 +1,46 @@
+"""Recordings are ordered worst first, added up, and written as rows of a table."""
+
+from urllib.parse import unquote
+
+import pytest
+
+from markermend.report import dataset_summary, rendering
+from support.html_pages import Page
+
+
+def test_the_worst_comes_first_and_the_totals_add_up(made, tmp_path):
+    base = made.summary
+    summaries = [
+        {
+            **base,
+            "recording": f"r{n}",
+            "subject": f"s{n % 2}",
+            "attention": float(n),
+            "page": f"s{n % 2}/r{n}/page.html",
+        }
+        for n in range(4)
+    ]
+    page = Page(rendering.index(summaries))
+    order = [unquote(a["href"]).split("/")[2] for a in page.all("a") if a["href"].startswith("../s")]
+    assert order == ["r3", "r2", "r1", "r0"]
+    total = dataset_summary.totals(summaries)
+    assert (total["cleaned"], total["changed_samples"]) == (4, 4 * base["changed_samples"])
+    assert total["changed_share"] == pytest.approx(base["changed_share"])
+    rows = dataset_summary.table(summaries).splitlines()
+    assert rows[0].split("\t")[:2] == ["recording", "subject"]
+    assert [row.split("\t")[0] for row in rows[1:]] == ["r3", "r2", "r1", "r0"]
+    assert {row.count("\t") for row in rows} == {len(dataset_summary.COLUMNS) - 1}
+
+
+def test_cells_of_the_table_stay_on_their_line():
+    assert dataset_summary.cell("a\tb\nc") == "a b c"
+    assert dataset_summary.cell(None) == ""
+    assert dataset_summary.cell({"events": 3, "samples": 9}) == "3"
+
+
+def test_methods_are_listed_once_for_equal_steps(made):
+    base = made.summary
+    static = {**base, "methods": {"text": "Only checked.", "references": []}}
+    texts = dataset_summary.distinct_methods([base, static, base])
+    assert [text["recordings"] for text in texts] == [2, 1]
+    assert "isolated peaks" in texts[0]["text"] and "at most 2 s" in texts[0]["text"]

@@ -1,0 +1,42 @@
+"""Changes are listed worst first, and what was left is listed with its reason."""
+
+from dataclasses import replace
+
+from markermend.core.reasons import UNSTATED
+from markermend.report.open_findings import left_open, open_gaps, reasons_for_blanking, worst_first
+from support.small_result import FOUND, RECORD
+
+
+def test_changes_are_listed_worst_first(changes):
+    assert [(c.kind, c.marker, c.start, c.stop) for c in changes] == [
+        ("gap", "B", 4, 6),
+        ("peak", "A", 2, 4),
+        ("peak+slow", "B", 0, 1),
+    ]
+    peak = changes[1]
+    assert (peak.score, peak.axes, peak.method, peak.samples, peak.largest_change_mm) == (2.5, "xz", "pchip", 2, 5.0)
+    assert reasons_for_blanking(changes, RECORD) == {changes[2]: "peak+slow: too uncertain"}
+    assert changes[0].largest_change_mm is None
+
+
+def test_a_recording_that_nothing_was_done_to_has_no_changes(before, after):
+    unchanged = replace(after, positions=before.positions)
+    assert worst_first(before, unchanged, []) == [] and reasons_for_blanking([], []) == {}
+
+
+def test_left_open_states_what_and_why(after, changes):
+    left = left_open(after, FOUND, changes, RECORD)
+    found = [(f.kind, f.marker, f.start, f.stop, f.reason.text) for f in left]
+    assert found == [
+        ("peak", "C", 6, 7, "protected"),
+        ("step", "B", 8, 10, UNSTATED.text),
+        ("gap", "B", 0, 1, UNSTATED.text),
+        ("gap", "B", 6, 7, "no neighbours"),
+        ("gap", "C", 9, 10, UNSTATED.text),
+    ]
+    assert (left[0].score, left[1].partner) == (4.0, "C")
+
+
+def test_gaps_are_listed_longest_first(before, after):
+    restored = replace(after, positions=before.positions)
+    assert [(g.marker, g.samples) for g in open_gaps(restored, RECORD)] == [("B", 3), ("C", 1)]

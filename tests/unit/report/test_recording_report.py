@@ -1,0 +1,104 @@
+"""The page and the summary of a recording say what was done to it, within bounds of size, and why it was set aside."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import qc
+from markermend.core.events import Event
+from markermend.storage import atomic, change_file, stage_files
+from support import report_files
+from support.html_pages import Page
+from support.treated import Treated
+
+
+def test_the_page_embeds_what_it_plots(made, contaminated):
+    page = Page(made.page)
+    buttons = [button["data-finding"] for button in page.all("button") if "data-finding" in button]
+    assert len(buttons) == len(page.data) == len(set(buttons))
+    summary = made.summary
+    assert len(buttons) == sum(summary[key]["events"] for key in ("filled", "repaired", "findings_open"))
+    excerpt = json.loads(page.data[buttons[0]])
+    assert excerpt["origin"] == 705 and excerpt["span"][0] >= 705 and excerpt["before"] and excerpt["after"]
+
+
+def test_the_page_says_what_was_done(made):
+    text = " ".join(Page(made.page).text.split())
+    for wanted in (
+        "Walk 1",
+        "frames 705–1904",
+        "local_ridge",
+        "ensemble",
+        "expected error 31.0 mm",
+        "ab" * 32,
+        "max_gap_s",
+    ):
+        assert wanted in text
+
+
+def test_the_number_of_plots_is_capped_and_the_tables_are_not(made):
+    qc.main(made.qc(plots=3))
+    page = Page(made.page)
+    rows = made.page.count("<tr data-kind=")
+    qc.main(made.qc())
+    assert len(page.data) == 3 + min(3, made.summary["findings_open"]["events"])
+    assert rows == made.page.count("<tr data-kind=")
+
+
+def test_equal_recordings_give_equal_bytes_anywhere(made, contaminated, tmp_path):
+    before, after = (
+        stage_files.read_recording(made.folder / f"{name}.parquet") for name in ("01_markers", "07_filled")
+    )
+    after = Treated(**vars(after), changes=change_file.read(made.folder / "07_changes.parquet"))
+    other = report_files.write(tmp_path / "other place", before, after, contaminated.events)
+    qc.main(other.qc())
+    for name in ("page.html", "08_qc.json"):
+        assert (other.folder / name).read_bytes() == (made.folder / name).read_bytes()
+    assert str(tmp_path) not in other.page
+
+
+def test_plots_stay_small(made):
+    page = Page(made.page)
+    assert max(map(len, page.data.values())) < 12_000
+    assert len(made.page) < 60_000 + sum(map(len, page.data.values())) + 400 * made.page.count("<tr data-kind=")
+
+
+def test_a_recording_that_export_left_untouched_is_set_aside_with_its_reason(contaminated, tmp_path):
+    before = report_files.named(contaminated.recording, "Run", "Anna", warnings=["odd header"])
+    after = report_files.restore(before, contaminated.clean.positions, contaminated.events, error=4.0)
+    results = report_files.write(tmp_path, before, after, contaminated.events)
+    certificate = stage_files.read_json(results.folder / "certificate.json")
+    note = {"untouched": {"stage": "export", "reason": "the original has changed"}}
+    atomic.write_json(results.folder / "certificate.json", {**certificate, **note})
+    qc.main(results.qc())
+    summary = results.summary
+    assert (summary["status"], summary["stage"], summary["reason"]) == (
+        "set aside",
+        "export",
+        "the original has changed",
+    )
+    assert (summary["frames"], summary["warnings"], summary["source"]) == (1200, ["odd header"], "Run.c3d")
+
+
+def test_qc_sets_aside_what_it_cannot_read(made, tmp_path):
+    flags = made.qc()
+    flags[flags.index("--changes") + 1] = str(tmp_path / "07_changes.parquet")
+    stage_files.write_events(tmp_path / "07_changes.parquet", [Event("A", 0, 1, 2.0)], {})
+    for name in ("qc", "page"):
+        flags[flags.index(f"--{name}") + 1] = str(tmp_path / "s" / "r" / name)
+    qc.main(flags)
+    assert stage_files.read_json(tmp_path / "s/r/qc")["stage"] == "qc"
+    assert "qc failed: KeyError" in (tmp_path / "s/r/page").read_text()
+
+
+def test_a_linked_finding_has_its_data_under_the_same_name(made):
+    page = Page(made.page)
+    assert {b["data-finding"] for b in page.all("button") if "data-finding" in b} == set(page.data)
+
+
+def test_qc_starts_fast_without_the_plotting_package():
+    code = "import sys; import qc, report; print(sorted(m for m in sys.modules if m in ('plotly', 'pandas', 'torch', 'scipy')))"
+    scripts = Path(qc.__file__).parent
+    out = subprocess.run([sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True)
+    assert out.stdout.strip() == "[]"
