@@ -14,7 +14,7 @@ from markermend.options.repair import RepairOptions, SeparationOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Prediction, Predictor, Scene
 from markermend.repair.methods import Proposal, predicted, separated, smoothed
-from markermend.repair.separation import COURSES
+from markermend.repair.separation import SHAPE_COVARIANCES
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class Offers:
                 float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
                 misfit(measured, expected),
                 np.nan
-                if proposal.method in COURSES
+                if proposal.method in SHAPE_COVARIANCES
                 else misfit(np.where(np.isnan(measured), np.nan, proposal.positions), expected),
                 blur,
             )
@@ -160,7 +160,7 @@ class Offers:
             return smoothed(
                 original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
             )
-        if method in COURSES:
+        if method in SHAPE_COVARIANCES:
             if not self._ridges:
                 return None
             settings = SeparationOptions(**options.separation)

@@ -16,9 +16,15 @@ from markermend.prediction.interpolation import KINDS
 from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Predictor, Scene
-from markermend.repair.separation import COURSES, artifacts, averaged, pinned, separate
+from markermend.repair.separation import (
+    SHAPE_COVARIANCES,
+    artifact_covariances,
+    average_by_likelihood,
+    conditional_correlation,
+    separate,
+)
 
-METHODS = ("exchange", *COURSES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
+METHODS = ("exchange", *SHAPE_COVARIANCES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
 """The ways of repair by the names that a config may use."""
 
 
@@ -71,7 +77,7 @@ def separated(
     *,
     options: SeparationOptions,
 ) -> Proposal | None:
-    """The measured samples without the artifact that a method of COURSES tells apart from the error of the prediction.
+    """The measured samples without the artifact that a method of SHAPE_COVARIANCES tells apart from the error of the prediction.
 
     original: (frames, 3), the marker's course as measured, NaN = missing. ridges: what predicts it; the residual of the
     first tells how errors go together. None where the neighbours cannot tell for every sample, and for more samples than
@@ -89,13 +95,13 @@ def separated(
         positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
         if np.isnan(positions).any() or np.isnan(deviation).any():
             continue
-        tried = artifacts(method, last - first, options, extents)
+        tried = artifact_covariances(method, last - first, options, extents)
         error = together * deviation * deviation[:, None]
-        parts.append(separate(original[first:last] - positions, error, tried, trust=options.trust))
+        parts.append(separate(original[first:last] - positions, error, tried, likelihood_power=options.trust))
         courses.append(positions + parts[-1].mean)
     if not parts:
         return None
-    mean, remaining = averaged(courses, parts)
+    mean, remaining = average_by_likelihood(courses, parts)
     own = slice(start - first, stop - first)
     return Proposal(method, mean[own], remaining[own])
 
@@ -106,7 +112,9 @@ def _together(ridge: LocalRidge, scene: Scene, marker: int, first: int, last: in
     around = around[(around >= 0) & (around < len(scene.present)) & ((around < first) | (around >= last))]
     around = around[scene.present[around, marker]]
     covariance = scene.cached((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
-    return pinned(covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate)
+    return conditional_correlation(
+        covariance, known_s=around / scene.rate, wanted_s=np.arange(first, last) / scene.rate
+    )
 
 
 def _free(present: np.ndarray, start: int, stop: int, margin: int) -> tuple[int, int]:

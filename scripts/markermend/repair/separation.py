@@ -1,10 +1,12 @@
-"""Separate where a marker was from the artifact on it: both are random courses, of which much is known.
+r"""Separation of the trajectory of a marker from the artifact on it, by Gaussian processes.
 
-Distorted samples still tell something. What was measured differs from what the neighbours predict by the error of the
-prediction and by the artifact. The error goes together over time as the marker's residual does elsewhere, and is small
-near both borders; the artifact has the course of its class. Both are taken as Gaussian, so that the likeliest
-parting of the difference, and what remains unsure, are linear algebra. Several predictions are parted each by itself and
-then averaged: where they err each in its own way, their mean errs less.
+Distorted samples still hold information. The difference between what was measured and what the neighbours predict is the
+sum of the error of the prediction and of the artifact. The error is correlated over time as the marker's residual is
+elsewhere, and is known at both borders; the artifact has the shape of its class. Both are taken as Gaussian: with the
+covariances :math:`E` of the error and :math:`A` of the artifact the expected error given the difference :math:`d` is
+:math:`E (E + A)^{-1} d`, and its covariance is :math:`E - E (E + A)^{-1} E`. The covariance of the artifact is not known, so
+several are tried, and the results are averaged by their likelihoods. Several predictions are separated each by itself and
+then averaged, because the mean of predictions that err independently errs less.
 """
 
 from __future__ import annotations
@@ -19,43 +21,98 @@ from markermend.numerics.kriging import Covariance
 from markermend.options.repair import SeparationOptions
 
 
-def bridge(n: int) -> np.ndarray:
-    """Covariance (n, n) of smooth courses that begin and end at zero: sines whose amplitudes fall with their order squared."""
+def bridge_covariance(n: int) -> np.ndarray:
+    """Give the covariance of smooth shapes that begin and end at zero.
+
+    Parameters
+    ----------
+    n : int
+        Number of frames.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        The covariance of a sum of sines whose amplitudes fall with the square of their order.
+    """
     order = np.arange(1, n + 1)
     sines = np.sin(np.pi * np.outer(order, order) / (n + 1)) / order**2
     return sines @ sines.T
 
 
-def tent(n: int) -> np.ndarray:
-    """Covariance (n, n) of a course that rises evenly to its middle and falls likewise (skurowski2022, section 4.1.3)."""
-    course = 1 - np.abs(2 * (np.arange(n) + 0.5) / n - 1)
-    return np.outer(course, course)
+def tent_covariance(n: int) -> np.ndarray:
+    """Give the covariance of a shape that rises linearly to its middle and falls likewise.
+
+    Parameters
+    ----------
+    n : int
+        Number of frames.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        The covariance of that shape with an amplitude of variance 1.
+
+    References
+    ----------
+    skurowski2022, section 4.1.3: the published shape of slow changes.
+    """
+    shape = 1 - np.abs(2 * (np.arange(n) + 0.5) / n - 1)
+    return np.outer(shape, shape)
 
 
-COURSES: Mapping[str, Sequence[Callable[[int], np.ndarray]]] = {
+SHAPE_COVARIANCES: Mapping[str, Sequence[Callable[[int], np.ndarray]]] = {
     "separate_noise": [np.eye],
     "separate_step": [lambda n: np.ones((n, n))],
-    "separate_slow": [bridge, tent],
+    "separate_slow": [bridge_covariance, tent_covariance],
 }
-"""Covariances (n, n) that an artifact of amplitude 1 may have over its frames, by the method that takes it away."""
+"""Covariances (n, n) of artifacts of amplitude 1 over n frames, by the method that removes such artifacts."""
 
 
-def artifacts(
+def artifact_covariances(
     method: str, n: int, options: SeparationOptions, extents: Sequence[tuple[int, int]]
 ) -> Iterator[np.ndarray]:
-    """Covariances (n, n), mm^2, of the artifacts that a method of COURSES deems equally likely among n frames.
+    """Give the covariances of the artifacts that are tried; all are equally likely a priori.
 
-    extents: half-open intervals of the n frames over which the artifact may last.
+    Parameters
+    ----------
+    method : str
+        A key of SHAPE_COVARIANCES.
+    n : int
+        Number of frames.
+    options : SeparationOptions
+        Amplitudes and roughness of artifacts.
+    extents : sequence of tuple of int
+        Half-open intervals of the n frames over which the artifact may last.
+
+    Yields
+    ------
+    ndarray of float, shape (n, n)
+        A covariance, mm^2.
     """
-    for course, (first, last) in itertools.product(COURSES[method], extents):
+    for shape, (first, last) in itertools.product(SHAPE_COVARIANCES[method], extents):
         covariance = np.zeros((n, n))
-        covariance[first:last, first:last] = course(last - first)
-        for amplitude, rough in itertools.product(options.amplitudes_mm, options.roughness_mm):
-            yield amplitude**2 * covariance + rough**2 * np.eye(n)
+        covariance[first:last, first:last] = shape(last - first)
+        for amplitude, roughness in itertools.product(options.amplitudes_mm, options.roughness_mm):
+            yield amplitude**2 * covariance + roughness**2 * np.eye(n)
 
 
-def pinned(covariance: Covariance, *, known_s: np.ndarray, wanted_s: np.ndarray) -> np.ndarray:
-    """Correlation (n, n) of a process at `wanted_s` that is known at `known_s`, s; its white noise is not known anywhere."""
+def conditional_correlation(covariance: Covariance, *, known_s: np.ndarray, wanted_s: np.ndarray) -> np.ndarray:
+    """Give the correlation of a process that is known at some times.
+
+    Parameters
+    ----------
+    covariance : Covariance
+        The covariance of the process over time; its white noise is not known at any time.
+    known_s : ndarray of float, shape (k,)
+        Times at which the process is known, s.
+    wanted_s : ndarray of float, shape (n,)
+        Times for which the correlation is wanted, s.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        The correlation given the known values.
+    """
     total = covariance(np.zeros(1))[0] + covariance.noise
     within = covariance(wanted_s[:, None] - wanted_s) + covariance.noise * np.eye(len(wanted_s))
     # As in kriging: the fitted covariance is never exact.
@@ -67,58 +124,100 @@ def pinned(covariance: Covariance, *, known_s: np.ndarray, wanted_s: np.ndarray)
 
 
 @dataclass(frozen=True)
-class Parted:
-    """An error of prediction told from an artifact: expected error (n, axes), mm; its variance per axis (n,), mm^2; and the
-    logarithm of how likely the difference was.
+class Separation:
+    """The error of a prediction, separated from an artifact.
+
+    Attributes
+    ----------
+    mean : ndarray of float, shape (n, axes)
+        The expected error, mm.
+    variance : ndarray of float, shape (n,)
+        Its variance per axis, mm^2.
+    log_likelihood : float
+        The logarithm of the mean likelihood of the difference under the artifacts that were tried, but for a constant.
     """
 
     mean: np.ndarray
     variance: np.ndarray
-    evidence: float
+    log_likelihood: float
 
 
-def separate(difference: np.ndarray, error: np.ndarray, tried: Iterable[np.ndarray], *, trust: float) -> Parted:
-    """Part a difference (n, axes), mm, into an error of prediction and an artifact.
+def separate(
+    difference: np.ndarray, error: np.ndarray, artifacts: Iterable[np.ndarray], *, likelihood_power: float
+) -> Separation:
+    """Separate the error of a prediction from an artifact.
 
-    difference: NaN = not measured. error: covariance (n, n), mm^2, of the error. tried: covariances (n, n) of artifacts,
-    equally likely before; the error is averaged over them by how likely each makes the difference. trust: see
-    SeparationOptions. The variance is wider where none of them makes it likely.
+    Parameters
+    ----------
+    difference : ndarray of float, shape (n, axes)
+        What was measured less what was predicted, mm; NaN = not measured.
+    error : ndarray of float, shape (n, n)
+        The covariance of the error, mm^2, the same on each axis.
+    artifacts : iterable of ndarray
+        The covariances (n, n) of artifacts that are tried, mm^2, equally likely a priori.
+    likelihood_power : float
+        The power to which likelihoods count, see `SeparationOptions`.
+
+    Returns
+    -------
+    Separation
+        The error averaged over the artifacts by their likelihoods. The variance is larger where none of them explains the
+        difference.
     """
     known = ~np.isnan(difference).any(axis=1)
-    seen, across = difference[known], error[:, known]
-    jitter = 1e-9 * np.trace(error) / len(error) * np.eye(len(seen))
-    likely, misfit, means, variances = [], [], [], []
-    for artifact in tried:
+    measured, across = difference[known], error[:, known]
+    jitter = 1e-9 * np.trace(error) / len(error) * np.eye(len(measured))
+    log_likelihoods, misfits, means, variances = [], [], [], []
+    for artifact in artifacts:
         total = (error + artifact)[np.ix_(known, known)] + jitter
-        solved = np.linalg.solve(total, np.concatenate([seen, across.T], axis=1))
-        weighted, gain = solved[:, : seen.shape[1]], solved[:, seen.shape[1] :].T
-        misfit.append((seen * weighted).sum() / seen.size)
-        likely.append(-0.5 * seen.size * misfit[-1] - seen.shape[1] / 2 * np.linalg.slogdet(total)[1])
-        means.append(gain @ seen)
+        solved = np.linalg.solve(total, np.concatenate([measured, across.T], axis=1))
+        whitened, gain = solved[:, : measured.shape[1]], solved[:, measured.shape[1] :].T
+        misfits.append((measured * whitened).sum() / measured.size)
+        log_determinant = np.linalg.slogdet(total)[1]
+        log_likelihoods.append(-0.5 * measured.size * misfits[-1] - measured.shape[1] / 2 * log_determinant)
+        means.append(gain @ measured)
         variances.append(np.diag(error) - (gain * across).sum(axis=1))
-    weights, evidence = _weights(trust * np.array(likely))
+    weights, log_likelihood = _weights(likelihood_power * np.array(log_likelihoods))
     mean = np.tensordot(weights, means, 1)
-    apart = ((np.stack(means) - mean) ** 2).mean(axis=2)
-    # Where nothing that was tried explains the difference, it is known less well than it seems.
-    wider = max(1.0, weights @ misfit)
-    return Parted(mean, np.maximum(wider * (weights @ (np.stack(variances) + apart)), 1e-12), evidence)
+    spread = ((np.stack(means) - mean) ** 2).mean(axis=2)
+    # Where no artifact that was tried explains the difference, the error is known less well than it seems.
+    factor = max(1.0, weights @ misfits)
+    variance = np.maximum(factor * (weights @ (np.stack(variances) + spread)), 1e-12)
+    return Separation(mean, variance, log_likelihood)
 
 
-def averaged(courses: Sequence[np.ndarray], parts: Sequence[Parted]) -> tuple[np.ndarray, np.ndarray]:
-    """Mean (n, axes), mm, of several courses by the evidence for each, and its standard deviation per axis (n,), mm.
+def average_by_likelihood(
+    trajectories: Sequence[np.ndarray], separations: Sequence[Separation]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Average several trajectories by the likelihoods of their separations.
 
-    courses: (n, axes), mm, each a prediction and the expected error of `parts` on it. By as much as they differ the
-    squared error of their mean is less than the mean of theirs (Krogh & Vedelsby 1995), if they state theirs truly;
-    since they err alike in part, it is never taken for less than half of it.
+    Parameters
+    ----------
+    trajectories : sequence of ndarray
+        Trajectories (n, axes), mm: each a prediction plus its expected error.
+    separations : sequence of Separation
+        The separation that each comes from.
+
+    Returns
+    -------
+    mean : ndarray of float, shape (n, axes)
+        Their mean, mm.
+    deviation : ndarray of float, shape (n,)
+        Its standard deviation per axis, mm. The squared error of the mean is less than the mean of the squared errors,
+        by as much as the trajectories are spread; since they err alike in part, it is never taken for less than half.
+
+    References
+    ----------
+    Krogh and Vedelsby 1995: the decomposition of the error of an ensemble.
     """
-    weights, _ = _weights(np.array([part.evidence for part in parts]))
-    mean = np.tensordot(weights, courses, 1)
-    apart = weights @ ((np.stack(courses) - mean) ** 2).mean(axis=2)
-    variance = weights @ np.stack([part.variance for part in parts])
-    return mean, np.sqrt(variance**2 / (variance + np.minimum(apart, variance)))
+    weights, _ = _weights(np.array([separation.log_likelihood for separation in separations]))
+    mean = np.tensordot(weights, trajectories, 1)
+    spread = weights @ ((np.stack(trajectories) - mean) ** 2).mean(axis=2)
+    variance = weights @ np.stack([separation.variance for separation in separations])
+    return mean, np.sqrt(variance**2 / (variance + np.minimum(spread, variance)))
 
 
-def _weights(evidence: np.ndarray) -> tuple[np.ndarray, float]:
+def _weights(log_likelihoods: np.ndarray) -> tuple[np.ndarray, float]:
     """Weights of sum 1 from logarithms of likelihoods (k,), and the logarithm of the mean likelihood."""
-    likely = np.exp(evidence - evidence.max())
-    return likely / likely.sum(), float(evidence.max() + np.log(likely.mean()))
+    likelihoods = np.exp(log_likelihoods - log_likelihoods.max())
+    return likelihoods / likelihoods.sum(), float(log_likelihoods.max() + np.log(likelihoods.mean()))

@@ -13,7 +13,7 @@ from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import SHARED, members
 from markermend.prediction.scene import Prediction
 from markermend.repair.candidates import Offer, choose
-from markermend.repair.separation import COURSES
+from markermend.repair.separation import SHAPE_COVARIANCES
 from support import bodies
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 from support.signals import CONFIG, detect, neighbours, put
@@ -94,7 +94,7 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
     assert error(clean, result, START, START + length).max() < 2
 
 
-@pytest.mark.parametrize("method", [*COURSES, "savitzky_golay", "local_ridge", "polynomial", *KINDS])
+@pytest.mark.parametrize("method", [*SHAPE_COVARIANCES, "savitzky_golay", "local_ridge", "polynomial", *KINDS])
 def test_every_repaired_sample_has_an_expected_error(clean, method):
     (made,) = members([method], {name: CONFIG[name] for name in SHARED}) if method in (*KINDS, "polynomial") else [None]
     recording = distorted(clean, 25.0, 700, 704)

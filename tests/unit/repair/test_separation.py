@@ -1,14 +1,23 @@
-"""Parting a prediction's error from an artifact: exact, honest about what remains unsure, and better than either alone."""
+"""Separating the error of a prediction from an artifact: exact, with true errors, and better than either alone."""
 
 import numpy as np
 import pytest
-from scipy.stats import multivariate_normal
 
 from markermend.core.events import Event
 from markermend.numerics.kriging import Covariance
 from markermend.options.repair import SeparationOptions
-from markermend.repair.separation import COURSES, Parted, artifacts, averaged, bridge, pinned, separate, tent
+from markermend.repair.separation import (
+    SHAPE_COVARIANCES,
+    Separation,
+    artifact_covariances,
+    average_by_likelihood,
+    bridge_covariance,
+    conditional_correlation,
+    separate,
+    tent_covariance,
+)
 from markermend.simulation.artifact_models import shape
+from support.naive import repair as naive
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
 
 N = 24
@@ -33,7 +42,7 @@ def clean():
 
 def errors():
     """Covariance of an error of some mm that is small at both borders."""
-    deviation = 3 * np.sqrt(np.diag(pinned_between())) + 0.5
+    deviation = 3 * np.sqrt(np.diag(covariance_between())) + 0.5
     return correlation() * deviation * deviation[:, None]
 
 
@@ -43,19 +52,19 @@ def times():
 
 def correlation():
     wanted, known = times()
-    return pinned(KERNEL, known_s=known, wanted_s=wanted)
+    return conditional_correlation(KERNEL, known_s=known, wanted_s=wanted)
 
 
-def pinned_between():
-    """Twin of the covariance that `pinned` normalises: a joint normal, conditioned by inverting its precision."""
+def covariance_between():
+    """The covariance that `conditional_correlation` normalises."""
     wanted, known = times()
     place = np.concatenate([wanted, known])
     joint = KERNEL(place[:, None] - place) + KERNEL.noise * np.eye(len(place))
-    return np.linalg.inv(np.linalg.inv(joint + 1e-9 * np.eye(len(place)))[:N, :N])
+    return naive.conditional_covariance(joint + 1e-9 * np.eye(len(place)), N)
 
 
-def test_pinned_is_the_correlation_given_the_borders():
-    expected = pinned_between()
+def test_conditional_correlation_is_the_correlation_given_the_borders():
+    expected = covariance_between()
     deviation = np.sqrt(np.diag(expected))
     assert np.allclose(correlation(), expected / deviation / deviation[:, None], atol=1e-3)
     assert np.allclose(np.diag(correlation()), 1)
@@ -64,11 +73,11 @@ def test_pinned_is_the_correlation_given_the_borders():
 def test_nothing_known_leaves_the_process_as_it_is():
     wanted, _ = times()
     free = KERNEL(wanted[:, None] - wanted) + KERNEL.noise * np.eye(N)
-    assert np.allclose(pinned(KERNEL, known_s=np.zeros(0), wanted_s=wanted), free / free[0, 0])
+    assert np.allclose(conditional_correlation(KERNEL, known_s=np.zeros(0), wanted_s=wanted), free / free[0, 0])
 
 
 def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
-    covariance = bridge(49)
+    covariance = bridge_covariance(49)
     drawn = np.random.default_rng(1).multivariate_normal(np.zeros(49), covariance, 200)
     assert np.abs(np.diff(drawn, n=2, axis=1)).max() < 0.2 * np.abs(drawn).max()
     assert np.diag(covariance).argmax() == 24 and np.diag(covariance)[[0, -1]].max() < 0.02 * covariance[24, 24]
@@ -77,52 +86,35 @@ def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
 def test_a_tent_is_one_course_of_any_size():
     """Its covariance is that of the published course of slow changes times a random amplitude."""
     course = shape("slow", 40)
-    assert np.allclose(tent(40), np.outer(course, course) * tent(40).max())
-    assert tent(40).max() == pytest.approx(1, abs=0.06)
+    assert np.allclose(tent_covariance(40), np.outer(course, course) * tent_covariance(40).max())
+    assert tent_covariance(40).max() == pytest.approx(1, abs=0.06)
 
 
-@pytest.mark.parametrize("method", COURSES)
-@pytest.mark.parametrize(("lost", "trust"), [([], 1.0), ([0, 5, 6], 1.0), ([], 0.2)])
-def test_separating_is_bayes_rule(method, lost, trust):
-    """Each artifact in turn by conditioning one joint normal distribution, then averaged by their likelihoods."""
+@pytest.mark.parametrize("method", SHAPE_COVARIANCES)
+@pytest.mark.parametrize(("lost", "power"), [([], 1.0), ([0, 5, 6], 1.0), ([], 0.2)])
+def test_separating_is_bayes_rule(method, lost, power):
     rng = np.random.default_rng(5)
-    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
+    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS))
     difference = rng.multivariate_normal(np.zeros(N), covariance + tried[2], 3).T
     difference[lost] = np.nan
-    rows = np.setdiff1d(np.arange(N), lost)
-    weights, means, seconds = [], [], []
-    for artifact in tried:
-        seen = (covariance + artifact)[np.ix_(rows, rows)]
-        weights.append(multivariate_normal(np.zeros(len(rows)), seen).logpdf(difference[rows].T).sum())
-        gain = covariance[:, rows] @ np.linalg.inv(seen)
-        means.append(gain @ difference[rows])
-        seconds.append(np.diag(covariance - gain @ covariance[rows])[:, None] + means[-1] ** 2)
-    evidence = np.log(np.mean(np.exp(trust * (np.array(weights) - max(weights))))) + trust * max(weights)
-    weights = np.exp(trust * (np.array(weights) - max(weights)))
-    weights /= weights.sum()
-    mean = np.tensordot(weights, means, 1)
-    deviation = np.sqrt((np.tensordot(weights, seconds, 1) - mean**2).mean(axis=1))
-    misfits = [
-        np.trace(difference[rows].T @ np.linalg.solve((covariance + artifact)[np.ix_(rows, rows)], difference[rows]))
-        for artifact in tried
-    ]
-    deviation *= max(1.0, np.sqrt(weights @ misfits / difference[rows].size))
-    parted = separate(difference, covariance, tried, trust=trust)
-    assert np.allclose(parted.mean, mean, atol=1e-4) and np.allclose(np.sqrt(parted.variance), deviation, rtol=1e-3)
-    constant = trust * difference[rows].size / 2 * np.log(2 * np.pi)
-    assert parted.evidence == pytest.approx(evidence + constant, abs=1e-2)
+    mean, deviation, log_likelihood = naive.separate(difference, covariance, tried, power)
+    separated = separate(difference, covariance, tried, likelihood_power=power)
+    assert np.allclose(separated.mean, mean, atol=1e-4)
+    assert np.allclose(np.sqrt(separated.variance), deviation, rtol=1e-3)
+    constant = power * 3 * (N - len(lost)) / 2 * np.log(2 * np.pi)
+    assert separated.log_likelihood == pytest.approx(log_likelihood + constant, abs=1e-2)
 
 
-@pytest.mark.parametrize("method", COURSES)
+@pytest.mark.parametrize("method", SHAPE_COVARIANCES)
 def test_what_remains_unsure_is_stated(method):
     rng = np.random.default_rng(2)
-    covariance, tried = errors(), list(artifacts(method, N, OPTIONS, EXTENTS))
+    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS))
     missed = []
     for _ in range(150):
         truth = rng.multivariate_normal(np.zeros(N), covariance, 3).T
         artifact = rng.multivariate_normal(np.zeros(N), tried[rng.integers(len(tried))], 3).T
-        parted = separate(truth + artifact, covariance, tried, trust=1)
-        missed.append(np.linalg.norm(parted.mean - truth, axis=1) / np.sqrt(parted.variance))
+        separated = separate(truth + artifact, covariance, tried, likelihood_power=1)
+        missed.append(np.linalg.norm(separated.mean - truth, axis=1) / np.sqrt(separated.variance))
     # Averaged over artifacts the error is no longer normal: more of it is near and more of it is far.
     assert np.mean(np.concatenate(missed) < 1.8724) == pytest.approx(0.7, abs=0.06)
     assert np.mean(np.concatenate(missed) < 2.7955) == pytest.approx(0.95, abs=0.03)
@@ -131,7 +123,9 @@ def test_what_remains_unsure_is_stated(method):
 def test_predictions_that_err_apart_are_surer_together():
     rng = np.random.default_rng(8)
     courses = rng.normal(0, 2.0, (2, 4000, 3))
-    mean, deviation = averaged(courses, [Parted(course, np.full(4000, 4.0), -7.0) for course in courses])
+    mean, deviation = average_by_likelihood(
+        courses, [Separation(course, np.full(4000, 4.0), -7.0) for course in courses]
+    )
     assert np.allclose(mean, courses.mean(axis=0))
     assert np.sqrt((mean**2).mean()) == pytest.approx(np.sqrt(2), rel=0.03)
     assert np.sqrt(2) < np.sqrt((deviation**2).mean()) < 0.9 * 2
@@ -139,14 +133,14 @@ def test_predictions_that_err_apart_are_surer_together():
 
 def test_predictions_that_err_alike_are_no_surer_together():
     course = np.random.default_rng(8).normal(0, 2.0, (50, 3))
-    mean, deviation = averaged([course, course], [Parted(course, np.full(50, 4.0), -7.0)] * 2)
+    mean, deviation = average_by_likelihood([course, course], [Separation(course, np.full(50, 4.0), -7.0)] * 2)
     assert np.allclose(mean, course) and np.allclose(deviation, 2)
 
 
 def test_the_likelier_prediction_counts_for_more():
     near, far = np.zeros((5, 3)), np.ones((5, 3))
-    parts = [Parted(near, np.full(5, 4.0), -10.0), Parted(far, np.full(5, 9.0), -12.0)]
-    mean, deviation = averaged([near, far], parts)
+    parts = [Separation(near, np.full(5, 4.0), -10.0), Separation(far, np.full(5, 9.0), -12.0)]
+    mean, deviation = average_by_likelihood([near, far], parts)
     assert np.allclose(mean, 1 / (1 + np.exp(2)))
     assert (deviation < 2.4).all() and (deviation > 1.9).all()
 
@@ -190,7 +184,7 @@ def test_several_ridges_predict_together(wobbling, kind):
     assert apart[2] <= max(apart[:2]) and apart[2] not in apart[:2]
 
 
-@pytest.mark.parametrize("method", COURSES)
+@pytest.mark.parametrize("method", SHAPE_COVARIANCES)
 def test_a_gap_within_stays_a_gap(clean, method):
     recording = distorted(clean, 12.0)
     m = clean.markers.index(MARKER)
