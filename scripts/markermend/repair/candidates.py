@@ -1,4 +1,4 @@
-"""What each method offers for one finding, what it is expected to err by, and which offer is taken, if any."""
+"""Candidates for the repair of one finding: what each method proposes, its expected error, and which one is taken, if any."""
 
 from __future__ import annotations
 
@@ -16,82 +16,126 @@ from markermend.prediction.scene import Prediction, Predictor, Scene
 from markermend.repair.methods import Proposal, predicted, separated, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 
+NOT_PROPOSING = ("exchange", "blank")
+"""Methods that propose no samples of their own."""
+
 
 @dataclass(frozen=True)
-class Offer:
-    """A proposal, and what it would make better.
+class Candidate:
+    """A proposal, and what would be better with it.
 
-    expected: the largest expected error, mm (68 %). change: the largest change to what was measured, mm. before, after:
-    root mean square distance, mm, of what was measured and of what is proposed from where the neighbours say; NaN where
-    they cannot tell, or where the proposal weighs what they say against what was measured. blur: how far from there the true position may well be (95 %), mm.
+    Attributes
+    ----------
+    proposal : Proposal
+        The samples that would be written.
+    expected_error : float
+        The largest expected error (68 %), mm.
+    largest_change : float
+        The largest change of a measured sample, mm.
+    misfit_before, misfit_after : float
+        Root mean square distance of what was measured, and of what is proposed, from the prediction by the neighbours, mm;
+        NaN where there is no prediction, or where the proposal already weighs the prediction against what was measured.
+    prediction_radius : float
+        Radius around the prediction that holds the true position with probability 0.95, mm.
     """
 
     proposal: Proposal
-    expected: float
-    change: float
-    before: float
-    after: float
-    blur: float
+    expected_error: float
+    largest_change: float
+    misfit_before: float
+    misfit_after: float
+    prediction_radius: float
 
     @property
     def no_better(self) -> Reason | None:
-        """Why the recording would be no better for it, or None."""
-        if self.expected > self.change:
-            text = f"expected error {self.expected:.1f} mm for a change of {self.change:.1f} mm"
+        """Why the recording would be no better with it, None where it would."""
+        if self.expected_error > self.largest_change:
+            text = f"expected error {self.expected_error:.1f} mm for a change of {self.largest_change:.1f} mm"
             return Reason(Cause.NO_BETTER, text)
-        if self.after > max(self.before, self.blur):
-            text = f"{self.after:.1f} mm from where the neighbours predict it, measured {self.before:.1f} mm"
-            return Reason(Cause.NO_BETTER, text)
+        if self.misfit_after > max(self.misfit_before, self.prediction_radius):
+            figures = f"{self.misfit_after:.1f} mm from where the neighbours predict it"
+            return Reason(Cause.NO_BETTER, f"{figures}, measured {self.misfit_before:.1f} mm")
         return None
 
-    def against(self, limit_mm: float) -> Reason | None:
-        """Give the reason why it is not taken.
+    def reason_against(self, max_error_mm: float) -> Reason | None:
+        """Find the reason why it is not taken.
 
         Parameters
         ----------
-        limit_mm
-            The largest expected error that is accepted, mm: the option `max_error_mm`.
+        max_error_mm : float
+            The largest expected error that is accepted, mm.
 
         Returns
         -------
         Reason or None
-            The reason, None where it may be taken.
+            The reason; None where it may be taken.
         """
-        if self.no_better or self.expected <= limit_mm:
+        if self.no_better or self.expected_error <= max_error_mm:
             return self.no_better
-        limit = Limit("repair.max_error_mm", limit_mm, self.expected)
-        text = f"expected error {self.expected:.1f} mm ({limit.text})"
-        return Reason(Cause.UNCERTAIN, text, limit)
+        limit = Limit("repair.max_error_mm", max_error_mm, self.expected_error)
+        return Reason(Cause.UNCERTAIN, f"expected error {self.expected_error:.1f} mm ({limit.text})", limit)
 
 
-def choose(offers: Iterable[Offer], *, limit_mm: float, prefer: float) -> Offer | None:
-    """The first of the offers that can be trusted whose expected error is within `prefer` times the least of them.
+def choose(candidates: Sequence[Candidate], *, max_error_mm: float, preference_factor: float) -> Candidate | None:
+    """Choose the candidate to take.
 
-    limit_mm: largest expected error. None where none can be trusted, or where the surest would change less than it may
-    err: then what was measured is as good as any.
+    Parameters
+    ----------
+    candidates : sequence of Candidate
+        The candidates in order of preference.
+    max_error_mm : float
+        The largest expected error that is accepted, mm.
+    preference_factor : float
+        The first candidate whose expected error is within this factor of the least is taken.
+
+    Returns
+    -------
+    Candidate or None
+        None where nothing stands for any of them, or where the one of least expected error would change less than its
+        expected error: then what was measured is as good as any.
     """
-    told = list(offers)
-    surest = min(told, key=lambda offer: offer.expected, default=None)
-    if surest is None or surest.expected > surest.change:
+    best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)
+    if best is None or best.expected_error > best.largest_change:
         return None
-    trusted = [offer for offer in told if offer.against(limit_mm) is None]
-    least = min((offer.expected for offer in trusted), default=0.0)
-    return next((offer for offer in trusted if offer.expected <= prefer * least), None)
+    acceptable = [candidate for candidate in candidates if candidate.reason_against(max_error_mm) is None]
+    least = min((candidate.expected_error for candidate in acceptable), default=0.0)
+    return next((own for own in acceptable if own.expected_error <= preference_factor * least), None)
 
 
-def misfit(positions: np.ndarray, expected: np.ndarray) -> float:
-    """Root mean square distance, mm, between positions (n, 3) over the samples that both have; NaN without any."""
+def rms_distance(positions: np.ndarray, expected: np.ndarray) -> float:
+    """Compute the root mean square distance between positions.
+
+    Parameters
+    ----------
+    positions, expected : ndarray of float, shape (n, 3)
+        Positions, mm; only samples that both have count.
+
+    Returns
+    -------
+    float
+        The distance, mm; NaN without any such sample.
+    """
     squared = ((positions - expected) ** 2).sum(axis=1)
     known = squared[~np.isnan(squared)]
     return float(np.sqrt(known.mean())) if len(known) else float("nan")
 
 
 @dataclass(frozen=True)
-class Offers:
-    """Asks the methods what they offer.
+class CandidateMaker:
+    """The trajectories of a recording, and the methods that propose repairs of them.
 
-    positions: (frames, markers, 3), mm, as measured. flagged: bool (frames, markers), samples that were found. scene: all
-    that was not. predictors: by name; `local_ridge` tells where the neighbours say a marker is, without it nothing does.
+    Attributes
+    ----------
+    positions : ndarray of float, shape (frames, markers, 3)
+        Positions as measured, mm.
+    flagged : ndarray of bool, shape (frames, markers)
+        The samples that were found.
+    scene : Scene
+        The trajectories without them.
+    predictors : mapping of str to Predictor
+        The predictors by name; `local_ridge` gives the prediction by the neighbours that proposals are judged by.
+    options : RepairOptions
+        Options of the methods.
     """
 
     positions: np.ndarray
@@ -100,60 +144,92 @@ class Offers:
     predictors: Mapping[str, Predictor]
     options: RepairOptions
 
-    def of(self, methods: Iterable[str], m: int, start: int, stop: int) -> list[Offer]:
-        """The offers for marker m over [start, stop), of the methods that can tell, in their order."""
-        measured, told = self.positions[start:stop, m], self._told(m, start, stop)
-        expected, radius = told.positions, self.options.radius
-        blur = radius["outer"] * float(np.sqrt(np.mean(told.error**2)))
-        proposals = [self._propose(method, m, start, stop) for method in methods if method not in ("exchange", "blank")]
+    def candidates(self, methods: Iterable[str], m: int, start: int, stop: int) -> list[Candidate]:
+        """Make the candidates for a finding.
+
+        Parameters
+        ----------
+        methods : iterable of str
+            Names of methods.
+        m : int
+            Index of the marker.
+        start, stop : int
+            The interval.
+
+        Returns
+        -------
+        list of Candidate
+            Those of the methods that can be applied, in their order.
+        """
+        measured, prediction = self.positions[start:stop, m], self._prediction(m, start, stop)
+        radius = self.options.radius["outer"] * float(np.sqrt(np.mean(prediction.error**2)))
+        proposals = [self._propose(method, m, start, stop) for method in methods if method not in NOT_PROPOSING]
         return [
-            Offer(
-                proposal,
-                float(np.max(proposal.error)) * radius["inner"],
-                float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
-                misfit(measured, expected),
-                np.nan
-                if proposal.method in SHAPE_COVARIANCES
-                else misfit(np.where(np.isnan(measured), np.nan, proposal.positions), expected),
-                blur,
-            )
+            self._candidate(proposal, measured, prediction.positions, radius)
             for proposal in proposals
             if proposal is not None
         ]
 
+    def _candidate(self, proposal: Proposal, measured: np.ndarray, expected: np.ndarray, radius: float) -> Candidate:
+        """A proposal, judged by what was measured and by the prediction of the neighbours, each (n, 3), mm."""
+        after = np.nan
+        if proposal.method not in SHAPE_COVARIANCES:
+            after = rms_distance(np.where(np.isnan(measured), np.nan, proposal.positions), expected)
+        return Candidate(
+            proposal,
+            expected_error=float(np.max(proposal.error)) * self.options.radius["inner"],
+            largest_change=float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
+            misfit_before=rms_distance(measured, expected),
+            misfit_after=after,
+            prediction_radius=radius,
+        )
+
     @cached_property
     def _ridges(self) -> list[LocalRidge]:
-        """The local ridges whose predictions are parted from artifacts; none without the shared one."""
+        """The local ridges whose predictions are separated from artifacts; none without the shared one."""
         shared = self.predictors.get("local_ridge")
         if not isinstance(shared, LocalRidge):
             return []
         ridges = self.options.separation["ridges"]
         return [LocalRidge(replace(shared.options, **own)) if own else shared for own in ridges]
 
-    def _told(self, m: int, start: int, stop: int) -> Prediction:
-        """Where the neighbours, and the marker's own course around, say that marker m is over [start, stop)."""
+    def _prediction(self, m: int, start: int, stop: int) -> Prediction:
+        """The prediction of marker m by its neighbours, and its own trajectory around, over [start, stop)."""
         if "local_ridge" not in self.predictors:
             return Prediction(np.full((stop - start, 3), np.nan), np.full(stop - start, np.nan))
-        told = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
-        return Prediction(told.positions[1:-1], told.error[1:-1])
+        prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
+        return Prediction(prediction.positions[1:-1], prediction.error[1:-1])
 
-    def worse_swapped(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> Reason | None:
-        """Why markers would be no nearer to where they should be with the samples of their partners, or None."""
-        expected = np.concatenate([self._told(m, start, stop).positions for m in members])
+    def worse_exchanged(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> Reason | None:
+        """Find the reason why markers would be no better with the samples of their partners.
+
+        Parameters
+        ----------
+        members, partners : sequence of int
+            Indices of the markers, and of the partner of each.
+        start, stop : int
+            The interval.
+
+        Returns
+        -------
+        Reason or None
+            The reason; None where they would be nearer to where their neighbours predict them.
+        """
+        expected = np.concatenate([self._prediction(m, start, stop).positions for m in members])
         measured, exchanged = (
             np.concatenate([self.positions[start:stop, m] for m in own]) for own in (members, partners)
         )
-        both = np.isnan(measured + exchanged + expected)
+        unpaired = np.isnan(measured + exchanged + expected)
         # Where a sample has no counterpart, the exchange is judged by those that have; if none has, by what there is.
-        expected = expected if both.all() else np.where(both, np.nan, expected)
-        before, after = (misfit(part, expected) for part in (measured, exchanged))
+        expected = expected if unpaired.all() else np.where(unpaired, np.nan, expected)
+        before, after = (rms_distance(part, expected) for part in (measured, exchanged))
         if after > before:
             figures = f"{after:.1f} mm from where the neighbours predict them, measured {before:.1f} mm"
             return Reason(Cause.NO_BETTER, f"no better with labels exchanged: {figures}")
         return None
 
     def _propose(self, method: str, m: int, start: int, stop: int) -> Proposal | None:
-        """What a method would write, or None where it cannot tell for every sample."""
+        """What a method would write; None where it cannot be applied to every sample."""
         options, original = self.options, self.positions[:, m]
         if method == "savitzky_golay":
             window = samples(options.savitzky_golay_s, self.scene.rate, odd=True)
@@ -163,6 +239,6 @@ class Offers:
         if method in SHAPE_COVARIANCES:
             if not self._ridges:
                 return None
-            settings = SeparationOptions(**options.separation)
-            return separated(method, original, self._ridges, self.scene, m, start, stop, options=settings)
+            own = SeparationOptions(**options.separation)
+            return separated(method, original, self._ridges, self.scene, m, start, stop, options=own)
         return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)

@@ -12,7 +12,7 @@ from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
-from markermend.repair.candidates import Offer
+from markermend.repair.candidates import Candidate
 
 
 class Restoration:
@@ -20,17 +20,17 @@ class Restoration:
 
     Parameters
     ----------
-    recording
+    recording : Recording
         The recording as it is to be repaired; never modified.
-    left
+    left : iterable of Change
         What is already known about stretches that are not repaired.
-    radius
+    radius : mapping of str to float
         Radii of the balls in standard deviations, see `RepairOptions`.
 
     Attributes
     ----------
-    positions
-        Positions as repaired so far, (frames, markers, 3), mm, NaN = missing.
+    positions : ndarray of float, shape (frames, markers, 3)
+        Positions as repaired so far, mm, NaN = missing.
     """
 
     def __init__(self, recording: Recording, left: Iterable[Change], radius: Mapping[str, float]) -> None:
@@ -41,48 +41,55 @@ class Restoration:
         self._repairs: list[Change] = []
         self._left = list(left)
 
-    def write(self, stage: str, event: Event, offer: Offer, offers: Iterable[Offer], ruling: Ruling) -> None:
-        """Write a proposal where the marker was seen.
+    @property
+    def markers(self) -> tuple[str, ...]:
+        """Names of the markers."""
+        return self._recording.markers
+
+    def write(
+        self, stage: str, event: Event, taken: Candidate, candidates: Iterable[Candidate], ruling: Ruling
+    ) -> None:
+        """Write a candidate where the marker was seen.
 
         Parameters
         ----------
-        stage
+        stage : str
             The detector of the finding.
-        event
+        event : Event
             The finding.
-        offer
-            The offer that is taken.
-        offers
-            All offers for the finding.
-        ruling
+        taken : Candidate
+            The candidate that is taken.
+        candidates : iterable of Candidate
+            All candidates for the finding.
+        ruling : Ruling
             What the decisions come to.
         """
-        m, proposal = self._recording.markers.index(event.marker), offer.proposal
+        m, proposal = self.markers.index(event.marker), taken.proposal
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
         self._origin[rows, m] = ORIGINS.index(BY_STAGE[stage].name)
         self._error[rows, m] = proposal.error[seen]
-        self._repaired(event, BY_STAGE[stage].name, Outcome.REPAIRED, proposal.method, rows, ruling, offers)
+        self._repaired(event, BY_STAGE[stage].name, Outcome.REPAIRED, proposal.method, rows, ruling, candidates)
 
-    def exchange(self, ring: Sequence[Event], ruling: Ruling) -> None:
+    def exchange(self, cycle: Sequence[Event], ruling: Ruling) -> None:
         """Give each marker of a cycle the original samples of its partner.
 
         Parameters
         ----------
-        ring
+        cycle : sequence of Event
             The exchanges, all over the same interval.
-        ruling
+        ruling : Ruling
             What the decisions come to.
         """
-        span = slice(ring[0].start, ring[0].stop)
-        index = self._recording.markers.index
-        own, partners = [index(event.marker) for event in ring], [index(str(event.partner)) for event in ring]
+        span = slice(cycle[0].start, cycle[0].stop)
+        index = self.markers.index
+        own, partners = [index(event.marker) for event in cycle], [index(str(event.partner)) for event in cycle]
         self.positions[span, own] = self._recording.positions[span, partners]
         missing = np.isnan(self.positions[span, own]).any(axis=2)
         self._origin[span, own] = np.where(missing, MISSING, ORIGINS.index("swap"))
         self._error[span, own] = np.where(missing, np.nan, 0.0)
-        for event in ring:
+        for event in cycle:
             rows = np.arange(event.start, event.stop)
             self._repaired(event, "swap", Outcome.EXCHANGED, "swap", rows, ruling)
 
@@ -94,26 +101,26 @@ class Restoration:
         ruling: Ruling,
         *,
         blank: bool,
-        offers: Iterable[Offer] = (),
+        candidates: Iterable[Candidate] = (),
     ) -> None:
         """Record that a stretch was not repaired.
 
         Parameters
         ----------
-        event
+        event : Event
             The finding, or what stands for several.
-        stages
+        stages : collection of str
             The detectors that found it.
-        reason
+        reason : Reason
             Why it was not repaired.
-        ruling
+        ruling : Ruling
             What the decisions come to.
-        blank
+        blank : bool
             Whether its samples become missing.
-        offers
-            All offers for the finding.
+        candidates : iterable of Candidate
+            All candidates for the finding.
         """
-        span, m = slice(event.start, event.stop), self._recording.markers.index(event.marker)
+        span, m = slice(event.start, event.stop), self.markers.index(event.marker)
         samples = event.stop - event.start
         if blank:
             samples = int(np.count_nonzero(~np.isnan(self.positions[span, m]).any(axis=1)))
@@ -130,7 +137,7 @@ class Restoration:
                 event.score,
                 event.axes,
                 event.partner,
-                alternatives=alternatives(offers),
+                alternatives=alternatives(candidates),
                 samples=samples,
                 decisions=ruling.texts,
                 reason=reason,
@@ -160,10 +167,10 @@ class Restoration:
         method: str,
         rows: np.ndarray,
         ruling: Ruling,
-        offers: Iterable[Offer] = (),
+        candidates: Iterable[Candidate] = (),
     ) -> None:
         """Record a repair of samples (rows) that were just written."""
-        m = self._recording.markers.index(event.marker)
+        m = self.markers.index(event.marker)
         moved = np.linalg.norm(self.positions[rows, m] - self._recording.positions[rows, m], axis=1)
         error = self._error[rows, m]
         self._repairs.append(
@@ -177,7 +184,7 @@ class Restoration:
                 event.axes,
                 event.partner,
                 method,
-                alternatives(offers),
+                alternatives(candidates),
                 samples=len(rows),
                 largest_change_mm=largest(moved),
                 expected_error_mm=largest(error * self._radius["inner"]),
@@ -187,17 +194,17 @@ class Restoration:
         )
 
 
-def alternatives(offers: Iterable[Offer]) -> tuple[Alternative, ...]:
-    """List the offers for a finding as its record states them.
+def alternatives(candidates: Iterable[Candidate]) -> tuple[Alternative, ...]:
+    """List the candidates for a finding as its record states them.
 
     Parameters
     ----------
-    offers
-        The offers, in the order of the methods.
+    candidates : iterable of Candidate
+        The candidates, in the order of the methods.
 
     Returns
     -------
     tuple of Alternative
         Each method with the largest error to be expected of it.
     """
-    return tuple(Alternative(offer.proposal.method, round(offer.expected, DECIMALS)) for offer in offers)
+    return tuple(Alternative(own.proposal.method, round(own.expected_error, DECIMALS)) for own in candidates)

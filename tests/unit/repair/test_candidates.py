@@ -12,7 +12,8 @@ from markermend.core.recording import MISSING
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import SHARED, members
 from markermend.prediction.scene import Prediction
-from markermend.repair.candidates import Offer, choose
+from markermend.repair.candidates import Candidate, choose
+from markermend.repair.methods import Proposal
 from markermend.repair.separation import SHAPE_COVARIANCES
 from support import bodies
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
@@ -38,28 +39,27 @@ class Vague:
         return Prediction(positions, np.full(stop - start + 2, self.deviation))
 
 
-def offer(method, expected, **changes):
-    told = {"change": 50.0, "before": 40.0, "after": 1.0, "blur": 3.0, **changes}
-    return Offer(type("Named", (), {"method": method})(), expected, **told)
+def candidate(method, expected_error, *, change=50.0, before=40.0, after=1.0, radius=3.0):
+    return Candidate(Proposal(method, np.zeros((1, 3)), np.ones(1)), expected_error, change, before, after, radius)
 
 
 @pytest.mark.parametrize(
-    ("offers", "taken"),
+    ("candidates", "taken"),
     [
-        ([offer("a", 1.2), offer("b", 1.0)], "a"),
-        ([offer("a", 1.3), offer("b", 1.0)], "b"),
-        ([offer("a", 1.0), offer("b", 1.0)], "a"),
-        ([offer("a", 1.3), offer("b", 1.0, after=41.0)], "a"),
-        ([offer("a", 1.3), offer("b", 1.0, after=41.0, blur=50.0)], "b"),
-        ([offer("a", 1.3, change=1.0), offer("b", 1.0)], "b"),
-        ([offer("a", 1.3), offer("b", 1.0, change=0.5)], None),
-        ([offer("a", 1.3), offer("b", 1.0, before=np.nan, after=np.nan)], "b"),
-        ([offer("a", 6.0)], None),
+        ([candidate("a", 1.2), candidate("b", 1.0)], "a"),
+        ([candidate("a", 1.3), candidate("b", 1.0)], "b"),
+        ([candidate("a", 1.0), candidate("b", 1.0)], "a"),
+        ([candidate("a", 1.3), candidate("b", 1.0, after=41.0)], "a"),
+        ([candidate("a", 1.3), candidate("b", 1.0, after=41.0, radius=50.0)], "b"),
+        ([candidate("a", 1.3, change=1.0), candidate("b", 1.0)], "b"),
+        ([candidate("a", 1.3), candidate("b", 1.0, change=0.5)], None),
+        ([candidate("a", 1.3), candidate("b", 1.0, before=np.nan, after=np.nan)], "b"),
+        ([candidate("a", 6.0)], None),
         ([], None),
     ],
 )
-def test_the_surest_that_can_be_trusted_is_taken_and_the_preferred_among_equals(offers, taken):
-    choice = choose(offers, limit_mm=5.0, prefer=1.25)
+def test_the_best_that_may_be_taken_is_and_the_preferred_among_equals(candidates, taken):
+    choice = choose(candidates, max_error_mm=5.0, preference_factor=1.25)
     assert (choice and choice.proposal.method) == taken
 
 

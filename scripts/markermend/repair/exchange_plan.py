@@ -1,0 +1,105 @@
+"""Which exchanges of labels are carried out, and why the others are not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from markermend.core.decisions import Ruling
+from markermend.core.events import Event
+from markermend.core.reasons import Reason
+from markermend.repair.apply_decisions import Judgement
+from markermend.repair.candidates import CandidateMaker
+from markermend.repair.findings import Rulings
+from markermend.repair.label_exchanges import cycle_of
+
+
+@dataclass(frozen=True)
+class PlannedExchange:
+    """A cycle of label exchanges that is wanted.
+
+    Attributes
+    ----------
+    cycle : tuple of Event
+        The exchanges, from partner to partner; all over the same interval.
+    ruling : Ruling
+        What the decisions come to for it.
+    reason : Reason, optional
+        Why it is not carried out; None where it is.
+    """
+
+    cycle: tuple[Event, ...]
+    ruling: Ruling
+    reason: Reason | None
+
+    def holds(self, event: Event) -> bool:
+        """Tell whether an event belongs to the cycle.
+
+        Parameters
+        ----------
+        event : Event
+            A label exchange.
+
+        Returns
+        -------
+        bool
+            Whether the cycle has an exchange of the same marker over the same interval.
+        """
+        place = event.marker, event.start, event.stop
+        return any((own.marker, own.start, own.stop) == place for own in self.cycle)
+
+
+def plan_exchanges(judged: Judgement, rulings: Rulings, maker: CandidateMaker, *, usual: bool) -> list[PlannedExchange]:
+    """Plan the exchanges of labels.
+
+    Parameters
+    ----------
+    judged : Judgement
+        What the decisions leave to be repaired.
+    rulings : Rulings
+        The decisions.
+    maker : CandidateMaker
+        Judges whether the markers of a cycle are better with the samples of their partners.
+    usual : bool
+        Whether labels are exchanged that no person confirmed.
+
+    Returns
+    -------
+    list of PlannedExchange
+        The cycles that are wanted, each once; one that a person confirmed is carried out in any case.
+    """
+    planned: list[PlannedExchange] = []
+    for event in judged.found["labels"]:
+        ruling = rulings.on([("labels", event)])
+        wanted = ruling.method == "exchange" if ruling.method else usual or ruling.confirmed
+        new = not any(exchange.holds(event) for exchange in planned)
+        if event.partner in judged.recording.markers and wanted and new:
+            cycle = tuple(cycle_of(event, judged.found["labels"]))
+            reason = None if ruling.confirmed else _worse(cycle, judged.recording.markers, maker)
+            planned.append(PlannedExchange(cycle, ruling, reason))
+    return planned
+
+
+def not_planned(exchanges: Iterable[Event], planned: Sequence[PlannedExchange]) -> list[Event]:
+    """List the exchanges that are not wanted.
+
+    Parameters
+    ----------
+    exchanges : iterable of Event
+        All label exchanges.
+    planned : sequence of PlannedExchange
+        Those that are wanted.
+
+    Returns
+    -------
+    list of Event
+        The others.
+    """
+    return [event for event in exchanges if not any(exchange.holds(event) for exchange in planned)]
+
+
+def _worse(cycle: Sequence[Event], markers: Sequence[str], maker: CandidateMaker) -> Reason | None:
+    """Why the markers of a cycle would be no better with the samples of their partners; None where they would."""
+    members = [markers.index(event.marker) for event in cycle]
+    partners = [markers.index(str(event.partner)) for event in cycle]
+    return maker.worse_exchanged(members, partners, cycle[0].start, cycle[0].stop)

@@ -1,0 +1,110 @@
+"""Repair of one finding: by the best candidate, or the reason why it is left or taken away."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from markermend.core.artifacts import ARTIFACTS
+from markermend.core.decisions import Ruling
+from markermend.core.events import Event
+from markermend.core.reasons import Cause, Limit, Reason
+from markermend.repair.candidates import Candidate, CandidateMaker, choose
+from markermend.repair.findings import Finding
+from markermend.repair.methods import METHODS
+from markermend.repair.result import Restoration
+
+
+def repair_finding(
+    finding: Finding, ruling: Ruling, refusal: Reason | None, maker: CandidateMaker, result: Restoration
+) -> None:
+    """Repair one finding, or record why not.
+
+    Parameters
+    ----------
+    finding : Finding
+        The finding.
+    ruling : Ruling
+        What the decisions come to for it; where a person confirmed it, no limit holds.
+    refusal : Reason, optional
+        Why nothing in the recording is repaired that no person confirmed.
+    maker : CandidateMaker
+        Makes the candidates.
+    result : Restoration
+        The result so far, which is changed.
+    """
+    event = finding.event
+    if refusal and not ruling.confirmed:
+        result.leave(event, finding.stages, refusal, ruling, blank=False)
+        return
+    reason = _not_to_be_repaired(finding, ruling)
+    if reason is None and not ruling.confirmed:
+        reason = _too_long(event, maker)
+    if reason:
+        result.leave(event, finding.stages, reason, ruling, blank=True)
+        return
+    _repair(finding, event, ruling, maker, result)
+
+
+def _not_to_be_repaired(finding: Finding, ruling: Ruling) -> Reason | None:
+    """Why the samples become missing, whatever could be proposed; None where a repair may be tried."""
+    unmeasured = [own.unmeasured for own in ARTIFACTS if own.unmeasured and own.stage in finding.stages]
+    if unmeasured:
+        return Reason(Cause.UNMEASURED, "; ".join(f"not measured: {text}" for text in unmeasured))
+    if ruling.method and ruling.method not in METHODS:
+        return Reason(Cause.FILLED_INSTEAD, f"to be filled by {ruling.method}")
+    if len(finding.members) > 1 and not ruling.method:
+        return Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once: treated as a gap")
+    return None
+
+
+def _too_long(event: Event, maker: CandidateMaker) -> Reason | None:
+    """Why a finding lasts too long to be repaired; None where it does not."""
+    rate, max_repair_s = maker.scene.rate, maker.options.max_repair_s
+    if event.stop - event.start <= max_repair_s * rate:
+        return None
+    limit = Limit("repair.max_repair_s", max_repair_s, (event.stop - event.start) / rate)
+    return Reason(Cause.TOO_LONG, f"lasts {limit.actual:.2f} s ({limit.text})", limit)
+
+
+def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMaker, result: Restoration) -> None:
+    """Write the best candidate; without any that may be taken the samples become missing.
+
+    Where the best candidate would leave the recording no better, the samples stay as measured. Where a person confirmed the
+    finding, the best candidate is taken whatever stands against it.
+    """
+    options = maker.options
+    methods = [ruling.method] if ruling.method else options.methods[finding.stage]
+    m = result.markers.index(event.marker)
+    candidates = maker.candidates(methods, m, event.start, event.stop)
+    best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)
+    taken = choose(candidates, max_error_mm=options.max_error_mm, preference_factor=options.prefer)
+    if taken is None and ruling.confirmed:
+        taken = best
+    if taken:
+        result.write(finding.stage, event, taken, candidates, ruling)
+        return
+    against = {own.proposal.method: own.reason_against(options.max_error_mm) for own in candidates}
+    reason = _none_taken(finding.stage, methods, against, best)
+    harmless = best is not None and best.no_better is not None
+    result.leave(event, finding.stages, reason, ruling, blank=not harmless, candidates=candidates)
+
+
+def _none_taken(
+    stage: str, methods: Sequence[str], against: Mapping[str, Reason | None], best: Candidate | None
+) -> Reason:
+    """Say why no candidate was taken: what stands against each method, and the cause that stood against the best."""
+    applicable = [method for method in methods if method != "exchange"]
+    if not applicable:
+        return Reason(Cause.NO_METHOD, f"no method for {stage}: treated as a gap")
+    texts = [f"{method}: {_why_not(method, against)}" for method in applicable]
+    text = f"no repair is accurate enough ({'; '.join(texts)})"
+    cause = against[best.proposal.method] if best else None
+    return Reason(cause.cause, text, cause.limit) if cause else Reason(Cause.NO_METHOD, text)
+
+
+def _why_not(method: str, against: Mapping[str, Reason | None]) -> str:
+    """Why a method was not used, given what stands against the candidates."""
+    if method not in against:
+        return "not applicable"
+    reason = against[method]
+    return reason.text if reason else "larger expected error than another"

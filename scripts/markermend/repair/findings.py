@@ -1,0 +1,105 @@
+"""Findings that overlap on one marker, which are repaired together, and what a person's decisions come to for them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from markermend.core.decisions import Decision, Ruling, kind_of, rule
+from markermend.core.events import Event
+from markermend.repair.label_exchanges import concerned
+
+Member = tuple[str, Event]
+"""A finding with the detector that made it."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One or more findings that overlap on one marker.
+
+    Attributes
+    ----------
+    members : tuple of tuple of (str, Event)
+        The findings with their detectors, by frame.
+    """
+
+    members: tuple[Member, ...]
+
+    @property
+    def stages(self) -> list[str]:
+        """The detectors, one for each member."""
+        return [stage for stage, _ in self.members]
+
+    @property
+    def stage(self) -> str:
+        """The detector of the strongest member."""
+        return self._strongest[0]
+
+    @property
+    def event(self) -> Event:
+        """The strongest member, over the whole stretch: it stands for all."""
+        start = min(event.start for _, event in self.members)
+        return replace(self._strongest[1], start=start, stop=max(event.stop for _, event in self.members))
+
+    @property
+    def _strongest(self) -> Member:
+        """The member with the largest score, the first of several."""
+        return max(self.members, key=lambda member: member[1].score)
+
+
+def group_findings(found: Mapping[str, Sequence[Event]]) -> list[Finding]:
+    """Group the findings that overlap.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Event
+        The findings by detector.
+
+    Returns
+    -------
+    list of Finding
+        The groups by marker and frame; those of one marker share no frame.
+    """
+    groups: list[list[Member]] = []
+    everything = [(stage, event) for stage, events in found.items() for event in events]
+    for stage, event in sorted(everything, key=lambda member: member[1].order):
+        last = groups[-1] if groups else []
+        if last and last[0][1].marker == event.marker and event.start < max(own.stop for _, own in last):
+            last.append((stage, event))
+        else:
+            groups.append([(stage, event)])
+    return [Finding(tuple(group)) for group in groups]
+
+
+@dataclass(frozen=True)
+class Rulings:
+    """The decisions on a recording.
+
+    Attributes
+    ----------
+    decisions : sequence of Decision
+        The decisions of persons and of the setting `protect`.
+    exchanges : sequence of Event
+        All label exchanges as detected: a decision on one marker of a cycle is about all of them.
+    """
+
+    decisions: Sequence[Decision]
+    exchanges: Sequence[Event]
+
+    def on(self, members: Sequence[Member]) -> Ruling:
+        """Combine the decisions that bear on findings that overlap.
+
+        Parameters
+        ----------
+        members : sequence of tuple of (str, Event)
+            The findings with their detectors.
+
+        Returns
+        -------
+        Ruling
+            What the decisions come to.
+        """
+        kinds = {kind_of(stage, event) for stage, event in members}
+        markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.exchanges))
+        start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
+        return rule(self.decisions, kinds, markers, start, stop)
