@@ -5,12 +5,15 @@ Writes: cleaned.* (the original with only the changed samples overwritten; for C
 changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from markermend.command.stage import Stage
 from markermend.core.applied_changes import applied_changes
 from markermend.core.originals import find_originals
-from markermend.core.recording import Recording, Restored
+from markermend.core.recording import Recording, Restored, SetAside
 from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.formats.text import trc
@@ -28,7 +31,7 @@ STAGE.writes("certificate", "what changed and that nothing else did, as JSON")
 STAGE.writes("trc", "the cleaned recording as TRC besides", many=True)
 
 
-def work(call):
+def work(call: Any) -> str:
     measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
     certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
@@ -41,7 +44,7 @@ def work(call):
     return f"{certificate['changed_samples']} samples changed in {len(changes)} places, every other byte equal"
 
 
-def set_aside(call, note):
+def set_aside(call: Any, note: SetAside) -> None:
     certificate = write_back.pass_through(call.source, call.cleaned, note.stage, note.reason)
     nothing = Recording((), np.empty((0, 0, 3)), 1.0)
     atomic.write_text(call.changes, change_table([], nothing))
@@ -51,7 +54,7 @@ def set_aside(call, note):
     atomic.write_json(call.certificate, certificate)
 
 
-def main(argv=None):
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv, set_aside=set_aside)
 
 

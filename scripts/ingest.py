@@ -4,28 +4,33 @@ Reads: the original file.
 Writes: 01_markers.parquet.
 """
 
-from markermend.command.stage import Stage, optional
+from collections.abc import Sequence
+from typing import Any
+
+from markermend.command.stage import Stage
 from markermend.formats import files
 from markermend.formats.ingest import ingest
+from markermend.options.general import RecordingOptions
+from markermend.options.ingest import IngestOptions
 from markermend.storage import stage_files
 from markermend.storage.folder_names import printable
 
-STAGE = Stage("ingest", __doc__)
+STAGE = Stage("ingest", __doc__, IngestOptions, RecordingOptions)
 STAGE.reads("source", "the original: .c3d, .trc, .csv or .tsv")
 STAGE.writes("markers", "trajectories as ingested")
-STAGE.option("recording", str, "name of the recording")
-STAGE.option("subject", str, "name of the subject")
-STAGE.option("kind", str, "dynamic, static (never repaired or filled), or auto", choices=["auto", "dynamic", "static"])
-STAGE.option("rate", optional(float), "frames per second, Hz, in place of what the file says; none: the file's")
-STAGE.option("unlabelled", str, "regular expressions for names of trajectories that nobody labelled", many=True)
-STAGE.option("static_names", str, "regular expressions that occur in names of static recordings", many=True)
-STAGE.option("static_motion_mm", float, "a recording is static if nine markers in ten move less than this, mm")
 
 
-def work(call):
-    options = dict(call.options)
-    reading = files.read(call.source, unlabelled=options.pop("unlabelled"), rate=options.pop("rate"))
-    recording = ingest(reading, source=printable(call.source.name), **options)
+def work(call: Any) -> str:
+    reading = files.read(call.source, unlabelled=call.options.unlabelled, rate=call.rate)
+    recording = ingest(
+        reading,
+        source=printable(call.source.name),
+        recording=call.recording,
+        subject=call.subject,
+        kind=call.kind,
+        static_names=call.options.static_names,
+        static_motion_mm=call.options.static_motion_mm,
+    )
     recording.facts["source"]["sha256"] = call.facts["inputs"]["source"]
     stage_files.write_recording(call.markers, recording, call.facts)
     gone = recording.missing.mean()
@@ -35,7 +40,7 @@ def work(call):
     )
 
 
-def main(argv=None):
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv)
 
 

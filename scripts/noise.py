@@ -4,20 +4,21 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 03_noise.parquet.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 from markermend.command import detector
-from markermend.detection import noise
+from markermend.detection.noise import detect_noise
+from markermend.options.detection import NoiseOptions
 
-STAGE = detector.stage("noise", __doc__, finds="heavy noise", presets=["default", "coordinates", "paper"])
-
-
-def work(call):
-    given, recorded_under = detector.arguments(call)
-    found = noise.detect_noise(**given, settings=noise.settings(call.options))
-    detector.write(call, found, recorded_under, {})
-    return detector.result(found)
+STAGE = detector.stage("noise", __doc__, NoiseOptions, finds="heavy noise")
 
 
-def main(argv=None):
+def work(call: Any) -> str:
+    return detector.search(call, detect_noise)
+
+
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv)
 
 

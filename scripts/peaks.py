@@ -4,20 +4,21 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 02_peaks.parquet.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 from markermend.command import detector
-from markermend.detection import peaks
+from markermend.detection.peaks import detect_peaks
+from markermend.options.detection import PeaksOptions
 
-STAGE = detector.stage("peaks", __doc__, finds="isolated peaks", presets=["default", "coordinates", "paper"])
-
-
-def work(call):
-    given, recorded_under = detector.arguments(call)
-    found = peaks.detect_peaks(**given, settings=peaks.settings(call.options))
-    detector.write(call, found, recorded_under, {})
-    return detector.result(found)
+STAGE = detector.stage("peaks", __doc__, PeaksOptions, finds="isolated peaks")
 
 
-def main(argv=None):
+def work(call: Any) -> str:
+    return detector.search(call, detect_peaks)
+
+
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv)
 
 

@@ -5,6 +5,8 @@ Writes: index.html, summary.tsv, plotly.min.js (the one plotting script that all
 """
 
 import json
+from collections.abc import Sequence
+from typing import Any
 
 from markermend.command.stage import Stage
 from markermend.report import dataset_summary, rendering
@@ -17,7 +19,7 @@ STAGE.writes("summary", "one row per recording, tab-separated")
 STAGE.writes("script", "the plotting script")
 
 
-def work(call):
+def work(call: Any) -> str:
     summaries = [json.loads(path.read_text(encoding="utf-8")) for path in call.qc]
     atomic.write_text(call.index, rendering.index(summaries))
     atomic.write_text(call.summary, dataset_summary.table(summaries))
@@ -27,7 +29,7 @@ def work(call):
     return f"{len(summaries)} recordings, {aside} set aside"
 
 
-def main(argv=None):
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv)
 
 

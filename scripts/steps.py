@@ -4,20 +4,24 @@ Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
 Writes: 04_steps.parquet, with the jumps that have no counterpart among its facts.
 """
 
+from collections.abc import Sequence
+from typing import Any
+
 from markermend.command import detector
-from markermend.detection import steps
+from markermend.detection.steps import detect_steps
+from markermend.options.detection import StepsOptions
 
-STAGE = detector.stage("steps", __doc__, finds="steps", presets=["default", "coordinates", "paper"])
+STAGE = detector.stage("steps", __doc__, StepsOptions, finds="steps")
 
 
-def work(call):
+def work(call: Any) -> str:
     given, recorded_under = detector.arguments(call)
-    found, left = steps.detect_steps(**given, settings=steps.settings(call.options))
+    found, left = detect_steps(**given)
     detector.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
     return f"{detector.result(found)}; {len(left)} open steps"
 
 
-def main(argv=None):
+def main(argv: Sequence[str] | None = None) -> None:
     STAGE.run(work, argv)
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG, DATA, MESH
+from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_gapped, load
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
@@ -33,7 +33,7 @@ MOST_SHARE = 0.5
 def neighbours(folder, name):
     """Whom each marker is predicted from, by the complete recording."""
     whole = load(folder, name)
-    (mesh,) = infer_meshes([thin(whole, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
+    (mesh,) = infer_meshes([thin(whole, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"])
     return mesh.neighbour_indices(whole.markers)
 
 
@@ -52,7 +52,7 @@ def one_run(folder, name, length_s, markers, seed):
             break
     else:
         return None
-    filled = fill_gapped(whole, gaps, neighbours(folder, name), tuple(CONFIG["fill"]["members"]))
+    filled = fill_gapped(whole, gaps, neighbours(folder, name), OPTIONS["fill"].members)
     place = slice(start, start + length), [marker for marker, _, _ in gaps]
     distance = np.linalg.norm(filled.positions[place] - whole.positions[place], axis=2)
     return [each.ravel() for each in (distance, filled.error[place], filled.error95[place])]

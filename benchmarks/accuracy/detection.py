@@ -32,36 +32,37 @@ from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
-from markermend.options.detection import FrozenOptions, LabelsOptions, TailsOptions
-from markermend.options.published import PublishedSlowOptions
-from markermend.options.repair import RepairOptions
-
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG, PROJECT
+from benchmarks.support.defaults import OPTIONS, PROJECT
 from benchmarks.support.detection_outcome import CLASSES, Outcome, print_outcome
+from markermend.command.detector import chosen
 from markermend.core import events, labels
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.detection import frozen, noise, peaks, steps, tails
-from markermend.detection import slow as detection_slow
+from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
+from markermend.detection.noise import detect_noise
+from markermend.detection.peaks import detect_peaks
 from markermend.detection.published import slow
+from markermend.detection.slow import detect_slow
+from markermend.detection.steps import detect_steps
+from markermend.detection.tails import detect_tails
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
-from markermend.prediction.registry import REGISTRY, SHARED, members
+from markermend.options.mesh import MeshOptions
+from markermend.options.published import PublishedSlowOptions
+from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
+from markermend.repair.predictors import needed_predictors
 from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.protocols import PROTOCOLS
 
-UNMEASURED = {
-    "frozen": (frozen.detect_frozen, FrozenOptions),
-    "tails": (tails.detect_tails, TailsOptions),
-}
-DETECTORS = {"peaks": peaks, "noise": noise, "steps": steps, "slow": detection_slow}
+UNMEASURED = {"frozen": detect_frozen, "tails": detect_tails}
+DETECTORS = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
 GLITCHES = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 BORDER = 2
 """Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
@@ -75,42 +76,39 @@ def damage(clean: Recording, *, amplitude: float, share: float, seed: int, proto
     return PROTOCOLS[protocol](clean.positions, clean.markers, rate=clean.rate, **given)
 
 
-def detect(recording: Recording, body: Mesh, config: dict, preset: str) -> dict:
+def detect(recording: Recording, body: Mesh, options: dict, preset: str) -> dict:
     """Find the events of each class as the workflow does: label exchanges undone, each detector after the ones before.
 
     What frozen and tails find is missing for all that come later.
     """
-    near, relatives = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
-    scene = Scene(recording.positions, recording.rate, near, segment_mates=relatives)
-    predictor = members(["local_ridge"], {"local_ridge": config["local_ridge"]})[0]
+    near, mates = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
+    scene = Scene(recording.positions, recording.rate, near, segment_mates=mates)
+    predictor = LocalRidge(options["predictors"].local_ridge)
     claimed, found = np.zeros(recording.positions.shape, bool), {}
     if preset != "paper":
-        found["labels"] = detect_labels(scene, markers=recording.markers, settings=LabelsOptions(**config["labels"]))
+        found["labels"] = detect_labels(scene, markers=recording.markers, options=options["labels"])
         positions = labels.undo_exchanges(scene.positions, found["labels"], recording.markers)
         scene = replace(scene, positions=positions)
-        for kind, (look, settings) in UNMEASURED.items():
+        for kind, look in UNMEASURED.items():
             given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
-            found[kind] = look(scene, settings=settings(**config[kind]), **given)
+            found[kind] = look(scene, options=options[kind], **given)
             claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-    for kind, module in DETECTORS.items():
-        settings = module.settings({**config[kind], "preset": preset})
-        if isinstance(settings, PublishedSlowOptions):
-            predictor = slow.predictor(settings, config)
+    for kind, look in DETECTORS.items():
+        own = chosen(replace(options[kind], preset=preset))
+        if isinstance(own, PublishedSlowOptions):
+            predictor = slow.predictor(own, options["predictors"])
         given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
-        result = getattr(module, f"detect_{kind}")(scene, settings=settings, **given)
+        result = look(scene, options=own, **given)
         found[kind] = result[0] if kind == "steps" else result
         claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
     return found
 
 
-def mend(recording: Recording, body: Mesh, found: dict, config: dict) -> tuple[np.ndarray, bool]:
+def mend(recording: Recording, body: Mesh, found: dict, options: dict) -> tuple[np.ndarray, bool]:
     """Positions after repair of what was found, and whether the repair refused."""
-    options = RepairOptions(**config["repair"], protect=config["protect"])
-    names = {name for methods in options.methods.values() for name in methods if name in REGISTRY} | {"local_ridge"}
-    settings = {name: config[name] for name in SHARED}
-    predictors = {predictor.name: predictor for predictor in members(sorted(names), settings)}
-    near, relatives = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
-    given = {"neighbours": near, "relatives": relatives, "predictors": predictors, "options": options}
+    own = options["repair"]
+    near, mates = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
+    given = {"neighbours": near, "relatives": mates, "predictors": needed_predictors(own), "options": own}
     result = repair(recording, found=found, **given)
     refused = bool(result.changes) and all(change.reason for change in result.changes)
     return result.recording.positions, refused
@@ -155,29 +153,28 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     return out
 
 
-def infer(recording: Recording, config: dict) -> Mesh:
+def infer(recording: Recording, options: MeshOptions) -> Mesh:
     """The mesh of a recording by itself."""
-    settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    thinned = pair_statistics.thin(recording, frames=settings["frames"])
-    return inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], **settings)
+    thinned = pair_statistics.thin(recording, frames=options.max_frames)
+    return inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], options=options)
 
 
-def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:
+def judge(clean: Recording, options: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:
     """Damage one recording once, and judge each preset on it.
 
     ignored: samples (frames, markers) that do not count. condition: see `damage`.
     """
     harm = damage(clean, **condition)
     harmed = replace(clean, positions=harm.positions)
-    body = infer(harmed, config)
+    body = infer(harmed, options["mesh"])
     truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
-    perfect, _ = mend(harmed, body, harm.events, config)
+    perfect, _ = mend(harmed, body, harm.events, options)
     for preset in presets:
-        found = detect(harmed, body, config, preset)
+        found = detect(harmed, body, options, preset)
         told, outcome = classes(found, harmed), Outcome()
         np.add.at(outcome.confusion, (truth[seen], told[seen]), 1)
         outcome.forms = forms(harm, seen, told)
-        actual, outcome.refused = mend(harmed, body, found, config)
+        actual, outcome.refused = mend(harmed, body, found, options)
         for stage, positions in enumerate((harmed.positions, perfect, actual)):
             squared = ((positions - clean.positions) ** 2).sum(axis=2)
             known = seen & ~np.isnan(squared)
@@ -190,9 +187,8 @@ def judge(clean: Recording, config: dict, *, ignored: np.ndarray, presets: list,
 
 def run(path: Path, presets: list, condition: dict) -> dict[str, Outcome]:
     """Judge one recording under one condition."""
-    config = CONFIG
-    clean = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
-    return judge(clean, config, ignored=glitches(path, clean), presets=presets, **condition)
+    clean = files.read(path, unlabelled=OPTIONS["ingest"].unlabelled, rate=None).recording
+    return judge(clean, OPTIONS, ignored=glitches(path, clean), presets=presets, **condition)
 
 
 def group_of(path: Path) -> str:

@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_case, score
 
 
@@ -93,13 +93,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
-    parser.add_argument("--members", nargs="+", default=CONFIG["fill"]["members"], help="in place of the config's")
+    parser.add_argument("--members", nargs="+", default=OPTIONS["fill"].members, help="in place of the config's")
     parser.add_argument(
         "--set",
         nargs="+",
         default=[],
         metavar="KEY=VALUE",
-        help="other settings of fill.ensemble, such as weights=pma or distances.spacing_rounds=5",
+        help="other options of advanced.fill.ensemble, such as weights=pma or distances.spacing_rounds=5",
     )
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, help="only the first so many of each condition")

@@ -16,16 +16,18 @@ import subprocess
 import sys
 import tempfile
 from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import yaml
 
-from benchmarks.support.defaults import CONFIG, DATA, PROJECT
+from benchmarks.support.defaults import DATA, OPTIONS, PROJECT
 from benchmarks.support.gap_cases import LIFTED, fill_case, load, score
 from markermend.formats import files
+from markermend.options.config import write_config
 
-UNLABELLED = CONFIG["ingest"]["unlabelled"]
+UNLABELLED = OPTIONS["ingest"].unlabelled
 
 
 def write_case(folder, case, target):
@@ -45,8 +47,8 @@ def write_case(folder, case, target):
 
 def run(recordings, results, cores):
     """Run the workflow over the cases."""
-    settings = {key: value for key, value in LIFTED.items() if key != "protect"}
-    study = {"recordings": str(recordings), "results": str(results), "detect": [], "fill": settings}
+    lifted = write_config({**OPTIONS, "fill": replace(OPTIONS["fill"], **LIFTED)})
+    study = {**lifted, "recordings": str(recordings), "results": str(results), "detect": []}
     path = results.with_suffix(".yaml")
     path.write_text(yaml.safe_dump(study), encoding="utf-8")
     command = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--configfile", path]
@@ -55,7 +57,7 @@ def run(recordings, results, cores):
 
 def compare(folder, case, results):
     """Errors of a case, mm: by the predictors alone, by the workflow; and how far apart the two are at most."""
-    _, _, alone = fill_case(str(folder), case, tuple(CONFIG["fill"]["members"]))
+    _, _, alone = fill_case(str(folder), case, OPTIONS["fill"].members)
     (cleaned,) = results.glob(f"{case['seq']}_{case['cond']}_{case['it']}/*/cleaned.c3d")
     written = files.read(cleaned, unlabelled=UNLABELLED, rate=None).recording
     truth, through = load(str(folder), case["seq"]), []

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from benchmarks.support import gap_cases
-from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.fill_runs import fill, mesh_of, walker, with_gaps
 from markermend.core.recording import Recording
 
@@ -87,7 +87,7 @@ def blackout(load):
         ]
         yield Case(f"blackout {seconds} s", whole, gone)
         if seconds >= 0.3:
-            names = [*CONFIG["fill"]["members"], "kalman"]
+            names = [*OPTIONS["fill"].members, "kalman"]
             yield Case(f"blackout {seconds} s, kalman", whole, gone, {"members": names})
 
 
@@ -96,7 +96,7 @@ def rare(load):
     whole = load("85_12")
     gone = [(9, start, start + 120) for start in range(40, whole.frames - 120, 160)]
     yield Case("seen 25 %", whole, gone)
-    yield Case("seen 25 %, seen_share .2", whole, gone, {"seen_share": 0.2})
+    yield Case("seen 25 %, min_seen_share .2", whole, gone, {"min_seen_share": 0.2})
 
 
 def everyone(load):
@@ -116,7 +116,7 @@ def ends(load):
     whole = load("85_12")
     gone = [(m, 0, 60) for m in (3, 14, 30)] + [(m, whole.frames - 60, whole.frames) for m in (7, 20, 38)]
     yield Case("ends .5 s", whole, gone)
-    yield Case("ends .5 s, ends: true", whole, gone, {"ends": True})
+    yield Case("ends .5 s, fill_ends: true", whole, gone, {"fill_ends": True})
     late = [(m, 0, 300 + 2 * m) for m in range(len(whole.markers))]
     late += [(m, whole.frames - 300 - m, whole.frames) for m in range(len(whole.markers))]
     inner = [(m, start, start + 120) for m, start in zip((3, 9, 20, 33), spread(4, 120, 3000, first=800), strict=True)]
@@ -181,7 +181,7 @@ def islands(load):
 def extremes(load):
     """Next to nothing seen of a marker; next to no frames; nothing moves."""
     whole = load("85_12")
-    lifted = {"seen_share": 0.0, "max_gap_s": None, "max_error_mm": None}
+    lifted = {"min_seen_share": 0.0, "max_gap_s": None, "max_error_mm": None}
     gone = [(9, 200, whole.frames - 200)]
     yield Case("gap of 91 %", whole, gone)
     yield Case("gap of 91 %, lifted", whole, gone, lifted)

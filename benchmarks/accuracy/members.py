@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG, DATA
+from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_case, score
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import REGISTRY
@@ -62,8 +62,8 @@ def main():
     path = arguments.cases or arguments.data.parent / "bench/gaps/cases.json"
     cases = json.loads(path.read_text(encoding="utf-8"))
     cases = [case for case in cases if case["cond"] in arguments.conditions and case["it"] < arguments.iterations]
-    default = CONFIG["fill"]["members"]
-    known = [*REGISTRY, *CONFIG["fill"]["variants"]]
+    default = list(OPTIONS["fill"].members)
+    known = [*REGISTRY, *OPTIONS["predictors"].local_ridge_variants]
     wanted = arguments.members or [name for name in known if name not in SLOW]
     with ProcessPoolExecutor(arguments.jobs) as pool:
         usual, seconds = try_members(pool, str(arguments.data), cases, default)

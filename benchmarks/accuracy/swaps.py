@@ -18,12 +18,11 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG
+from benchmarks.support.defaults import OPTIONS
 from markermend.core.labels import undo_exchanges
 from markermend.detection.labels import detect_labels
 from markermend.formats import files
 from markermend.mesh import inference, pair_statistics
-from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
 
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
@@ -34,12 +33,13 @@ MARGIN = 5
 """Frames without gaps on either side of a swap."""
 
 
-def read(path: Path, config: dict) -> tuple[tuple[str, ...], Scene]:
+def read(path: Path) -> tuple[tuple[str, ...], Scene]:
     """The markers and the scene of a recording, with its own mesh."""
-    recording = files.read(path, unlabelled=config["ingest"]["unlabelled"], rate=None).recording
+    recording = files.read(path, unlabelled=OPTIONS["ingest"].unlabelled, rate=None).recording
     recording = replace(recording, facts={"recording": path.stem})
-    settings = {key: value for key, value in config["mesh"].items() if key not in ("files", "marker_overlap")}
-    mesh = inference.infer_mesh([pair_statistics.thin(recording, frames=settings["frames"])], **settings)
+    mesh = inference.infer_mesh(
+        [pair_statistics.thin(recording, frames=OPTIONS["mesh"].max_frames)], options=OPTIONS["mesh"]
+    )
     return recording.markers, Scene(recording.positions, recording.rate, mesh.neighbour_indices(recording.markers))
 
 
@@ -75,14 +75,12 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=12, help="swaps of each kind and length in each recording")
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
     arguments = parser.parse_args()
-    config = CONFIG
-    settings = LabelsOptions(**config["labels"])
     tried: Counter[tuple[str, int, int]] = Counter()
     right: Counter[tuple[str, int, int]] = Counter()
     false = in_clean = 0
     for path in arguments.recordings:
-        markers, scene = read(path, config)
-        in_clean += len(detect_labels(scene, markers=markers, settings=settings))
+        markers, scene = read(path)
+        in_clean += len(detect_labels(scene, markers=markers, options=OPTIONS["labels"]))
         some = scene.positions[:: max(1, len(scene.positions) // 50)]
         apart = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
         np.fill_diagonal(apart, np.nan)
@@ -94,7 +92,9 @@ def main() -> None:
                     if case is None:
                         continue
                     positions, original, ring, start, stop = case
-                    found = detect_labels(replace(scene, positions=positions), markers=markers, settings=settings)
+                    found = detect_labels(
+                        replace(scene, positions=positions), markers=markers, options=OPTIONS["labels"]
+                    )
                     onward = [*ring[1:], ring[0]]
                     truth = {(markers[m], start, stop, markers[n]) for m, n in zip(ring, onward, strict=True)}
                     told = {(event.marker, event.start, event.stop, event.partner) for event in found}

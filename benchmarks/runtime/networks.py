@@ -11,18 +11,18 @@ between what the two tell, mm.
 
 import argparse
 import time
+from dataclasses import replace
 
 import numpy as np
 import torch
 
-from benchmarks.support.defaults import CONFIG
 from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 
-OPTIONS = CONFIG["fill"]["networks"]
+DEFAULT = NeuralNetworkOptions()
 GAP = (500, 600)
 
 
@@ -61,14 +61,12 @@ def main():
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--networks", nargs="+", type=int, default=[1, 8, 32], help="how many are trained at once")
     parser.add_argument("--epochs", type=int, default=30)
-    parser.add_argument("--frames", type=int, default=OPTIONS["frames"], help="training frames, at most")
+    parser.add_argument("--frames", type=int, default=DEFAULT.max_training_frames, help="training frames, at most")
     arguments = parser.parse_args()
     batch = max(arguments.networks)
-    options = NeuralNetworkOptions(
-        **{**OPTIONS, "epochs": arguments.epochs, "frames": arguments.frames, "batch": batch}
-    )
+    options = replace(DEFAULT, epochs=arguments.epochs, max_training_frames=arguments.frames, batch_networks=batch)
     print(f"{torch.cuda.get_device_name() if torch.cuda.is_available() else 'CPU'}, {torch.get_num_threads()} threads")
-    print(f"{options.frames} frames, {options.epochs} epochs\n")
+    print(f"{options.max_training_frames} frames, {options.epochs} epochs\n")
     print(f"{'kind':16} {'networks':>8} {'at once, s':>11} {'one by one, s':>14} {'ratio':>6} {'apart, mm':>10}")
     for kind in arguments.kinds:
         network = Network(kind, options)

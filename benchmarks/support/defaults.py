@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import yaml
+from markermend.options.config import read_config
 
 PROJECT = Path(__file__).resolve().parents[2]
 """The folder of the project."""
@@ -13,8 +13,5 @@ PROJECT = Path(__file__).resolve().parents[2]
 DATA = PROJECT.parent / "shared/data"
 """The folder of recordings, unless the command line names another."""
 
-CONFIG: dict[str, Any] = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
-"""The default configuration."""
-
-MESH: dict[str, Any] = {key: value for key, value in CONFIG["mesh"].items() if key != "files"}
-"""The options of the mesh without the users' own meshes."""
+OPTIONS: dict[str, Any] = read_config({})
+"""The default options of each section of the config."""

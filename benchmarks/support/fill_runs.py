@@ -13,19 +13,15 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG, MESH, PROJECT
+from benchmarks.support.defaults import OPTIONS, PROJECT
 from markermend.core.changes import Change
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
-from markermend.planning import config
-from markermend.prediction.registry import FAMILIES
+from markermend.options.flags import write_flags
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 from markermend.storage import change_file, mesh_file, stage_files
-
-SHARED = ("protect", *(family for family in FAMILIES if family not in CONFIG["fill"]))
-"""Sections of the config that the fill stage reads beside its own."""
 
 WATCH = """
 import resource, subprocess, sys
@@ -62,21 +58,23 @@ class Run:
 
 def mesh_of(recording):
     """The mesh inferred from one recording."""
-    (inferred,) = infer_meshes([thin(recording, frames=MESH["frames"])], supplied=[], **MESH)
+    (inferred,) = infer_meshes(
+        [thin(recording, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"]
+    )
     return inferred
 
 
 def fill(recording, **options):
     """Infer the mesh of a recording with gaps and run scripts/fill.py on it, with some options changed."""
     recording = replace(recording, facts={"recording": "benchmark", "kind": "dynamic"})
-    section = {**CONFIG["fill"], **{name: CONFIG[name] for name in SHARED}, "decisions": [], **options}
+    own = replace(OPTIONS["fill"], **options)
     with tempfile.TemporaryDirectory() as folder:
         files = {name: Path(folder, file) for name, file in FILES.items()}
         stage_files.write_recording(files["repaired"], restored(recording), {})
         change_file.write(files["repairs"], [], {})
         mesh_file.write(files["mesh"], [mesh_of(recording)], {})
         script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
-        command = [sys.executable, "-c", WATCH, *script, *shlex.split(config.flags(section))]
+        command = [sys.executable, "-c", WATCH, *script, *shlex.split(write_flags(own)), "--decisions=[]"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
             raise RuntimeError(done.stderr[-2000:])

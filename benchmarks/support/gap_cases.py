@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import os
 import time
 from dataclasses import replace
@@ -13,7 +12,7 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from benchmarks.support.defaults import CONFIG, MESH
+from benchmarks.support.defaults import OPTIONS
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.ensembles import make_ensembles
 from markermend.filling.fill import fill_scene
@@ -21,11 +20,11 @@ from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.mesh.inference import infer_meshes
 from markermend.mesh.pair_statistics import thin
-from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import FAMILIES
+from markermend.options.filling import EnsembleOptions
+from markermend.options.values import Reader, plain
 from markermend.prediction.scene import Scene
 
-LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "ends": True, "protect": [], "seen_share": 0.0, "border_s": 0.0}
+LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "fill_ends": True, "min_seen_share": 0.0, "border_s": 0.0}
 LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
 FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
 """Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
@@ -35,25 +34,34 @@ FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT"
 def load(folder, name):
     """The recording of a case as the workflow ingests it."""
     (path,) = Path(folder, "clean").glob(f"{name}*")
-    options = dict(CONFIG["ingest"])
-    reading = files.read(path, unlabelled=options.pop("unlabelled"), rate=None)
-    return ingest(reading, source=path.name, recording=name, subject="benchmark", kind="dynamic", **options)
+    options = OPTIONS["ingest"]
+    reading = files.read(path, unlabelled=options.unlabelled, rate=None)
+    return ingest(
+        reading,
+        source=path.name,
+        recording=name,
+        subject="benchmark",
+        kind="dynamic",
+        static_names=options.static_names,
+        static_motion_mm=options.static_motion_mm,
+    )
 
 
 @cache
 def lifted(names, changes=()):
     """The options of the config with the limits lifted, and the ensemble over the named members that they describe.
 
-    changes: changed settings (dotted name, value) of the ensemble.
+    changes: changed options (dotted name, value) of the ensemble.
     """
-    fill = copy.deepcopy(CONFIG["fill"])
+    ensemble = plain(OPTIONS["fill"].ensemble)
     for name, value in changes:
         *path, last = name.split(".")
-        reduce(dict.__getitem__, path, fill["ensemble"])[last] = value
-    predictors = {family: fill.get(family, CONFIG.get(family)) for family in FAMILIES}
-    own = {name: fill[name] for name in ("reuse", "trial_frames")}
-    options = FillOptions(**LIFTED, **own, members=names, ensemble=EnsembleOptions(**fill["ensemble"]))
-    return options, make_ensembles(options, predictors)
+        reduce(dict.__getitem__, path, ensemble)[last] = value
+    reader = Reader()
+    averaging = reader.read_class(EnsembleOptions, ensemble, "ensemble")
+    reader.finish()
+    options = replace(OPTIONS["fill"], **LIFTED, members=names, ensemble=averaging)
+    return options, make_ensembles(options)
 
 
 def fill_gapped(whole, gaps, neighbours, names, changes=()):
@@ -79,7 +87,7 @@ def fill_case(folder, case, names, changes=()):
         positions[start:stop, marker] = np.nan
     started = time.process_time()
     gapped = replace(whole, positions=positions)
-    (mesh,) = infer_meshes([thin(gapped, frames=CONFIG["mesh"]["frames"])], supplied=[], **MESH)
+    (mesh,) = infer_meshes([thin(gapped, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"])
     inferred = time.process_time()
     filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
     seconds = inferred - started, time.process_time() - inferred

@@ -11,12 +11,13 @@ from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.mesh.inference import infer_mesh
 from markermend.mesh.pair_statistics import thin
+from markermend.options.ingest import IngestOptions
+from markermend.options.mesh import MeshOptions
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 from support import bodies, fillings
 from support.c3d_files import write
-from support.fillings import CONFIG, restored, rigid_body
-from support.paths import PROJECT
+from support.fillings import restored, rigid_body
 from support.treated import Treated, treated
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -60,9 +61,8 @@ def fill(whole, gaps, **options):
 
 def mesh_of(recording):
     """The mesh of a recording alone."""
-    own = bodies.options(PROJECT)
     named = replace(recording, facts={"recording": "walk", "kind": "dynamic"})
-    return infer_mesh([thin(named, frames=own["frames"])], **own)
+    return infer_mesh([thin(named, frames=MeshOptions().max_frames)], options=MeshOptions())
 
 
 def joined(*recordings):
@@ -153,8 +153,8 @@ def test_all_markers_lost(chain):
 
 def test_a_marker_seen_rarely(chain):
     gaps = [(5, start, start + 75) for start in range(10, 1460, 100)]
-    left_open(fill(chain, gaps), "marker seen in 25% of the frames (fill.seen_share: 0.3)")
-    filled_well(fill(chain, gaps, seen_share=0.2), gaps=15, error=2)
+    left_open(fill(chain, gaps), "marker seen in 25% of the frames (fill.min_seen_share: 0.3)")
+    filled_well(fill(chain, gaps, min_seen_share=0.2), gaps=15, error=2)
 
 
 def test_no_marker_complete(chain):
@@ -168,7 +168,7 @@ def test_ends_only_on_request(chain):
     gaps = [(2, 0, 40), (9, 1460, 1500)]
     done = fill(chain, gaps)
     assert done.left == {"0c": "at the recording's start", "2b": "at the recording's end"}
-    filled_well(fill(chain, gaps, ends=True), gaps=2, error=2)
+    filled_well(fill(chain, gaps, fill_ends=True), gaps=2, error=2)
 
 
 def test_all_markers_enter_and_leave(chain):
@@ -222,9 +222,17 @@ def test_metres_are_filled_alike(chain, tmp_path):
     results = []
     for unit, size in (("mm", 1.0), ("m", 0.001)):
         path = write(tmp_path / f"{unit}.c3d", positions * size, labels=list(chain.markers), unit=unit)
-        own = dict(CONFIG["ingest"])
-        reading = files.read(path, unlabelled=own.pop("unlabelled"), rate=None)
-        whole = ingest(reading, source=path.name, recording="walk", subject="S1", kind="dynamic", **own)
+        own = IngestOptions()
+        reading = files.read(path, unlabelled=own.unlabelled, rate=None)
+        whole = ingest(
+            reading,
+            source=path.name,
+            recording="walk",
+            subject="S1",
+            kind="dynamic",
+            static_names=own.static_names,
+            static_motion_mm=own.static_motion_mm,
+        )
         results.append(fill(whole, []).result)
     assert not any(result.missing.any() for result in results)
     # Reals of 32 bits round differently in the two units.
@@ -236,7 +244,7 @@ def test_metres_are_filled_alike(chain, tmp_path):
 def test_few_frames(chain, frames, gap):
     done = fill(first(chain, frames=frames), [gap])
     if frames < 50:
-        left_open(done, "not seen on both sides for long enough (fill.border_s: 0.02)")
+        left_open(done, "not seen on both sides for long enough (advanced.fill.border_s: 0.02)")
     else:
         filled_well(done, gaps=1, error=3)
 
@@ -254,15 +262,15 @@ def test_islands_of_a_sample_or_two(chain, between):
     gaps = [(9, start, start + 24) for start in range(600, 600 + 5 * (24 + between), 24 + between)]
     done = fill(chain, gaps)
     if between == 1:
-        left_open(done, "not seen on both sides for long enough (fill.border_s: 0.02)")
+        left_open(done, "not seen on both sides for long enough (advanced.fill.border_s: 0.02)")
         done = fill(chain, gaps, border_s=0.0)
     filled_well(done, gaps=5, error=2)
 
 
 def test_a_marker_that_is_hardly_there(chain):
-    left_open(fill(chain, [(9, 100, 1430)]), "marker seen in 11% of the frames (fill.seen_share: 0.3)")
-    filled_well(fill(chain, [(9, 100, 1430)], seen_share=0.0, max_gap_s=None), gaps=1, error=3)
-    done = fill(chain, [(9, 20, 1480)], seen_share=0.0, max_gap_s=None)
+    left_open(fill(chain, [(9, 100, 1430)]), "marker seen in 11% of the frames (fill.min_seen_share: 0.3)")
+    filled_well(fill(chain, [(9, 100, 1430)], min_seen_share=0.0, max_gap_s=None), gaps=1, error=3)
+    done = fill(chain, [(9, 20, 1480)], min_seen_share=0.0, max_gap_s=None)
     left_open(done, "no method could fill it; fewest neighbours seen: 0")
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from markermend.core.artifacts import CLASSES
 from markermend.formats import files
+from markermend.options.ingest import IngestOptions
 from support.paths import PROJECT
-from support.signals import CONFIG
 
 TABLE = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 
@@ -18,7 +18,7 @@ def test_it_names_samples_that_are_there_once(data):
     assert rows and all(row["class"] in CLASSES and row["what"] for row in rows)
     for name in sorted({row["recording"] for row in rows}):
         [path] = (data / "clean").glob(f"{name}.*")
-        recording = files.read(path, unlabelled=CONFIG["ingest"]["unlabelled"], rate=None).recording
+        recording = files.read(path, unlabelled=IngestOptions().unlabelled, rate=None).recording
         taken = recording.missing.copy()
         for row in (row for row in rows if row["recording"] == name):
             first, last = (int(row[key]) - recording.first_frame for key in ("first_frame", "last_frame"))

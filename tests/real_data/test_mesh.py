@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from markermend.mesh.inference import infer_mesh
-from support.bodies import adjusted_rand_index, labels, options, recording
-from support.paths import PROJECT
+from markermend.options.mesh import MeshOptions
+from support.bodies import adjusted_rand_index, labels, recording
 
-OPTIONS = options(PROJECT)
+OPTIONS = MeshOptions()
 PARTS = {
     "head": "LFHD RFHD LBHD RBHD",
     "thorax": "C7 T10 CLAV STRN RBAC",
@@ -69,7 +69,7 @@ def windows(data):
         length = min(round(WINDOW_S * whole.rate), whole.frames)
         for start in np.linspace(0, whole.frames - length, count).astype(int):
             window = replace(whole, positions=whole.positions[start : start + length])
-            found.append((window, infer_mesh([window], **OPTIONS)))
+            found.append((window, infer_mesh([window], options=OPTIONS)))
     return found
 
 
@@ -110,7 +110,7 @@ def test_a_fifth_missing_at_random_changes_little(windows):
     window, mesh = windows[3]
     spoilt = window.positions.copy()
     spoilt[np.random.default_rng(1).random(spoilt.shape[:2]) < 0.2] = np.nan
-    gappy = infer_mesh([replace(window, positions=spoilt)], **OPTIONS)
+    gappy = infer_mesh([replace(window, positions=spoilt)], options=OPTIONS)
     assert adjusted_rand_index(labels(gappy, window.markers), labels(mesh, window.markers)) >= 0.8
 
 

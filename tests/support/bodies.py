@@ -1,19 +1,12 @@
 """Synthetic subjects for the tests: rigid segments that hang on each other and move, with known segments and tree."""
 
 import numpy as np
-import yaml
 from scipy.spatial.transform import Rotation
 
 from markermend.core.recording import Recording
 
 RATE = 100.0
 TREE = (None, 0, 1, 2, 3)  # a chain: the middle segment is the root of least eccentricity
-
-
-def options(project):
-    """The mesh section of the default configuration, less what infer_mesh does not take."""
-    section = yaml.safe_load((project / "config" / "config.yaml").read_text(encoding="utf-8"))["mesh"]
-    return {key: value for key, value in section.items() if key not in ("files", "marker_overlap")}
 
 
 def subject(seed, *, tree=TREE, frames=1500, markers=4, prefix="", length=300.0, away=(0.0, 0.0, 0.0)):

@@ -1,57 +1,63 @@
 """What the tests of predictors and filling share: the default settings, scenes, and neighbours by steadiness."""
 
+from dataclasses import replace
+
 import numpy as np
-import yaml
 
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.ensemble import Ensemble
 from markermend.filling.ensembles import make_ensembles
 from markermend.filling.fill import fill_scene
-from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import FAMILIES, members
+from markermend.options.filling import FillOptions
+from markermend.options.prediction import NeuralNetworkOptions, PredictorOptions
+from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene
-from support.paths import PROJECT
 
-CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
-LIMITS = ("max_gap_s", "max_gap_s_of", "ends", "seen_share", "border_s", "max_error_mm", "max_altered_share")
-OWN = (*LIMITS, "reuse", "members", "trial_frames")
+DEFAULTS = FillOptions()
 
 
-def settings():
-    """The default settings of all families of predictors, but for small networks that are briefly trained."""
-    default = {name: CONFIG["fill"].get(name, CONFIG.get(name)) for name in FAMILIES}
-    small = {"epochs": 30, "trial_epochs": 10, "recurrent_units": 4, "frames": 150, "stretch_s": 0.1, "context_s": 0.2}
-    return {**default, "networks": {**default["networks"], **small}}
+def predictor_options():
+    """The default options of the predictors, but for small networks that are briefly trained."""
+    small = replace(
+        NeuralNetworkOptions(),
+        epochs=30,
+        pseudo_gap_epochs=10,
+        recurrent_units=4,
+        max_training_frames=150,
+        max_sequence_s=0.1,
+        context_s=0.2,
+    )
+    return PredictorOptions(neural_networks=small)
 
 
 def predictor(name):
-    """One predictor with default settings."""
-    return members([name], settings())[0]
+    """One predictor with default options."""
+    return members([name], predictor_options())[0]
 
 
 def ensemble_options(**changed):
     """The default options of the averaging, with some changed."""
-    return EnsembleOptions(**{**CONFIG["fill"]["ensemble"], **changed})
+    return replace(DEFAULTS.ensemble, **changed)
 
 
 def ensemble(names=None, **changed):
     """The default ensemble, with other members or some options changed."""
-    names = names or CONFIG["fill"]["members"]
-    brief = members(names, settings(), most_frames=CONFIG["fill"]["trial_frames"])
-    return Ensemble(members(names, settings()), brief, ensemble_options(**changed))
+    names, options = names or DEFAULTS.members, predictor_options()
+    brief = members(names, options, max_training_frames=DEFAULTS.pseudo_gap_training_frames)
+    return Ensemble(members(names, options), brief, ensemble_options(**changed))
 
 
 def fill_options(averaging=None, **changed):
     """The default options of filling, with some of them, or of the averaging, changed."""
-    own = {name: CONFIG["fill"][name] for name in OWN}
-    return FillOptions(**{"protect": [], **own, "ensemble": ensemble_options(**(averaging or {})), **changed})
+    default = replace(DEFAULTS, predictors=predictor_options(), ensemble=ensemble_options(**(averaging or {})))
+    return replace(default, **changed)
 
 
 def fill(recording, near, *, decisions=(), **changed):
     """Fill a recording with given neighbours, with some options of filling or of the averaging changed."""
     options = fill_options(**changed)
     seen = Scene(recording.positions, recording.rate, near)
-    return fill_scene(recording, seen, make_ensembles(options, settings(), decisions), options, decisions)
+    return fill_scene(recording, seen, make_ensembles(options, decisions), options, decisions)
 
 
 def neighbours(positions):

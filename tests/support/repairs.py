@@ -1,9 +1,11 @@
 """What the tests of repair share: a body whose truth is known, damage to it, and the repair with small settings."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from markermend.options.prediction import LocalRidgeOptions
-from markermend.options.repair import RepairOptions
+from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
 from markermend.prediction.interpolation import Interpolation
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.repair.repair import repair
@@ -13,15 +15,15 @@ from support.treated import treated
 RIDGE = LocalRidgeOptions(
     anchors=3,
     inputs=8,
-    width_mm=5,
+    min_anchor_extent_mm=5,
     ridge_mm2=1,
-    frames=1000,
-    minimum_frames=60,
-    robust_sigmas=6,
-    scales_s=(0.05, 0.2, 1),
-    longest_s=1,
+    max_training_frames=1000,
+    min_training_frames=60,
+    outlier_sigmas=6,
+    correlation_times_s=(0.05, 0.2, 1),
+    max_lag_s=1,
     border_s=0.15,
-    novelty=20.0,
+    max_leverage=20.0,
 )
 METHODS = {
     "labels": ["exchange"],
@@ -30,6 +32,12 @@ METHODS = {
     "steps": ["separate_step", "local_ridge"],
     "slow": ["local_ridge"],
 }
+SEPARATION = SeparationOptions(
+    local_ridge_changes=({}, {"inputs": 6}),
+    amplitudes_mm=(3, 10, 30),
+    roughness_mm=(0.1, 1),
+    likelihood_power=0.3,
+)
 MARKER, START, STOP = "2b", 600, 640
 PREDICTORS = [Interpolation("spline", knots=10), Interpolation("linear", knots=10), LocalRidge(RIDGE)]
 
@@ -51,34 +59,20 @@ def neighbours_of(recording):
 
 
 def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
-    settings = {
-        "methods": METHODS,
-        "prefer": 1.25,
-        "protect": [],
-        "max_altered_share": 0.3,
-        "max_repair_s": 2.0,
-        "max_error_mm": 20.0,
-        "savitzky_golay_order": 13,
-        "savitzky_golay_s": 1.01,
-        "trials": 5,
-        "separation": {
-            "ridges": [{}, {"inputs": 6}],
-            "amplitudes_mm": [3, 10, 30],
-            "roughness_mm": [0.1, 1],
-            "border_s": 0.15,
-            "margins": [0, 0.1],
-            "trust": 0.3,
-            "most_frames": 1000,
-        },
-        "radius": {"inner": 1.8, "outer": 2.8},
-    }
+    options = RepairOptions(
+        methods=METHODS,
+        max_altered_share=0.3,
+        hidden_stretches=5,
+        separation=SEPARATION,
+        radius=RepairRadiusOptions(inner=1.8, outer=2.8),
+    )
     return treated(
         repair(
             recording,
             found=found,
             neighbours=neighbours_of(recording) if near is None else near,
             predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
-            options=RepairOptions(**{**settings, **changes}),
+            options=replace(options, **changes),
             decisions=decisions,
         )
     )

@@ -18,18 +18,13 @@ from markermend.core.originals import find_originals
 from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, changed, gaps
 from markermend.export.change_table import change_table
-from markermend.planning.config import flags
+from markermend.options.flags import write_flags
+from markermend.options.reporting import QcOptions
 from markermend.storage import atomic, change_file, mesh_file, originals_file, stage_files
 from markermend.storage.folder_names import encode
 from support.treated import Treated
 
 ORIGIN = {"labels": "swap", "peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
-OPTIONS = {
-    "plots": 100,
-    "context_s": 0.5,
-    "plot_frames": 800,
-    "attention": {"changed_percent": 1, "missing_percent": 1, "error_mm": 0.1, "open": 1, "warning": 1},
-}
 
 
 @dataclass(frozen=True)
@@ -47,7 +42,7 @@ class Results:
             "qc": "08_qc.json", "page": "page.html",
         }  # fmt: skip
         words = [word for flag, name in named.items() for word in (f"--{flag}", str(self.folder / name))]
-        return [*words, "--events", *events, *shlex.split(flags({**OPTIONS, **options}))]
+        return [*words, "--events", *events, *shlex.split(write_flags(QcOptions(**options)))]
 
     @property
     def page(self) -> str:

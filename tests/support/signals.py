@@ -3,30 +3,30 @@
 from dataclasses import replace
 
 import numpy as np
-import yaml
 
+from markermend.command.detector import chosen
 from markermend.core import events
-from markermend.detection import noise as detection_noise
-from markermend.detection import peaks as detection_peaks
-from markermend.detection import slow
-from markermend.detection import steps as detection_steps
+from markermend.detection.noise import detect_noise
+from markermend.detection.peaks import detect_peaks
 from markermend.detection.published import noise, peaks, steps
+from markermend.detection.slow import detect_slow
+from markermend.detection.steps import detect_steps
 from markermend.numerics import interpolation, intervals
 from markermend.numerics.intervals import runs
+from markermend.options.config import SECTIONS
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
-from support.paths import PROJECT
 
-CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text())
 RATES = (50.0, 100.0, 200.0)
-RIDGE = LocalRidge(LocalRidgeOptions(**CONFIG["local_ridge"]))
-DETECTORS = {"peaks": detection_peaks, "noise": detection_noise, "steps": detection_steps, "slow": slow}
+RIDGE = LocalRidge(LocalRidgeOptions())
+DETECTORS = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
 NOTHING = {"peaks": [], "noise": [], "steps": []}
 
 
-def settings(stage, preset):
-    return DETECTORS[stage].settings({**CONFIG[stage], "preset": preset})
+def options_of(stage, preset):
+    """The default options of a preset of a detector."""
+    return chosen(replace(SECTIONS[stage](), preset=preset))
 
 
 def frames(hundredths, rate):
@@ -47,22 +47,25 @@ def detect_signal(signal, rate, preset="coordinates"):
     reach = frames(5, rate)
     for stage, find in (("peaks", peaks.find_peaks), ("noise", noise.find_noise), ("steps", steps.find_steps)):
         bridged = interpolation.bridge_cubic(signal, claimed, reach)
-        mask, score, *rest = find(bridged, rate=rate, settings=settings(stage, preset))
+        mask, score, *rest = find(bridged, rate=rate, options=options_of(stage, preset))
         assert (score[mask] >= 1).all()
         found[stage] = list(runs(mask & ~claimed))
         claimed |= mask
     return found, rest[0].tolist()
 
 
-def detect(recording, preset="default", only=tuple(DETECTORS)):
+def detect(recording, preset="default", only=tuple(DETECTORS), options=None):
     """Events per class of a recording, each detector after the ones before; and the open steps."""
     found, left = {}, []
     claimed = np.zeros(recording.positions.shape, bool)
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
     for stage in only:
-        call = getattr(DETECTORS[stage], f"detect_{stage}")
-        result = call(
-            scene, markers=recording.markers, earlier=claimed, settings=settings(stage, preset), predictor=RIDGE
+        result = DETECTORS[stage](
+            scene,
+            markers=recording.markers,
+            earlier=claimed,
+            options=options or options_of(stage, preset),
+            predictor=RIDGE,
         )
         found[stage], left = result if stage == "steps" else (result, left)
         claimed = claimed | events.coordinates(found[stage], recording.frames, recording.markers)

@@ -4,8 +4,9 @@ from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import ORIGINS
+from markermend.options.reporting import AttentionOptions
 
-WEIGHTS = {"changed_percent": 2, "missing_percent": 1, "error_mm": 0.5, "open": 3, "warning": 10}
+WEIGHTS = AttentionOptions(changed_percent=2, missing_percent=1, error_mm=0.5, open=3, warning=10)
 
 PEAK = ORIGINS.index("peak")
 

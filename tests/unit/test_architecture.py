@@ -71,3 +71,18 @@ def test_no_class_is_called_settings():
         if isinstance(node, ast.ClassDef) and node.name.endswith("Settings")
     ]
     assert named == []
+
+
+def test_no_function_takes_settings():
+    named = [
+        (path.relative_to(PROJECT).as_posix(), node.arg)
+        for path in MODULES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.arg) and node.arg == "settings"
+    ]
+    assert named == []
+
+
+@pytest.mark.parametrize("path", sorted((PROJECT / "scripts").glob("*.py")), ids=lambda path: path.name)
+def test_a_script_declares_no_option_by_hand(path):
+    assert ".option(" not in path.read_text(encoding="utf-8")

@@ -98,9 +98,16 @@ def test_an_edit_reruns_the_first_stage_that_uses_the_module_and_what_follows(fi
     assert f"now: '{module}:" in plan.text
 
 
-@pytest.mark.parametrize(("stage", "change"), [("steps", {"default": {"sigmas": 7.5}}), ("qc", {"plots": 7})])
+@pytest.mark.parametrize(
+    ("stage", "change"),
+    [
+        ("steps", {"steps": {"threshold_sigmas": 7.5}}),
+        ("steps", {"advanced": {"steps": {"paper": {"window_s": 0.2}}}}),
+        ("qc", {"qc": {"plots": 7}}),
+    ],
+)
 def test_an_option_reruns_its_stage_and_what_follows(finished, stage, change, tmp_path):
-    (tmp_path / "study.yaml").write_text(yaml.safe_dump({stage: change}))
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump(change))
     plan = finished.plan("--configfile", str(tmp_path / "study.yaml"))
     assert plan.parameters_changed == {stage}
     assert plan.jobs == {**dict.fromkeys(CHAIN[CHAIN.index(stage) : -1], 2), "report": 1, "all": 1}

@@ -1,30 +1,23 @@
 """The workflow as a whole: config, schema and flags in step; what is planned; recordings with any name and any content."""
 
-import copy
 import csv
-import functools
 import importlib.util
 import json
-import operator
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-import jsonschema
 import pytest
-import yaml
 
+from markermend.options.config import SECTIONS
+from markermend.options.flags import stage_options
 from support.workflow_runs import PROJECT, Project, write_recording
 
 STAGES = (
     "ingest", "mesh", "labels", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
 )  # fmt: skip
-PER_RECORDING = {"ingest": {"recording", "subject", "kind", "rate"}}
-NO_OPTIONS = {"mesh": {"files"}}
-CONFIG = yaml.safe_load((PROJECT / "config/config.yaml").read_text())
-SCHEMA = yaml.safe_load((PROJECT / "workflow/schemas/config.schema.yaml").read_text())
 
 
 def stage_of(name):
@@ -34,66 +27,14 @@ def stage_of(name):
     return script.STAGE
 
 
-def keys(schema):
-    for name, part in schema.get("properties", {}).items():
-        yield name
-        yield from keys(part)
-
-
 @pytest.mark.parametrize("name", STAGES)
-def test_options_config_and_schema_are_in_step(name):
-    section = set(CONFIG[name])
-    assert set(SCHEMA["properties"][name].get("properties", {})) == section
-    shared = CONFIG.keys() - {"recordings", "results", "detect", *STAGES}
-    own = set(stage_of(name).options) - PER_RECORDING.get(name, set()) - shared
-    assert own == section - NO_OPTIONS.get(name, set())
-
-
-def test_the_schema_is_closed_complete_and_explained():
-    jsonschema.validate(CONFIG, SCHEMA)
-
-    def check(schema, name):
-        schema = SCHEMA["$defs"][schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
-        if "properties" in schema:
-            assert schema["additionalProperties"] is False, name
-            assert set(schema["required"]) == set(schema["properties"]), name
-            for key, part in schema["properties"].items():
-                check(part, f"{name}.{key}")
-        elif schema.get("type") != "object" or name.count(".") > 1:
-            assert len(schema["description"]) > 10, name
-
-    check(SCHEMA, "config")
-    for wrong in ({"surprise": 1}, {"mesh": {**CONFIG["mesh"], "surprise": 1}}, {"detect": ["swaps"]}, {"results": ""}):
-        with pytest.raises(jsonschema.ValidationError):
-            jsonschema.validate({**CONFIG, **wrong}, SCHEMA)
-
-
-@pytest.mark.parametrize(("wrong", "words"), [({"input": 8}, "'input' was unexpected"), ({"anchors": 2}, "2 is less")])
-@pytest.mark.parametrize("place", ["slow.default.ridge", "repair.separation.ridges", "fill.variants"])
-def test_changes_to_the_local_ridge_are_held_to_its_settings(place, wrong, words):
-    config = copy.deepcopy(CONFIG)
-    *parents, last = place.split(".")
-    section = functools.reduce(operator.getitem, parents, config)
-    section[last] = {"ridge": wrong, "ridges": [{}, wrong], "variants": {"other": wrong}}[last]
-    with pytest.raises(jsonschema.ValidationError, match=words):
-        jsonschema.validate(config, SCHEMA)
-
-
-def test_a_step_is_never_measured_by_a_threshold_of_nothing():
-    config = copy.deepcopy(CONFIG)
-    config["steps"]["default"]["joint"] = 0
-    with pytest.raises(jsonschema.ValidationError, match="0 is less"):
-        jsonschema.validate(config, SCHEMA)
-
-
-@pytest.mark.parametrize("name", CONFIG)
-def test_every_key_is_explained_to_people(name):
-    text = (PROJECT / "config/README.md").read_text()
-    nested = isinstance(CONFIG[name], dict)
-    part = text.partition(f"\n## `{name}`")[2].partition("\n## ")[0] if nested else text.partition("\n## General")[2]
-    assert set(keys(SCHEMA["properties"][name]) if nested else [name]) <= set(
-        re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE)
-    )
+def test_a_command_has_the_options_of_its_section(name):
+    required = {action.dest for action in stage_of(name).parser._actions if action.required}
+    files = {*stage_of(name).inputs, *stage_of(name).outputs}
+    own = {option.name for option in stage_options(SECTIONS[name])}
+    assert own <= required - files
+    given = {"ingest": {"recording", "subject", "kind", "rate"}, "repair": {"decisions"}, "fill": {"decisions"}}
+    assert required - files - own == given.get(name, set())
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,6 @@ sys.path.insert(0, SCRIPTS)
 
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import FORMATS, BadDataSet
-from markermend.prediction.registry import SHARED
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.

@@ -29,7 +29,7 @@ for stage in plan.detectors:
             runtime=10,
         params:
             *plan.code(stage),
-            options=plan.detector_options(stage),
+            options=plan.stage_options(stage),
             failures=plan.failed(stage),
         message:
             "Detect {rule} in {wildcards.subject}/{wildcards.recording}"

@@ -24,7 +24,7 @@ rule ingest:
         runtime=10,
     params:
         *plan.code("ingest"),
-        options=plan.options("ingest"),
+        options=plan.stage_options("ingest"),
         failures=plan.failed("ingest"),
         source=plan.original,
         source_hash=plan.source_hash,
@@ -59,7 +59,7 @@ rule mesh:
         runtime=20,
     params:
         *plan.code("mesh"),
-        options=plan.options("mesh", without=["files"]),
+        options=plan.stage_options("mesh"),
         failures=plan.failed("mesh"),
         list=files.markers_list,
     message:

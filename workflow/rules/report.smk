@@ -31,7 +31,7 @@ rule qc:
         runtime=10,
     params:
         *plan.code("qc", "report/templates"),
-        options=plan.options("qc"),
+        options=plan.stage_options("qc"),
         failures=plan.failed("qc"),
     message:
         "Judge {wildcards.subject}/{wildcards.recording}"
@@ -60,7 +60,7 @@ rule report:
         runtime=20,
     params:
         *plan.code("report", "report/templates"),
-        options=plan.options("report"),
+        options=plan.stage_options("report"),
         failures=plan.failed("report"),
         list=files.quality_list,
     message:

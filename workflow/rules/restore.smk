@@ -28,7 +28,7 @@ rule repair:
         runtime=30,
     params:
         *plan.code("repair"),
-        options=plan.options("repair", *SHARED, "protect"),
+        options=plan.stage_options("repair"),
         decisions=plan.decisions_flag,
         failures=plan.failed("repair"),
     message:
@@ -61,7 +61,7 @@ rule fill:
         runtime=60,
     params:
         *plan.code("fill"),
-        options=plan.options("fill", *SHARED, "protect"),
+        options=plan.stage_options("fill"),
         decisions=plan.decisions_flag,
         failures=plan.failed("fill"),
     message:
@@ -104,7 +104,7 @@ for suffix in FORMATS:
             runtime=10,
         params:
             *plan.code("export"),
-            options=plan.options("export"),
+            options=plan.stage_options("export"),
             failures=plan.failed("export"),
             source=plan.original,
             source_hash=plan.source_hash,

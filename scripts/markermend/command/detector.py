@@ -1,47 +1,45 @@
-"""What the commands of the detectors share: their files, their flags, what they read, and their line of result."""
+"""What the commands of the detectors share: their files, what they read, the detector that the preset names, their line of result."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from markermend.command import detector
-from markermend.command.stage import Stage, mapping
+from markermend.command.stage import Stage
 from markermend.core import events, labels
 from markermend.core.events import Event
 from markermend.core.recording import Recording
-from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file as storage_mesh_file
 from markermend.storage import stage_files
 
-PRESETS = {
-    "default": "against the neighbours, all axes together",
-    "coordinates": "coordinate by coordinate, with robust thresholds",
-    "paper": "as published (skurowski2022)",
-}
-"""The ways of detection, and what they are."""
 
+def stage(name: str, description: str, options: type, *, finds: str) -> Stage:
+    """Make the command of a detector.
 
-def stage(name: str, description: str, *, finds: str, presets: Sequence[str]) -> Stage:
-    """A detector of artifacts as a command: its files and its options, the same for each but for the presets it has."""
-    command = files(name, description, finds=finds)
-    command.option("preset", str, "which of the settings below to use", choices=list(presets))
-    for preset in presets:
-        command.option(preset, mapping, f"settings of the preset `{preset}`: {PRESETS[preset]}")
-    command.option("local_ridge", mapping, "settings of the predictor")
-    return command
+    Parameters
+    ----------
+    name : str
+        Name of the stage.
+    description : str
+        What it does, reads and writes.
+    options : type
+        The class of its options.
+    finds : str
+        What it finds.
 
-
-def files(name: str, description: str, *, finds: str) -> Stage:
-    """A detector as a command: its files alone."""
-    command = Stage(name, description)
+    Returns
+    -------
+    Stage
+        The command with its files.
+    """
+    command = Stage(name, description, options)
     command.reads("markers", "trajectories as ingested")
-    command.reads("mesh", "who the neighbours are")
+    command.reads("mesh", "functional body mesh of the subject")
     command.reads(
         "earlier", "events of the detectors before: labels to exchange, samples to leave out", many=True, optional=True
     )
@@ -49,26 +47,98 @@ def files(name: str, description: str, *, finds: str) -> Stage:
     return command
 
 
-def arguments(call: Any) -> tuple[dict[str, Any], list[events.Event]]:
-    """What every detector is given, from a stage's files and options, and the label exchanges not undone for it.
+def chosen(options: Any) -> Any:
+    """Choose the options of the detector that the preset names.
 
-    The published detectors (preset `paper`) look at the trajectories as recorded. Raises SetAside where the recording
-    was set aside.
+    Parameters
+    ----------
+    options : Any
+        The options of a stage.
+
+    Returns
+    -------
+    Any
+        The same for the preset `default` or where there are no presets, else those that the field of its name holds.
     """
-    as_recorded = call.options["preset"] == "paper"
+    preset = getattr(options, "preset", "default")
+    return options if preset == "default" else getattr(options, preset)
+
+
+def arguments(call: Any) -> tuple[dict[str, Any], list[Event]]:
+    """Read what a detector is given.
+
+    The published detectors (preset `paper`) look at the trajectories as recorded, all others at trajectories on which
+    exchanged labels are undone.
+
+    Parameters
+    ----------
+    call : Any
+        The stage's files and options.
+
+    Returns
+    -------
+    given : dict
+        The arguments of the detector.
+    recorded_under : list of Event
+        The exchanges that were not undone.
+
+    Raises
+    ------
+    SetAside
+        Where the recording was set aside.
+    """
+    as_recorded = getattr(call.options, "preset", "default") == "paper"
     recording, scene, earlier, exchanges = read(call.markers, call.mesh, call.earlier, as_recorded=as_recorded)
-    predictor = LocalRidge(LocalRidgeOptions(**call.options["local_ridge"]))
-    given = {"scene": scene, "markers": recording.markers, "earlier": earlier, "predictor": predictor}
+    given = {
+        "scene": scene,
+        "markers": recording.markers,
+        "earlier": earlier,
+        "predictor": _predictor(call.options),
+        "options": chosen(call.options),
+    }
     return given, exchanges if as_recorded else []
+
+
+def _predictor(options: Any) -> Any:
+    """The predictor whose residual is judged: local_ridge, unless the published detector of slow changes names another."""
+    if hasattr(chosen(options), "predictor"):
+        from markermend.detection.published import slow
+
+        return slow.predictor(chosen(options), options.predictors)
+    return LocalRidge(options.predictors.local_ridge)
 
 
 def read(
     markers: Path, mesh_file: Path, earlier: list[Path], *, as_recorded: bool = False
 ) -> tuple[Recording, Scene, np.ndarray, list[Event]]:
-    """Read a recording, its scene, the mask, like its positions, of what earlier detectors claimed, and the exchanges.
+    """Read a recording, its scene, and what earlier detectors found.
 
-    The label exchanges among the earlier events are undone in the scene, unless it is wanted as recorded. Raises SetAside
-    where an earlier stage set the recording aside.
+    Parameters
+    ----------
+    markers : Path
+        01_markers.parquet.
+    mesh_file : Path
+        mesh.json.
+    earlier : list of Path
+        Events of the detectors before.
+    as_recorded : bool, optional
+        Whether the scene is wanted as recorded; else the exchanges among the earlier events are undone in it.
+
+    Returns
+    -------
+    recording : Recording
+        The recording.
+    scene : Scene
+        Its positions with the neighbours of each marker.
+    claimed : ndarray of bool
+        Like the positions: what earlier detectors claimed.
+    exchanges : list of Event
+        The exchanges of labels.
+
+    Raises
+    ------
+    SetAside
+        Where an earlier stage set the recording aside.
     """
     recording = stage_files.read_recording(markers)
     network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
@@ -86,34 +156,61 @@ def read(
 
 
 def write(call: Any, found: list[Event], recorded_under: list[Event], facts: dict[str, Any]) -> None:
-    """Write findings under the right labels: those on trajectories as recorded go where the exchanges put them."""
+    """Write findings under the right labels: those on trajectories as recorded go where the exchanges put them.
+
+    Parameters
+    ----------
+    call : Any
+        The stage's files and options.
+    found : list of Event
+        What was found.
+    recorded_under : list of Event
+        The exchanges that were not undone.
+    facts : dict
+        More facts for the file.
+    """
     if recorded_under:
         found = labels.follow(found, found_under=(), stated_under=recorded_under)
     stage_files.write_events(call.events, found, {**call.facts, **facts})
 
 
-def result(found: list[events.Event]) -> str:
-    """The line of result that a detector logs."""
+def result(found: list[Event]) -> str:
+    """Write the line of result of a detector.
+
+    Parameters
+    ----------
+    found : list of Event
+        What it found.
+
+    Returns
+    -------
+    str
+        How many events on how many markers, and how many samples.
+    """
     return f"{len(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
 
 
-def unmeasured_stage(name: str, description: str, *, finds: str) -> Stage:
-    """A detector of such samples as a command: its files, and the predictor's settings."""
-    command = detector.files(name, description, finds=finds)
-    command.option("local_ridge", mapping, "settings of the predictor")
-    return command
+def search(call: Any, detect: Callable[..., list[Event]]) -> str:
+    """Detect, and write what was found.
 
+    Parameters
+    ----------
+    call : Any
+        The stage's files and options.
+    detect : callable
+        The detector.
 
-def search(call: Any, detect: Callable[..., list[Event]], settings: type) -> str:
-    """Do the work of such a detector as a command, and return the line of result.
+    Returns
+    -------
+    str
+        The line of result.
 
-    call: the stage's files and options. detect: the detector. settings: what its own options make. Raises SetAside where
-    the recording was set aside.
+    Raises
+    ------
+    SetAside
+        Where the recording was set aside.
     """
-    recording, scene, earlier, _ = detector.read(call.markers, call.mesh, call.earlier)
-    options = dict(call.options)
-    predictor = LocalRidge(LocalRidgeOptions(**options.pop("local_ridge")))
-    given = {"markers": recording.markers, "earlier": earlier, "predictor": predictor}
-    found = detect(scene, settings=settings(**options), **given)
-    stage_files.write_events(call.events, found, call.facts)
-    return detector.result(found)
+    given, recorded_under = arguments(call)
+    found = detect(**given)
+    write(call, found, recorded_under, {})
+    return result(found)

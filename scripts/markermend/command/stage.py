@@ -9,78 +9,51 @@ failures.tsv, and the next run tries the stage again.
 from __future__ import annotations
 
 import argparse
-import json
 import logging
 import shlex
 import sys
 import time
 import traceback
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 from markermend.core.recording import BadRecording, SetAside
+from markermend.options.declaration import Option, full_meaning, peel
+from markermend.options.flags import flag, passed, stage_options
+from markermend.options.reporting import NoOptions
+from markermend.options.values import BadOptions, parse
 from markermend.storage import atomic, stage_files
 from markermend.storage.folder_names import printable
 
 log = logging.getLogger("markermend")
 
 
-def boolean(text: str) -> bool:
-    """Parse `true` or `false`."""
-    return {"true": True, "false": False}[text.lower()]
-
-
-def optional(parse: Callable[[str], Any]) -> Callable[[str], Any]:
-    """Make a parser that also takes `none`."""
-
-    def parse_or_none(text: str) -> Any:
-        return None if text == "none" else parse(text)
-
-    parse_or_none.__name__ = f"{parse.__name__} or none"
-    return parse_or_none
-
-
-def listing(parse: Callable[[str], Any]) -> Callable[[str], list[Any]]:
-    """Make a parser of a JSON list, each of whose values `parse` reads."""
-
-    def parse_list(text: str) -> list[Any]:
-        values = json.loads(text)
-        if not isinstance(values, list):
-            raise ValueError(f"not a JSON list: {text}")
-        return [parse(str(value)) for value in values]
-
-    parse_list.__name__ = "json-list"
-    return parse_list
-
-
-def mapping(text: str) -> dict[str, Any]:
-    """Parse a JSON object."""
-    value = json.loads(text)
-    if not isinstance(value, dict):
-        raise ValueError(f"not a JSON object: {text}")
-    return value
-
-
-def objects(text: str) -> list[dict[str, Any]]:
-    """Parse a JSON list of objects."""
-    values = json.loads(text)
-    if not isinstance(values, list) or not all(isinstance(value, dict) for value in values):
-        raise ValueError(f"not a JSON list of objects: {text}")
-    return values
-
-
 class Stage:
     """One stage as a command: every flag is required, none may be abbreviated.
 
-    `@FILE` stands for the arguments in a file, one a line: a command line has room for about a thousand paths.
+    `@FILE` stands for the arguments in a file, one a line: a command line has room for about a thousand paths. Each
+    field of the classes of options is a flag; lists, mappings and options with options of their own are JSON.
 
-    The work function gets one argument, a namespace with a path (or list of paths) per file, `options` (a dictionary),
-    and `facts` (what to store in the outputs: stage, options, sha256 of the inputs, by their flag).
+    The work function gets one argument, a namespace with a path (or list of paths) per file, `options` (an instance of
+    the class of options), the fields of `given` by their names, and `facts` (what to store in the outputs: stage,
+    options, sha256 of the inputs, by their flag).
+
+    Parameters
+    ----------
+    name : str
+        Name of the stage.
+    description : str
+        What it does, reads and writes.
+    options : type
+        The class of its options.
+    given : type, optional
+        A class with what the stage is given beside its section of the config.
     """
 
-    def __init__(self, name: str, description: str) -> None:
+    def __init__(self, name: str, description: str, options: type = NoOptions, given: type = NoOptions) -> None:
         self.name = name
         self.parser = argparse.ArgumentParser(
             prog=f"{name}.py",
@@ -91,30 +64,52 @@ class Stage:
         )
         self._reads = self.parser.add_argument_group("reads")
         self._writes = self.parser.add_argument_group("writes")
-        self._options = self.parser.add_argument_group("options (defaults: config/config.yaml)")
+        group = self.parser.add_argument_group("options (defaults: config/config.yaml)")
         self.inputs: list[str] = []
         self.outputs: list[str] = []
-        self.options: list[str] = []
+        self._classes = {cls: stage_options(cls) for cls in (options, given)}
+        for option in (option for options in self._classes.values() for option in options):
+            group.add_argument(
+                flag(option.name),
+                type=partial(_parse, option),
+                required=True,
+                metavar=_metavar(option),
+                help=full_meaning(option).replace("%", "%%"),
+            )
 
     def reads(self, name: str, help: str, *, many: bool = False, optional: bool = False) -> None:
-        """Declare an input file, or several (`many`: one or more; with `optional`, none at all)."""
+        """Declare an input file, or several.
+
+        Parameters
+        ----------
+        name : str
+            Its name, as a flag and in what the work function gets.
+        help : str
+            What it holds.
+        many : bool, optional
+            Whether there are several: one or more.
+        optional : bool, optional
+            Whether there may be none of the several.
+        """
         self.inputs.append(name)
         nargs = ("*" if optional else "+") if many else None
         self._reads.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
     def writes(self, name: str, help: str, *, many: bool = False) -> None:
-        """Declare an output file, or any number of them."""
+        """Declare an output file, or any number of them.
+
+        Parameters
+        ----------
+        name : str
+            Its name, as a flag and in what the work function gets.
+        help : str
+            What it holds.
+        many : bool, optional
+            Whether there are any number.
+        """
         self.outputs.append(name)
         nargs = "*" if many else None
         self._writes.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
-
-    def option(self, name: str, parse: Callable[[str], Any], help: str, *, many: bool = False, **more: Any) -> None:
-        """Declare an option, or a list of them as JSON; its value reaches the work function as `options[name]`."""
-        self.options.append(name)
-        parse = listing(parse) if many else parse
-        if "choices" not in more:
-            more["metavar"] = parse.__name__.upper().replace(" OR NONE", "|none")
-        self._options.add_argument(flag(name), type=parse, required=True, help=help.replace("%", "%%"), **more)
 
     def run(
         self,
@@ -123,21 +118,32 @@ class Stage:
         *,
         set_aside: Callable[[Any, SetAside], None] | None = None,
     ) -> None:
-        """Parse the flags, work, log one line of result (what `work` returns).
+        """Parse the flags, work, log one line of result.
 
-        set_aside: how to write the outputs of a recording that was set aside, where a note in their place will not do.
+        Parameters
+        ----------
+        work : callable
+            What the stage does; it returns the line of result.
+        argv : sequence of str, optional
+            The arguments, in place of the command line's.
+        set_aside : callable, optional
+            How to write the outputs of a recording that was set aside, where a note in their place will not do.
         """
         logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
         arguments = vars(self.parser.parse_args(argv))
         log.info("%s", shlex.join([sys.executable, *([sys.argv[0], *argv] if argv is not None else sys.argv)]))
         call = SimpleNamespace(**{name: arguments[name] for name in self.inputs + self.outputs})
-        call.options = {name: arguments[name] for name in self.options}
+        made = [
+            cls(**{option.name: arguments[option.name] for option in options}) for cls, options in self._classes.items()
+        ]
+        call.options = made[0]
+        vars(call).update(vars(made[-1]) if len(made) > 1 else {})
         started = time.perf_counter()
         failure: SetAside | None = None
         try:
             call.facts = {
                 "stage": self.name,
-                "options": call.options,
+                "options": {name: own for each in made for name, own in passed(each).items()},
                 "inputs": {name: hashes(arguments[name]) for name in self.inputs},
             }
             result = work(call)
@@ -175,13 +181,42 @@ class Stage:
             file.write(f"{self.name}\t{' '.join(failure.reason.split())}\n")
 
 
-def flag(name: str) -> str:
-    """The command-line flag of a name."""
-    return "--" + name.replace("_", "-")
+def _parse(option: Option, words: str) -> Any:
+    """Read an option; a value that cannot be used is an error of the command line."""
+    try:
+        return parse(option, words)
+    except BadOptions as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from problem
+
+
+def _metavar(option: Option) -> str:
+    """What stands for a value in the help."""
+    kinds = {int: "INT", float: "FLOAT", bool: "true|false", str: "TEXT"}
+    kind, *others = get_args(option.kind) if type(None) in get_args(option.kind) else (option.kind,)
+    kind, _ = peel(kind)
+    if get_origin(kind) is Literal:
+        return "|".join(get_args(kind))
+    return kinds.get(kind, "JSON") + ("|none" if others else "")
 
 
 def hashes(paths: Path | Sequence[Path]) -> str | list[str]:
-    """The sha256 of one file, or of each of several. Raises BadRecording where one is not there."""
+    """Hash one file, or each of several.
+
+    Parameters
+    ----------
+    paths : Path or sequence of Path
+        The files.
+
+    Returns
+    -------
+    str or list of str
+        Their sha256.
+
+    Raises
+    ------
+    BadRecording
+        Where one is not there.
+    """
     try:
         return atomic.sha256(paths) if isinstance(paths, Path) else [atomic.sha256(path) for path in paths]
     except FileNotFoundError as error:

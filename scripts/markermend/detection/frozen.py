@@ -15,7 +15,7 @@ from markermend.prediction.scene import Predictor, Scene
 
 
 def detect_frozen(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: FrozenOptions, predictor: Predictor
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: FrozenOptions, predictor: Predictor
 ) -> list[Event]:
     """Find frozen stretches; the first sample of each was measured and is not part of it.
 
@@ -24,30 +24,30 @@ def detect_frozen(
     such as a planted foot, a seated person's or a prop's, is not frozen.
     """
     scene = inputs.without(scene, earlier)
-    places = list(_repeated(scene, settings))
+    places = list(_repeated(scene, options))
     hidden = prediction_discrepancy.hiding(scene, places)
     found = []
     for place in places:
         score, _ = prediction_discrepancy.disagreement(
-            scene, hidden, place, predictor=predictor, sigmas=settings.sigmas, floor_mm=settings.floor_mm
+            scene, hidden, place, predictor=predictor, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
         )
         if score.max() >= 1:
             found.append(prediction_discrepancy.event(markers[place[0]], *place[1:], score))
     return sorted(found, key=lambda event: event.order)
 
 
-def _repeated(scene: Scene, settings: FrozenOptions) -> Iterator[Place]:
+def _repeated(scene: Scene, options: FrozenOptions) -> Iterator[Place]:
     """Where a position is repeated while the nearest neighbours that are seen move, without its first sample."""
     same = (scene.positions[1:] == scene.positions[:-1]).all(axis=2)
     for m, around in enumerate(scene.neighbours):
         for first, last in runs(same[:, m]):
-            long_enough = last - first + 1 >= settings.frames
-            if long_enough and _moves(scene, np.asarray(around, int), first, last + 1, settings):
+            long_enough = last - first + 1 >= options.min_frames
+            if long_enough and _moves(scene, np.asarray(around, int), first, last + 1, options):
                 yield m, first + 1, last + 1
 
 
-def _moves(scene: Scene, around: np.ndarray, start: int, stop: int, settings: FrozenOptions) -> bool:
+def _moves(scene: Scene, around: np.ndarray, start: int, stop: int, options: FrozenOptions) -> bool:
     """Whether each of the nearest neighbours that are seen throughout moves by more than the floor; there must be three."""
-    seen = around[scene.present[start:stop, around].all(axis=0)][: settings.neighbours]
+    seen = around[scene.present[start:stop, around].all(axis=0)][: options.neighbours]
     course = scene.positions[start:stop, seen]
-    return len(seen) >= 3 and bool((np.linalg.norm(np.ptp(course, axis=0), axis=1) > settings.floor_mm).all())
+    return len(seen) >= 3 and bool((np.linalg.norm(np.ptp(course, axis=0), axis=1) > options.floor_mm).all())

@@ -42,7 +42,7 @@ def _usual(change: np.ndarray, window: int) -> np.ndarray:
     return np.nan_to_num(robust.moving_median_across_gaps(change, window))
 
 
-def jumping(positions: np.ndarray, *, window: int, settings: LabelsOptions) -> np.ndarray:
+def jumping(positions: np.ndarray, *, window: int, options: LabelsOptions) -> np.ndarray:
     """Bool (frames, markers): True where a marker's velocity breaks as an exchange would make it.
 
     positions: (frames, markers, 3), mm, NaN = missing. The step to this frame differs from the median of the steps about
@@ -53,12 +53,12 @@ def jumping(positions: np.ndarray, *, window: int, settings: LabelsOptions) -> n
     for m in range(positions.shape[1]):
         usual = np.stack([robust.moving_median_across_gaps(axis, window) for axis in step[:, m].T], axis=1)
         change = _length(step[:, m] - usual)
-        level = np.maximum(settings.jump * _usual(change, window), settings.floor_mm)
+        level = np.maximum(options.jump_factor * _usual(change, window), options.floor_mm)
         out[:, m] = np.nan_to_num(change) > level
     return out
 
 
-def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: LabelsOptions) -> list[Exchange]:
+def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, options: LabelsOptions) -> list[Exchange]:
     """Find the frames at which two markers change places, in time; a marker takes part in one at a time.
 
     scene: positions (frames, markers, 3), mm, NaN = missing. sudden, window: see jumping.
@@ -73,15 +73,15 @@ def exchanges(scene: Scene, sudden: np.ndarray, *, window: int, settings: Labels
             continue
         both = sudden[rows, a + 1 :]
         for k, b in np.argwhere(both):
-            found += _whole(positions, a, a + 1 + int(b), int(rows[k]), window, settings)
+            found += _whole(positions, a, a + 1 + int(b), int(rows[k]), window, options)
         # Where the other one has a sample on one side of the jump alone, it is there that this one must come to or from.
         single = before[rows] != now[rows]
         for k, b in np.argwhere(single):
-            found += _half(positions, a, int(b), int(rows[k]), settings)
+            found += _half(positions, a, int(b), int(rows[k]), options)
     return _disjoint(found)
 
 
-def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings: LabelsOptions) -> list[Exchange]:
+def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, options: LabelsOptions) -> list[Exchange]:
     """The exchange of two markers that are seen on both sides of it, if it is one and leaves nothing like a jump.
 
     Where three markers change places in a ring, exchanging two of them would leave a smaller jump.
@@ -93,26 +93,26 @@ def _whole(positions: np.ndarray, a: int, b: int, t: int, window: int, settings:
     turned = float(_length(apart[1] - apart[0]))
     left = float(_length(apart[1] + apart[0]))
     drift = 2 * float(np.nanmin([_length(middle[-1] - middle[-2]), _length(middle[-1] - 2 * middle[-2] + middle[0])]))
-    if left > max(settings.jump * usual, settings.floor_mm):
+    if left > max(options.jump_factor * usual, options.floor_mm):
         return []
-    return _accept(a, b, t, turned, max(left, drift), settings)
+    return _accept(a, b, t, turned, max(left, drift), options)
 
 
-def _half(positions: np.ndarray, a: int, b: int, t: int, settings: LabelsOptions) -> list[Exchange]:
+def _half(positions: np.ndarray, a: int, b: int, t: int, options: LabelsOptions) -> list[Exchange]:
     """The exchange of a marker with one that is seen on one side of it alone, if it is one."""
     jump = float(_length(positions[t, a] - positions[t - 1, a]))
     if np.isnan(positions[t, b, 0]):
         left = float(_length(positions[t, a] - positions[t - 1, b]))
     else:
         left = float(_length(positions[t, b] - positions[t - 1, a]))
-    return _accept(a, b, t, jump, left, settings)
+    return _accept(a, b, t, jump, left, options)
 
 
-def _accept(a: int, b: int, t: int, jump: float, left: float, settings: LabelsOptions) -> list[Exchange]:
+def _accept(a: int, b: int, t: int, jump: float, left: float, options: LabelsOptions) -> list[Exchange]:
     """The exchange, if little enough of its jump is left once it is undone."""
-    if jump < settings.floor_mm or left > settings.ratio * jump:
+    if jump < options.floor_mm or left > options.max_remaining_fraction * jump:
         return []
-    return [Exchange(min(a, b), max(a, b), t, settings.ratio * jump / max(left, 1e-3 * jump))]
+    return [Exchange(min(a, b), max(a, b), t, options.max_remaining_fraction * jump / max(left, 1e-3 * jump))]
 
 
 def _disjoint(found: Sequence[Exchange]) -> list[Exchange]:
@@ -146,55 +146,55 @@ def shape_vote(scene: Scene, a: int, b: int, *, near: int) -> np.ndarray:
 
 
 def swapped(
-    scene: Scene, a: int, b: int, own: Sequence[Exchange], *, settings: LabelsOptions
+    scene: Scene, a: int, b: int, own: Sequence[Exchange], *, options: LabelsOptions
 ) -> list[tuple[int, int, float]]:
     """The intervals over which two markers stand in for each other: start, stop, and score, given their exchanges.
 
     While at least one of the two is seen, every exchange turns the state over. Which of the two states is the swapped
     one is told by the shape over all that time, and by its being the shorter; where they do not tell, nothing is found.
     """
-    vote = shape_vote(scene, a, b, near=settings.near)
+    vote = shape_vote(scene, a, b, near=options.shape_neighbours)
     score = {exchange.frame: exchange.score for exchange in own}
     found = []
     for start, stop in runs(scene.present[:, a] | scene.present[:, b]):
         cuts = [t for t in sorted(score) if start < t < stop]
         pieces = list(itertools.pairwise([start, *cuts, stop]))
         state = np.concatenate([np.full(v - u, (-1) ** k) for k, (u, v) in enumerate(pieces)])
-        evidence = float(np.mean(state * (vote[start:stop] + settings.trust)))
-        if not cuts or abs(evidence) < settings.clear:
+        evidence = float(np.mean(state * (vote[start:stop] + options.recorded_label_weight)))
+        if not cuts or abs(evidence) < options.min_clearness:
             continue
         for u, v in pieces[int(evidence > 0) :: 2]:
             sides = [score[t] for t in (u, v) if t in cuts]
-            if vote[u:v].mean() < (settings.trust if len(sides) == 2 else -settings.clear):
+            if vote[u:v].mean() < (options.recorded_label_weight if len(sides) == 2 else -options.min_clearness):
                 found.append((u, v, min(sides)))
     return found
 
 
-def detect_labels(scene: Scene, *, markers: Sequence[str], settings: LabelsOptions) -> list[Event]:
+def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> list[Event]:
     """Find the swaps of a recording: one event for each marker, with that under whose label it is as partner.
 
     Two markers are each other's partners; three and more form a ring of partners. All have the same interval.
 
     scene: positions (frames, markers, 3), mm, NaN = missing. Of swaps of one marker that overlap, the surer one is told.
     """
-    window = max(5, intervals.samples(settings.window_s, scene.rate, odd=True))
-    sudden = jumping(scene.positions, window=window, settings=settings)
+    window = max(5, intervals.samples(options.window_s, scene.rate, odd=True))
+    sudden = jumping(scene.positions, window=window, options=options)
     by_pair: dict[tuple[int, int], list[Exchange]] = {}
-    for exchange in exchanges(scene, sudden, window=window, settings=settings):
+    for exchange in exchanges(scene, sudden, window=window, options=options):
         by_pair.setdefault((exchange.first, exchange.second), []).append(exchange)
     in_rings = label_permutations.swapped(
         scene,
         sudden,
-        ratio=settings.ratio,
-        floor_mm=settings.floor_mm,
-        near=settings.near,
-        trust=settings.trust,
+        ratio=options.max_remaining_fraction,
+        floor_mm=options.floor_mm,
+        near=options.shape_neighbours,
+        trust=options.recorded_label_weight,
     )
     candidates = [(score, tuple(under), under, start, stop) for start, stop, under, score in in_rings]
     candidates += [
         (score, pair, dict(zip(pair, pair[::-1], strict=True)), start, stop)
         for pair, own in by_pair.items()
-        for start, stop, score in swapped(scene, *pair, own, settings=settings)
+        for start, stop, score in swapped(scene, *pair, own, options=options)
     ]
     taken = np.zeros(scene.present.shape, bool)
     found = []

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.detection import inputs
 from markermend.detection.neighbour import increments as neighbour_increments
 from markermend.detection.neighbour.increments import Changes
 from markermend.detection.published import coordinatewise
@@ -21,15 +19,15 @@ from markermend.options.published import PublishedNoiseOptions
 from markermend.prediction.scene import ResidualSource, Scene
 
 
-def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settings: NoiseOptions) -> list[Event]:
+def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, options: NoiseOptions) -> list[Event]:
     """Find the stretches of heavy noise of one marker among its sudden changes."""
     score, vector = changes.score[:, marker], changes.vector[:, marker]
-    shortest, link = intervals.samples(settings.shortest_s, rate), intervals.samples(settings.link_s, rate)
+    shortest, link = intervals.samples(options.min_duration_s, rate), intervals.samples(options.link_s, rate)
     found = []
     for start, stop in runs(~np.isnan(changes.residual[:, marker, 0])):
         for group in neighbour_increments.clusters(start + np.flatnonzero(score[start:stop] > 1), link):
             length = int(group[-1] - group[0])
-            enough = max(settings.minimum_changes, settings.density * length)
+            enough = max(options.min_sudden_changes, options.min_sudden_share * length)
             if length >= shortest and len(group) >= enough:
                 best = float(score[group].max())
                 # Next to a gap the noise has no closing edge: a remainder as quiet as it is amid the noise goes with it.
@@ -40,41 +38,35 @@ def judge_noise(changes: Changes, marker: int, *, name: str, rate: float, settin
     return found
 
 
-def settings(options: Mapping[str, Any]) -> PublishedNoiseOptions | NoiseOptions:
-    """The settings of the preset that the config section `noise` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": NoiseOptions, "coordinates": PublishedNoiseOptions, "paper": PublishedNoiseOptions}
-    return inputs.preset(options, kinds)
-
-
 def detect_noise(
     scene: Scene,
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: PublishedNoiseOptions | NoiseOptions,
+    options: PublishedNoiseOptions | NoiseOptions,
     predictor: ResidualSource,
 ) -> list[Event]:
     """Find the stretches of heavy noise of a recording.
 
     scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detectors before claimed. options: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
     rate = scene.rate
-    if isinstance(settings, PublishedNoiseOptions):
+    if isinstance(options, PublishedNoiseOptions):
         return coordinatewise.detect(
             scene,
-            lambda signal, _: find_noise(signal, rate=rate, settings=settings),
+            lambda signal, _: find_noise(signal, rate=rate, options=options),
             markers=markers,
             earlier=earlier,
-            bridge_s=settings.bridge_s,
+            bridge_s=options.slope_window_s,
         )
     found, _ = neighbour_increments.detect(
         scene,
         markers=markers,
         earlier=earlier,
-        settings=settings,
+        options=options,
         predictor=predictor,
-        judge=lambda changes, m: judge_noise(changes, m, name=markers[m], rate=rate, settings=settings),
+        judge=lambda changes, m: judge_noise(changes, m, name=markers[m], rate=rate, options=options),
     )
     return found

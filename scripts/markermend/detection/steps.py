@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event, OpenStep
-from markermend.detection import inputs
 from markermend.detection.neighbour import edges, residual_windows
 from markermend.detection.neighbour.level_shifts import cut_short, judge_steps
 from markermend.detection.neighbour.residual_windows import Courses
@@ -22,22 +20,16 @@ from markermend.prediction.scene import ResidualSource, Scene
 
 
 def open_steps(
-    course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, settings: StepsOptions
+    course: Courses, found: Sequence[Event], *, markers: Sequence[str], rate: float, options: StepsOptions
 ) -> list[OpenStep]:
     """List the jumps that no event begins or ends with, by marker and frame."""
     used = {(event.marker, frame) for event in found for frame in range(event.start, event.stop + 1)}
     return [
         OpenStep(marker, edge.frame, float(np.linalg.norm(edge.jump)))
         for m, marker in enumerate(markers)
-        for edge in edges.find(course, m, rate=rate, settings=settings)
+        for edge in edges.find(course, m, rate=rate, options=options)
         if (marker, edge.frame) not in used
     ]
-
-
-def settings(options: Mapping[str, Any]) -> PublishedStepsOptions | StepsOptions:
-    """The settings of the preset that the config section `steps` asks for; raises ValueError for an unknown one."""
-    kinds = {"default": StepsOptions, "coordinates": PublishedStepsOptions, "paper": PublishedStepsOptions}
-    return inputs.preset(options, kinds)
 
 
 def detect_steps(
@@ -45,40 +37,42 @@ def detect_steps(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: PublishedStepsOptions | StepsOptions,
+    options: PublishedStepsOptions | StepsOptions,
     predictor: ResidualSource,
 ) -> tuple[list[Event], list[OpenStep]]:
     """Find the steps of a recording, and the jumps that remain without a counterpart.
 
     scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. settings: of one of the two detectors. predictor: source of the residuals, used by the
+    detectors before claimed. options: of one of the two detectors. predictor: source of the residuals, used by the
     detector against the neighbours alone.
     """
-    if isinstance(settings, PublishedStepsOptions):
-        return _detect_in_coordinates(scene, markers=markers, earlier=earlier, settings=settings)
+    if isinstance(options, PublishedStepsOptions):
+        return _detect_in_coordinates(scene, markers=markers, earlier=earlier, options=options)
     rate = scene.rate
-    maps, length = edges.central(rate, settings)
+    maps, length = edges.central(rate, options)
     missing = ~scene.present
-    clear = replace(settings, weak=1.0)  # weak jumps are no ground to suspect several markers: motion makes many
+    clear = replace(
+        options, single_jump_fraction=1.0
+    )  # weak jumps are no ground to suspect several markers: motion makes many
 
     def judge(course: Courses, m: int, by: StepsOptions) -> list[Event]:
-        return judge_steps(course, m, missing=missing, name=markers[m], rate=rate, settings=by)
+        return judge_steps(course, m, missing=missing, name=markers[m], rate=rate, options=by)
 
     found, course = residual_windows.detect(
         scene,
         markers=markers,
         earlier=earlier,
-        settings=settings,
+        options=options,
         maps=maps,
         length=length,
         predictor=predictor,
-        judge=partial(judge, by=settings),
+        judge=partial(judge, by=options),
         suspect=partial(judge, by=clear),
-        open_at=lambda course, m: [edge.frame for edge in edges.find(course, m, rate=rate, settings=settings)],
+        open_at=lambda course, m: [edge.frame for edge in edges.find(course, m, rate=rate, options=options)],
     )
     # A jump may be lost to sight in a gap, or in what was claimed earlier: noise on a step often reaches to its end.
     unseen = missing | earlier.any(axis=2)
     for m, name in enumerate(markers):
-        cut = cut_short(course, m, found, missing=unseen[:, m], name=name, rate=rate, settings=settings)
+        cut = cut_short(course, m, found, missing=unseen[:, m], name=name, rate=rate, options=options)
         found = events.tidy([*found, *cut])
-    return found, open_steps(course, found, markers=markers, rate=rate, settings=settings)
+    return found, open_steps(course, found, markers=markers, rate=rate, options=options)

@@ -17,7 +17,7 @@ from markermend.prediction.scene import Scene
 
 
 def detect_tails(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: TailsOptions, predictor: LocalRidge
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: TailsOptions, predictor: LocalRidge
 ) -> list[Event]:
     """Find noisy tails on either side of gaps.
 
@@ -26,14 +26,19 @@ def detect_tails(
     any sudden change is not told from one that moves. Nothing is found at the ends of a recording.
     """
     believed = inputs.without(scene, earlier)
-    suspects = _suspects(scene, believed, settings, predictor)
+    suspects = _suspects(scene, believed, options, predictor)
     hidden = prediction_discrepancy.hiding(believed, [place for place, _ in suspects])
     found = []
     for (m, start, stop), side in suspects:
         score, _ = prediction_discrepancy.disagreement(
-            believed, hidden, (m, start, stop), predictor=predictor, sigmas=settings.sigmas, floor_mm=settings.floor_mm
+            believed,
+            hidden,
+            (m, start, stop),
+            predictor=predictor,
+            sigmas=options.threshold_sigmas,
+            floor_mm=options.floor_mm,
         )
-        weak = score[::side] >= settings.weak  # towards the gap
+        weak = score[::side] >= options.half_fraction  # towards the gap
         length = len(weak) - int(np.argmax(weak))
         if score.max() >= 1 and weak[-length:].mean() >= 0.5:
             tail = (stop - length, stop) if side > 0 else (start, start + length)
@@ -41,9 +46,9 @@ def detect_tails(
     return events.tidy(found)
 
 
-def _suspects(scene: Scene, believed: Scene, settings: TailsOptions, predictor: LocalRidge) -> list[tuple[Place, int]]:
+def _suspects(scene: Scene, believed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[tuple[Place, int]]:
     """From the first sudden change beside a gap up to the gap, each with the side on which the gap is."""
-    lengths = settings.longest_s, settings.before_s, settings.activity_s
+    lengths = options.max_duration_s, options.min_seen_before_s, options.scale_window_s
     longest, before, activity = (max(2, samples(length, scene.rate)) for length in lengths)
     borders = list(_borders(scene.present, believed.present, longest + before))
     residual = predictor.residuals(believed, np.unique([m for m, *_ in borders]).astype(int))
@@ -55,7 +60,7 @@ def _suspects(scene: Scene, believed: Scene, settings: TailsOptions, predictor: 
         rows = frame - side * np.arange(longest + before, 0, -1) - (side < 0)
         near = slice(max(0, rows.min() - activity), rows.max() + activity)
         usual = max(_median(size[near, m]), overall[m])
-        begin = _onset(believed.positions[rows, m], residual[rows, m], before, settings.changes * usual)
+        begin = _onset(believed.positions[rows, m], residual[rows, m], before, options.onset_factor * usual)
         if begin is not None:
             length = longest - begin
             out.append(((m, frame - length, frame) if side > 0 else (m, frame, frame + length), side))

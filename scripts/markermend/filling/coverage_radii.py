@@ -72,7 +72,7 @@ def coverage_radii(standardized_errors: Sequence[np.ndarray], options: RadiusOpt
     mixture = _Mixture(
         log_mean=math.log(options.inner) - _QUANTILES[0] * deviation,
         log_deviation=deviation,
-        prior_weight=options.trials,
+        prior_weight=options.prior_pseudo_gaps,
         distances=distances[order],
         cumulative=np.concatenate([[0.0], np.cumsum(weights[order])]),
         parts=len(parts),

@@ -57,13 +57,15 @@ class DistanceModel:
         DistanceModel
             Without references where none is seen often enough.
         """
-        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(scene, marker, frames=options.max_frames, minimum_frames=options.min_frames)
         chosen = ranked[: max(options.references, options.spacing_references)]
         densities = []
         for reference in chosen:
-            rows = evenly_spaced(np.flatnonzero(scene.present[:, marker] & scene.present[:, reference]), options.frames)
+            rows = evenly_spaced(
+                np.flatnonzero(scene.present[:, marker] & scene.present[:, reference]), options.max_frames
+            )
             distance = np.linalg.norm(scene.positions[rows, marker] - scene.positions[rows, reference], axis=1)
-            densities.append(kernel_density(distance, max_samples=options.frames))
+            densities.append(kernel_density(distance, max_samples=options.max_frames))
         return cls(options, scene.rate, chosen, densities)
 
     def likelihood(self, positions: np.ndarray, observed: np.ndarray) -> np.ndarray:
@@ -93,7 +95,7 @@ class DistanceModel:
             observed[:, self.references[:first]],
             self.densities[:first],
             window=round(options.smoothing_s * self.rate),
-            floor=options.floor,
+            floor=options.min_likelihood,
         )
 
     def constrain(self, positions: np.ndarray, observed: np.ndarray) -> np.ndarray:
@@ -122,7 +124,7 @@ class DistanceModel:
             positions,
             observed[:, self.references[:count]],
             self.densities[:count],
-            low=options.spacing_low,
-            high=options.spacing_high,
+            low=options.spacing_lower_quantile,
+            high=options.spacing_upper_quantile,
             rounds=options.spacing_rounds,
         )

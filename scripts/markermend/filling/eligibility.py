@@ -74,14 +74,14 @@ class Eligibility:
     def _seldom_seen(self, gap: Gap) -> Reason | None:
         """The marker is missing for most of the recording."""
         seen = 1 - np.count_nonzero(self.missing[:, gap.marker]) / len(self.missing)
-        if seen >= self.options.seen_share:
+        if seen >= self.options.min_seen_share:
             return None
-        limit = Limit("fill.seen_share", self.options.seen_share, seen)
+        limit = Limit("fill.min_seen_share", self.options.min_seen_share, seen)
         return Reason(Cause.SELDOM_SEEN, f"marker seen in {seen:.0%} of the frames ({limit.text})", limit)
 
     def _at_end(self, gap: Gap) -> Reason | None:
         """The gap is at an end of the recording."""
-        if self.options.ends or not (gap.start == 0 or gap.stop == len(self.missing)):
+        if self.options.fill_ends or not (gap.start == 0 or gap.stop == len(self.missing)):
             return None
         return Reason(Cause.AT_END, "at the recording's " + ("start" if gap.start == 0 else "end"))
 
@@ -101,7 +101,7 @@ class Eligibility:
         seen = [_frames_before_gap(side) for side in sides if len(side)]
         if not seen or min(seen) >= border:
             return None
-        limit = Limit("fill.border_s", self.options.border_s, min(seen) / self.restored.rate)
+        limit = Limit("advanced.fill.border_s", self.options.border_s, min(seen) / self.restored.rate)
         return Reason(Cause.BORDER, f"not seen on both sides for long enough ({limit.text})", limit)
 
 

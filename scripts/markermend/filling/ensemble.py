@@ -26,7 +26,7 @@ from markermend.filling.member_weights import (
 )
 from markermend.filling.model_averaging import mixture_deviation, weighted_mean
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
-from markermend.options.filling import DistanceOptions, EnsembleOptions
+from markermend.options.filling import EnsembleOptions
 from markermend.prediction.scene import Predictor, Scene, Trainable
 
 
@@ -83,7 +83,7 @@ class Ensemble:
             raise ValueError("trial members differ from the members")
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
-        self._distance_options = DistanceOptions(**options.distances)  # type: ignore[arg-type]
+        self._distance_options = options.distances
 
     def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
         """Find the kind of a gap; the result of `evaluate` for one gap holds for all gaps of its kind.
@@ -103,8 +103,8 @@ class Ensemble:
             The kind, one of `known` or a new one.
         """
         options = self.options
-        own = gap_kind(scene, gap, length_ratio=options.similar_length, neighbours=options.similar_neighbours)
-        return known_kind(own, known, max_kinds=options.most_sorts)
+        own = gap_kind(scene, gap, length_ratio=options.max_length_ratio, neighbours=options.compared_neighbours)
+        return known_kind(own, known, max_kinds=options.max_gap_kinds)
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
         """Train the members that are trained faster for several markers at once.
@@ -136,8 +136,8 @@ class Ensemble:
             hidden,
             gap,
             count=options.pseudo_gaps,
-            hidden_share=options.hidden_share,
-            neighbours=options.similar_neighbours,
+            hidden_share=options.max_hidden_share,
+            neighbours=options.compared_neighbours,
         )
         _train(self.trial_members, list({id(trial.scene): (trial.scene, gap.marker) for trial in trials}.values()))
         candidates = [self._candidates(self.trial_members, trial.scene, trial.gap) for trial in trials]
@@ -147,10 +147,12 @@ class Ensemble:
         missed = self._cross_validate(self._distances(hidden, gap.marker), trials, candidates, errors)
         ratios = np.array([_mean_square(each) for each in missed])
         # Without their own factor: each pseudo-gap is judged by the factor of the others.
-        scaled = [each / deviation_scale(np.delete(ratios, k), options.prior) for k, each in enumerate(missed)]
+        scaled = [
+            each / deviation_scale(np.delete(ratios, k), options.stated_error_weight) for k, each in enumerate(missed)
+        ]
         # Where pseudo-gaps are shorter than the gap, errors are taken to grow as a random walk does.
         growth = math.sqrt(gap.length / trials[0].gap.length) if trials else 1.0
-        scale = growth * deviation_scale(ratios, options.prior)
+        scale = growth * deviation_scale(ratios, options.stated_error_weight)
         return replace(self._weights(errors), deviation_scale=scale, standardized_errors=tuple(scaled))
 
     def fill(self, scene: Scene, gap: Gap, weights: MemberWeights) -> Filling:
@@ -187,7 +189,9 @@ class Ensemble:
     def _candidates(self, members: Sequence[Predictor], scene: Scene, gap: Gap) -> Candidates:
         """Predict a gap with every member."""
         options = self.options
-        return predict_candidates(members, scene, gap, max_duration_s=options.longest_s, fallback=options.fallback)
+        return predict_candidates(
+            members, scene, gap, max_duration_s=options.max_gap_s_of_member, fallback=options.fallback_members
+        )
 
     def _weights(self, errors: np.ndarray) -> MemberWeights:
         """Weigh the members by their errors on pseudo-gaps, the result of squared_errors."""
@@ -195,7 +199,7 @@ class Ensemble:
         if options.weights in ("pma", "equal"):
             return MemberWeights(typical, np.ones(len(typical)))
         weights = inverse_power_weights(
-            typical, power=options.power, max_ratio=options.worst, min_error_mm=options.error_mm
+            typical, power=options.error_power, max_ratio=options.max_error_ratio, min_error_mm=options.min_error_mm
         )
         return MemberWeights(typical, weights)
 
@@ -231,7 +235,7 @@ class Ensemble:
             weights = weights * distances.likelihood(candidates.positions, observed)
         mean, weights = weighted_mean(candidates.positions, weights)
         errors = expected_errors(candidates.errors, members.typical_errors, weights)
-        errors = np.maximum(errors, self.options.error_mm)
+        errors = np.maximum(errors, self.options.min_error_mm)
         deviation = mixture_deviation(candidates.positions, mean, errors, weights)
         placed = mean if distances is None else distances.constrain(mean, observed)
         return _Average(placed, deviation, weights.mean(axis=1))

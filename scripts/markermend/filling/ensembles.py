@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from markermend.core.decisions import Decision
 from markermend.filling.ensemble import Ensemble
 from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import REGISTRY, Settings, members
+from markermend.prediction.registry import REGISTRY, members
 
 
 @dataclass(frozen=True)
@@ -27,15 +27,13 @@ class Ensembles:
     single: Mapping[str, Ensemble]
 
 
-def make_ensembles(options: FillOptions, predictors: Settings, decisions: Collection[Decision] = ()) -> Ensembles:
+def make_ensembles(options: FillOptions, decisions: Collection[Decision] = ()) -> Ensembles:
     """Make the ensembles that fill a recording.
 
     Parameters
     ----------
     options : FillOptions
-        The members and how they are weighted.
-    predictors : mapping of str to mapping
-        Options of the predictors, by family.
+        The members, how they are weighted, and the options of the predictors.
     decisions : collection of Decision
         What a person decided; a method among the predictors gets an ensemble by itself.
 
@@ -50,14 +48,15 @@ def make_ensembles(options: FillOptions, predictors: Settings, decisions: Collec
         Where a member is unknown or named twice.
     """
     wanted = {decision.value for decision in decisions if decision.verb == "method"}
-    known = {*REGISTRY, *predictors.get("variants", {})}
-    alone = replace(options.ensemble, longest_s={})
+    known = {*REGISTRY, *options.predictors.local_ridge_variants}
+    alone = replace(options.ensemble, max_gap_s_of_member={})
     return Ensembles(
-        default=_make(options.members, options.trial_frames, predictors, options.ensemble),
-        single={name: _make([name], options.trial_frames, predictors, alone) for name in sorted(wanted & known)},
+        default=_make(options.members, options, options.ensemble),
+        single={name: _make([name], options, alone) for name in sorted(wanted & known)},
     )
 
 
-def _make(names: Sequence[str], trial_frames: int, predictors: Settings, options: EnsembleOptions) -> Ensemble:
-    """One ensemble, whose members learn from at most `trial_frames` frames on pseudo-gaps."""
-    return Ensemble(members(names, predictors), members(names, predictors, most_frames=trial_frames), options)
+def _make(names: Sequence[str], options: FillOptions, averaging: EnsembleOptions) -> Ensemble:
+    """One ensemble, whose members learn from fewer frames on pseudo-gaps."""
+    brief = members(names, options.predictors, max_training_frames=options.pseudo_gap_training_frames)
+    return Ensemble(members(names, options.predictors), brief, averaging)

@@ -15,7 +15,6 @@ from markermend.filling.fill_plan import FillPlan, plan_filling
 from markermend.filling.gap_filler import FilledGaps, GapFiller
 from markermend.filling.growing_scene import GrowingScene
 from markermend.options.filling import FillOptions
-from markermend.prediction.registry import Settings
 from markermend.prediction.scene import Scene
 
 
@@ -40,7 +39,6 @@ def fill_gaps(
     mesh: Mesh,
     *,
     options: FillOptions,
-    predictors: Settings,
     decisions: Sequence[Decision] = (),
     repairs: Sequence[Change] = (),
 ) -> FilledRecording:
@@ -54,8 +52,6 @@ def fill_gaps(
         The functional body mesh of the subject: it ranks the neighbours of each marker.
     options : FillOptions
         The limits, the members, and how they are weighted.
-    predictors : mapping of str to mapping
-        Options of the predictors, by family.
     decisions : sequence of Decision
         What a person decided about the recording; no limit holds against a decision.
     repairs : sequence of Change
@@ -73,7 +69,7 @@ def fill_gaps(
         mesh.neighbour_indices(restored.markers),
         segment_mates=mesh.segment_mate_indices(restored.markers),
     )
-    return fill_scene(restored, scene, make_ensembles(options, predictors, decisions), options, decisions, repairs)
+    return fill_scene(restored, scene, make_ensembles(options, decisions), options, decisions, repairs)
 
 
 def fill_scene(
@@ -112,7 +108,7 @@ def fill_scene(
     growing = GrowingScene(scene)
 
     def filler(ensemble: Ensemble, max_error_mm: float | None) -> GapFiller:
-        return GapFiller(ensemble, max_error_mm=max_error_mm, reuse=options.reuse)
+        return GapFiller(ensemble, max_error_mm=max_error_mm, reuse=options.reuse_filled)
 
     batches = [filler(ensembles.default, options.max_error_mm).fill(growing, plan.ordinary)]
     for method, gaps in plan.confirmed.items():

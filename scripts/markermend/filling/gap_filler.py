@@ -15,7 +15,6 @@ from markermend.filling.ensemble import Ensemble, Filling
 from markermend.filling.gap import Gap, GapKind
 from markermend.filling.growing_scene import GrowingScene
 from markermend.filling.member_weights import MemberWeights
-from markermend.options.filling import RadiusOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
@@ -56,7 +55,7 @@ class GapFiller:
 
     def __init__(self, ensemble: Ensemble, *, max_error_mm: float | None, reuse: bool) -> None:
         self._ensemble, self._max_error_mm, self._reuse = ensemble, max_error_mm, reuse
-        self._radius_options = RadiusOptions(**ensemble.options.radius)
+        self._radius_options = ensemble.options.radius
         self._weights: dict[GapKind, MemberWeights] = {}
 
     def fill(self, scene: GrowingScene, gaps: Sequence[Gap]) -> FilledGaps:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from markermend.core.recording import Recording
 from markermend.mesh import segment_summary, segment_tree, user_mesh
 from markermend.mesh.pair_statistics import PairStatistics, name, pair_statistics
 from markermend.mesh.user_mesh import Supplied
+from markermend.options.mesh import MeshOptions
 
 
 def overlap(a: Sequence[str], b: Sequence[str]) -> float:
@@ -29,78 +29,72 @@ def group_recordings(recordings: Sequence[Recording], *, marker_overlap: float) 
     return [sorted(group, key=name) for group in groups]
 
 
-def infer_meshes(
-    recordings: Sequence[Recording], *, supplied: Sequence[Supplied], marker_overlap: float, **options: Any
-) -> list[Mesh]:
+def infer_meshes(recordings: Sequence[Recording], *, supplied: Sequence[Supplied], options: MeshOptions) -> list[Mesh]:
     """Infer one mesh for each group of recordings with like marker sets.
 
     A supplied mesh serves the recordings whose markers it overlaps by at least marker_overlap; where several do, the
-    one that overlaps most, then the first. options: as infer_mesh. The order of the recordings does not matter.
+    one that overlaps most, then the first. The order of the recordings does not matter.
     """
     served: dict[int, list[Recording]] = {}
     others = []
     for recording in recordings:
         overlaps = [overlap(own.markers, recording.markers) for own in supplied]
         best = int(np.argmax(overlaps)) if overlaps else 0
-        if overlaps and overlaps[best] >= marker_overlap:
+        if overlaps and overlaps[best] >= options.min_marker_overlap:
             served.setdefault(best, []).append(recording)
         else:
             others.append(recording)
-    meshes = [infer_mesh(group, supplied=supplied[own], **options) for own, group in sorted(served.items())]
-    meshes += [infer_mesh(group, **options) for group in group_recordings(others, marker_overlap=marker_overlap)]
+    meshes = [infer_mesh(group, supplied=supplied[own], options=options) for own, group in sorted(served.items())]
+    groups = group_recordings(others, marker_overlap=options.min_marker_overlap)
+    meshes += [infer_mesh(group, options=options) for group in groups]
     return sorted(meshes, key=lambda mesh: mesh.recordings)
 
 
 def infer_mesh(
     recordings: Sequence[Recording],
     *,
-    frames: int,
-    valid_frames: int,
-    scale_mm: float,
-    cut_mm: float,
-    component_cost: float,
-    minimum_predictors: int,
-    neighbours: int,
-    excitation_s: float,
-    excitation_sigma_mm: float,
-    segments_ratio: float,
+    options: MeshOptions,
     supplied: Supplied | None = None,
 ) -> Mesh:
     """Infer the functional body mesh of one subject and marker set from all its recordings.
 
-    recordings: mm, NaN = missing; static ones (facts["kind"]) count only where there is nothing else. frames: most
-    frames taken of each. valid_frames: least joint frames of a pair, and least frames of a marker in a segment.
-    scale_mm, cut_mm: scale and cut of the dissimilarity. component_cost: largest edge within a body, mm.
-    minimum_predictors: least number of predictors of a marker, neighbours: longest list of neighbours. excitation_s,
-    excitation_sigma_mm, segments_ratio: warn below this duration (s), this median deviation (mm) and one segment per
-    so many markers. supplied: segments that win over inferred ones; only their statistics come from the data.
+    recordings: mm, NaN = missing; static ones (facts["kind"]) count only where there is nothing else. supplied: segments that win over inferred ones; only their statistics come from the data.
 
     Source: Skurowski & Pawlyta 2016, outlined in Skurowski & Pawlyta 2021, section 2.2.
     """
     every = sorted({marker for recording in recordings for marker in recording.markers})
     moving = [recording for recording in recordings if recording.facts.get("kind") != "static"]
-    statistics = pair_statistics(moving or recordings, frames=frames, valid_frames=valid_frames, markers=every)
-    dissimilarity = statistics.dissimilarity(scale_mm)
+    statistics = pair_statistics(
+        moving or recordings, frames=options.max_frames, valid_frames=options.min_frames, markers=every
+    )
+    dissimilarity = statistics.dissimilarity(options.reference_distance_mm)
     hanging = statistics.hanging(dissimilarity)
-    seen = np.flatnonzero(statistics.valid >= valid_frames).tolist()
+    seen = np.flatnonzero(statistics.valid >= options.min_frames).tolist()
     remarks: list[str] = []
     if supplied is None:
         block = np.ix_(seen, seen)
-        own = segment_tree.grow(dissimilarity[block], hanging[block], cut_mm=cut_mm, component_cost=component_cost)
+        own = segment_tree.grow(
+            dissimilarity[block], hanging[block], cut_mm=options.segment_cut_mm, component_cost=options.max_edge_cost_mm
+        )
         skeleton = own.renumbered(seen)
     else:
-        skeleton, remarks = user_mesh.adopt(supplied, every, seen, hanging, component_cost=component_cost)
+        skeleton, remarks = user_mesh.adopt(supplied, every, seen, hanging, component_cost=options.max_edge_cost_mm)
     share, lacks = segment_summary.excitation(
-        statistics, len(skeleton.members), len(seen), excitation_s, excitation_sigma_mm, segments_ratio
+        statistics,
+        len(skeleton.members),
+        len(seen),
+        options.min_excitation_s,
+        options.min_excitation_mm,
+        options.max_markers_per_segment,
     )
-    predictors, near = segment_summary.rank(skeleton, dissimilarity, minimum_predictors, neighbours)
+    predictors, near = segment_summary.rank(skeleton, dissimilarity, options.min_predictors, options.max_neighbours)
     return Mesh(
         recordings=tuple(sorted(name(recording) for recording in recordings)),
         markers=tuple(every),
-        segments=segment_summary.describe(skeleton, statistics, dissimilarity, hanging, cut_mm, share),
+        segments=segment_summary.describe(skeleton, statistics, dissimilarity, hanging, options.segment_cut_mm, share),
         predictors=segment_summary.named(predictors, every),
         neighbours=segment_summary.named(near, every),
-        warnings=(*unseen(statistics, valid_frames), *remarks, *(lacks if supplied is None else ())),
+        warnings=(*unseen(statistics, options.min_frames), *remarks, *(lacks if supplied is None else ())),
         absent={name(recording): lacking for recording in recordings if (lacking := absent(recording, every))},
     )
 

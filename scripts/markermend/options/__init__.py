@@ -1,1 +1,1 @@
-"""The settings: their names, types, bounds, units, defaults and texts."""
+"""The options: their names, types, bounds, units, defaults and texts."""

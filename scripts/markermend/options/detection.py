@@ -1,205 +1,474 @@
-"""Settings of the detectors."""
+"""Options of the detectors."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal
+
+from markermend.options.declaration import (
+    Above,
+    AtLeast,
+    AtMost,
+    Changes,
+    Count,
+    CountOrNone,
+    Factor,
+    Laboratory,
+    Millimetres,
+    NotEmpty,
+    NotNegative,
+    Positive,
+    PositiveMillimetres,
+    PositiveSeconds,
+    Seconds,
+    Share,
+    Shared,
+)
+from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
+from markermend.options.published import (
+    PublishedNoiseOptions,
+    PublishedPeaksOptions,
+    PublishedSlowOptions,
+    PublishedStepsOptions,
+)
+
+Preset = Annotated[Literal["default", "coordinates", "paper"], Laboratory]
+"""The detector: against the neighbours, or coordinate by coordinate with robust thresholds, or as published."""
 
 
 @dataclass(frozen=True)
 class LabelsOptions:
-    """What counts as a label exchange (config section `labels`).
+    """Detect exchanged labels, which the detectors after it undo first (except those of the preset `paper`)."""
 
-    ratio: what is left of an exchange's jump once it is undone is at most this part of it. jump: a step from frame to
-    frame departs from the median over window_s by so many times the usual departure. floor_mm: and by at least so much.
-    near: neighbours of either marker that tell the shape. trust: labels are believed as much as a shape of this
-    clearness (0 to 1). clear: how clearly shape and trust together must tell the swapped part from the rest (0 to 1).
-    """
+    floor_mm: Annotated[PositiveMillimetres, Laboratory] = 8
+    """Smallest jump of an exchange.
 
-    ratio: float
-    jump: float
-    window_s: float
-    floor_mm: float
-    near: int
-    trust: float
-    clear: float
+    Change it when markers that are exchanged are closer together than this (lower)."""
 
+    max_remaining_fraction: Annotated[float, Above(0), AtMost(1)] = 0.35
+    """Largest part of a jump that may remain once two labels are exchanged back (0 to 1).
 
-@dataclass(frozen=True)
-class FrozenOptions:
-    """What counts as frozen (config section `frozen`).
+    Change it when exchanges between close markers in fast motion are missed (higher)."""
 
-    frames: so many frames with the same position, at least. floor_mm: the nearest neighbours must move by this much
-    meanwhile, and so must the marker by what they tell. neighbours: how many of them. sigmas: the marker must have moved
-    by so many standard deviations of the prediction.
-    """
+    jump_factor: NotNegative = 4
+    """A marker jumps if it departs from its median motion by this many times its usual departure."""
 
-    frames: int
-    floor_mm: float
-    neighbours: int
-    sigmas: float
+    window_s: PositiveSeconds = 0.11
+    """Window of the median motion."""
+
+    shape_neighbours: Count = 6
+    """Neighbours of either marker whose distances decide which label is which."""
+
+    recorded_label_weight: Share = 0.3
+    """The recorded labels count as much as distances of this clearness (0 to 1)."""
+
+    min_clearness: Share = 0.1
+    """Smallest clearness with which distances and recorded labels must set the exchanged part apart (0 to 1).
+
+    Change it when exchanges that never swap back are missed (lower), or false ones are found (higher)."""
 
 
 @dataclass(frozen=True)
-class TailsOptions:
-    """What counts as a tail (config section `tails`).
+class DetectorOptions:
+    """What all detectors share."""
 
-    longest_s: of a tail. before_s: samples beyond that, further from the gap, which must be there. changes: a tail begins
-    with a sudden change, so many times as large as is usual for the marker within activity_s. floor_mm, sigmas: how far
-    from where it should be its worst sample must be, in mm and in standard deviations of the prediction. weak: at least
-    half of its samples must exceed this share of that.
-    """
+    predictors: Annotated[PredictorOptions, Shared(("local_ridge",))] = field(default_factory=PredictorOptions)
+    """The predictors."""
 
-    longest_s: float
-    before_s: float
-    activity_s: float
-    changes: float
-    floor_mm: float
-    sigmas: float
-    weak: float
+
+@dataclass(frozen=True)
+class FrozenOptions(DetectorOptions):
+    """Detect frozen markers."""
+
+    min_frames: Annotated[int, AtLeast(2), Laboratory] = 4
+    """Frames with exactly the same position, at least.
+
+    Change it when your system holds positions for a few frames and this is of no concern to you (higher)."""
+
+    floor_mm: Annotated[Millimetres, Laboratory] = 3
+    """Motion of the neighbours, and predicted motion of the marker, in the meantime, at least.
+
+    Change it when markers that really rest are reported (higher)."""
+
+    threshold_sigmas: Annotated[NotNegative, Laboratory] = 4
+    """Predicted motion of the marker in standard deviations of the prediction, at least.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    neighbours: Annotated[int, AtLeast(3)] = 3
+    """Nearest neighbours, which must move in the meantime."""
+
+
+@dataclass(frozen=True)
+class TailsOptions(DetectorOptions):
+    """Detect noisy tails beside gaps."""
+
+    max_duration_s: Annotated[PositiveSeconds, Laboratory] = 0.1
+    """Longest tail.
+
+    Change it when longer artifacts of this class are real in your data."""
+
+    floor_mm: Annotated[Millimetres, Laboratory] = 5
+    """Distance of the worst sample of a tail from the prediction, at least.
+
+    Change it when deviations too small to matter to you are reported (higher)."""
+
+    threshold_sigmas: Annotated[NotNegative, Laboratory] = 6
+    """The same distance in standard deviations of the prediction, at least.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    min_seen_before_s: PositiveSeconds = 0.1
+    """Time for which the marker must be seen beyond the longest tail, on the side away from the gap."""
+
+    scale_window_s: PositiveSeconds = 0.5
+    """Window over which the usual size of changes is estimated."""
+
+    onset_factor: NotNegative = 8
+    """A tail begins with a change that exceeds the usual size by this factor."""
+
+    half_fraction: NotNegative = 0.5
+    """Half of the samples of a tail must exceed this part of the two thresholds (0 to 1)."""
 
 
 @dataclass(frozen=True)
 class ResidualWindowOptions:
-    """What counts as off the usual course (part of config peaks.default and steps.default).
+    """Options of the matched filter on windows of the residual."""
 
-    context_s: judged by so much on either side; beside a gap, by the more on the other side. order: polynomials that are
-    usual whatever their size. shrinkage, windows: see regularity.learn. activity_s, activity_ratio,
-    activity_neighbours: how the usual misfit follows what the body is doing, see robust.usual_size. sigmas: threshold in
-    units of the misfit here and the usual one together. floor_mm: and at least so much. rounds: how often neighbours
-    found together are judged again. rivals: how many neighbours may be meant by that.
-    """
+    threshold_sigmas: Annotated[Positive, Laboratory] = 9.5
+    """Smallest finding, in units of the usual residual (of the usual change in the other presets, see `coordinates`).
 
-    context_s: float
-    order: int
-    shrinkage: float
-    windows: int
-    activity_s: float
-    activity_ratio: float
-    activity_neighbours: int
-    sigmas: float
-    floor_mm: float
-    rounds: int
-    rivals: int
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    floor_mm: Annotated[Millimetres, Laboratory] = 2
+    """Smallest finding.
+
+    Change it when deviations too small to matter to you are reported (higher)."""
+
+    context_s: PositiveSeconds = 0.05
+    """Context on either side by which a finding is judged."""
+
+    polynomial_order: Annotated[int, AtLeast(0), AtMost(5)] = 2
+    """Polynomials in time up to this order are never a finding, whatever their size."""
+
+    white_noise_ratio: Positive = 0.01
+    """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent)."""
+
+    covariance_windows: Annotated[int, AtLeast(100)] = 20000
+    """Windows from which the covariance of the residual is estimated, at most."""
+
+    scale_window_s: PositiveSeconds = 1.5
+    """Window over which the local scale of the residual is estimated."""
+
+    max_scale_ratio: Factor = 3
+    """The local scale of a marker counts up to this multiple of that of its nearest neighbours."""
+
+    scale_neighbours: Count = 6
+    """Nearest neighbours with which the local scale is compared."""
+
+    attribution_rounds: CountOrNone = 2
+    """Rounds in which neighbours that were found together are judged again."""
+
+    attribution_neighbours: Count = 12
+    """Nearest neighbours to which a finding in several residuals may be attributed."""
 
 
 @dataclass(frozen=True)
-class PeaksOptions(ResidualWindowOptions):
-    """Settings of excursions (config peaks.default), beside those of courses.
+class PeaksOptions(ResidualWindowOptions, DetectorOptions):
+    """Detect isolated peaks."""
 
-    longest_s: longest excursion. weak: samples that are off by this part of the largest belong to it. edge: nothing is
-    one where the usual course with a jump leaves up to so many times the misfit that it has without those in question.
-    """
+    preset: Preset = "default"
+    """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
+    robust thresholds) or `paper` (as published: skurowski2022).
 
-    longest_s: float
-    weak: float
-    edge: float
+    Change it when you repeat the paper (`paper`), or there are no neighbours to compare with (`coordinates`)."""
+
+    max_duration_s: Annotated[PositiveSeconds, Laboratory] = 0.05
+    """Longest peak.
+
+    Change it when longer artifacts of this class are real in your data."""
+
+    white_noise_ratio: Positive = 0.01
+    """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent).
+
+    Change it when heavy noise is torn into peaks (higher), or artifacts on smoothed trajectories are missed (lower)."""
+
+    extent_fraction: Share = 0.25
+    """Samples belong to the peak if they deviate by this part of its largest deviation (0 to 1)."""
+
+    max_shift_ratio: NotNegative = 1.8
+    """A finding is no peak if a level shift leaves at most this many times the residual that remains without its samples.
+
+    Change it when the edges of steps are taken for peaks (higher)."""
+
+    coordinates: PublishedPeaksOptions = field(default_factory=PublishedPeaksOptions)
+    """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""
+
+    paper: PublishedPeaksOptions = field(
+        default_factory=lambda: PublishedPeaksOptions(
+            trend_removal="difference_of_median", scale_estimator="std", threshold_sigmas=3, floor_mm=0
+        )
+    )
+    """Options of the preset `paper`: as published (skurowski2022)."""
 
 
 @dataclass(frozen=True)
 class IncrementOptions:
-    """What counts as a sudden change (part of config noise.default).
+    """Options of the detection of sudden changes in the residual."""
 
-    window_s: of the moving median that is taken off the differences, as short as an edge is sharp. activity_s: over
-    which the usual size of changes is taken. activity_ratio: a marker may be livelier than its nearest neighbours by
-    this factor, beyond it the liveliness is itself suspect. activity_neighbours: how many of them. sigmas: threshold in units of
-    that usual size. floor_mm: and at least so much. tails, tail_quantile: and at least so many times the size that this
-    share of the recording's samples does not exceed: some systems jitter all the time. rounds: how often neighbours found together are judged again. rivals: how many neighbours
-    may be meant by that.
-    """
+    threshold_sigmas: Annotated[Positive, Laboratory] = 6
+    """Smallest sudden change, in units of the usual size of changes.
 
-    window_s: float
-    activity_s: float
-    activity_ratio: float
-    activity_neighbours: int
-    sigmas: float
-    floor_mm: float
-    tails: float
-    tail_quantile: float
-    rounds: int
-    rivals: int
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
+    floor_mm: Annotated[Millimetres, Laboratory] = 2.5
+    """Smallest sudden change, per frame at 100 Hz.
 
-@dataclass(frozen=True)
-class NoiseOptions(IncrementOptions):
-    """Settings of the detector against the neighbours (config noise.default), beside those of sudden changes.
+    Change it when changes too small to matter to you are reported (higher)."""
 
-    link_s: sudden changes so near belong together. shortest_s: shortest stretch. density: share of its samples that
-    change suddenly. minimum_changes: and how many of them at least.
-    """
+    median_window_s: PositiveSeconds = 0.05
+    """Window of the moving median that removes the trend from the differences."""
 
-    link_s: float
-    shortest_s: float
-    density: float
-    minimum_changes: int
+    scale_window_s: PositiveSeconds = 1.5
+    """Window over which the usual size of changes is estimated."""
 
+    max_scale_ratio: Factor = 3
+    """The usual size of a marker's changes counts up to this multiple of that of its nearest neighbours."""
 
-@dataclass(frozen=True)
-class StepsOptions(ResidualWindowOptions):
-    """Settings of the detector against the neighbours (config steps.default), beside those of courses.
+    scale_neighbours: Count = 6
+    """Nearest neighbours with which the usual size is compared."""
 
-    shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part of the other.
-    cosine: of the angle between one jump and the reverse of the other, at least. weak, joint: each jump reaches this
-    part of the threshold, and both together (root mean square) that part. held: the median of all samples in between
-    differs from that of as many outside by at least this part of the jump. alike: unless the jumps cancel but for this
-    part of them: motion may hide that the marker is displaced. whole: jumps that together stay below the threshold are
-    held to this part at least. level_s, cut: where a gap is in the place of one jump, medians over this time beside the
-    other and beside the gap differ by at least this part of the other. sure: where it is an end of the recording, the
-    other is at least so many times the threshold.
-    """
+    tail_factor: NotNegative = 5
+    """Smallest sudden change, in units of the size at `tail_quantile`: some systems jitter all the time."""
 
-    shortest_s: float
-    longest_s: float
-    ratio: float
-    cosine: float
-    held: float
-    alike: float
-    weak: float
-    joint: float
-    whole: float
-    level_s: float
-    cut: float
-    sure: float
+    tail_quantile: Share = 0.95
+    """Share of the recording's samples whose changes do not exceed that size (0 to 1)."""
+
+    attribution_rounds: CountOrNone = 2
+    """Rounds in which neighbours that were found together are judged again."""
+
+    attribution_neighbours: Count = 12
+    """Nearest neighbours to which a change in several residuals may be attributed."""
 
 
 @dataclass(frozen=True)
-class SlowOptions:
-    """Settings of the detector on all coordinates together (config slow.default).
+class NoiseOptions(IncrementOptions, DetectorOptions):
+    """Detect heavy noise."""
 
-    ridge: settings of the local ridge that are other here. lengths_s: of the bumps that are looked for. flank: so much
-    of their length is looked at on either side. taps: finest detail, in parts of the length. scales_s, longest_s:
-    correlation lengths and longest lag of the residual's covariance. clip_sigmas: residuals beyond so many robust
-    sigmas do not count in it. blocks: parts of the recording left out in turn to learn how novelty widens residuals.
-    neighbours: so many nearest tell what is to be expected. sigmas: threshold, in units of that. floor_mm: least
-    height. noise_mm, sure: where the expected level amounts to more than this, a bump must be so many times as clear as
-    the threshold asks. least: and no less is ever expected, in standard deviations. apart, plain: a bump is clearer by
-    this factor than the second clearest elsewhere on the marker, unless it is so many times as clear as the threshold
-    asks. rest: just before and after, the residual is no further from its usual level than this part of the height.
-    shortest_s: findings below this are of another class. brief_s: gaps up to this are bridged, and neighbours may be
-    missing so long. rivals, suspect, kept: those of so many neighbours that are off by this part of the marker's own
-    height are left out in turn; without them, this part of the threshold must still be reached.
-    """
+    preset: Preset = "default"
+    """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
+    robust thresholds) or `paper` (as published: skurowski2022).
 
-    ridge: Mapping[str, Any]
-    lengths_s: tuple[float, ...]
-    flank: float
-    taps: int
-    scales_s: tuple[float, ...]
-    longest_s: float
-    clip_sigmas: float
-    blocks: int
-    neighbours: int
-    sigmas: float
-    floor_mm: float
-    noise_mm: float
-    sure: float
-    least: float
-    apart: float
-    plain: float
-    rest: float
-    shortest_s: float
-    brief_s: float
-    rivals: int
-    suspect: float
-    kept: float
+    Change it when you repeat the paper (`paper`), or there are no neighbours to compare with (`coordinates`)."""
+
+    min_duration_s: Annotated[Seconds, Laboratory] = 0.1
+    """Shortest stretch of heavy noise.
+
+    Change it when findings are too short to be of this class."""
+
+    link_s: Seconds = 0.1
+    """Sudden changes that are no further apart belong to one stretch."""
+
+    min_sudden_share: Share = 0.2
+    """Share of the samples of a stretch that change suddenly, at least (0 to 1)."""
+
+    min_sudden_changes: Count = 6
+    """Sudden changes of a stretch, at least."""
+
+    coordinates: PublishedNoiseOptions = field(default_factory=PublishedNoiseOptions)
+    """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""
+
+    paper: PublishedNoiseOptions = field(
+        default_factory=lambda: PublishedNoiseOptions(
+            scale_estimator="std", threshold_sigmas=2, floor_mm=0, min_sudden_share=0, min_sudden_changes=1
+        )
+    )
+    """Options of the preset `paper`: as published (skurowski2022)."""
+
+
+@dataclass(frozen=True)
+class StepsOptions(ResidualWindowOptions, DetectorOptions):
+    """Detect steps."""
+
+    preset: Preset = "default"
+    """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
+    robust thresholds) or `paper` (as published: skurowski2022).
+
+    Change it when you repeat the paper (`paper`), or there are no neighbours to compare with (`coordinates`)."""
+
+    min_duration_s: Annotated[Seconds, Laboratory] = 0.06
+    """Shortest time between the two jumps of a step.
+
+    Change it when findings are too short to be of this class."""
+
+    max_duration_s: Annotated[PositiveSeconds, Laboratory] = 2
+    """Longest time between the two jumps of a step.
+
+    Change it when longer artifacts of this class are real in your data."""
+
+    threshold_sigmas: Annotated[Positive, Laboratory] = 6.9
+    """Smallest jump, in units of the usual residual.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    context_s: PositiveSeconds = 0.04
+    """Context on either side by which a jump is judged."""
+
+    polynomial_order: Annotated[int, AtLeast(0), AtMost(5)] = 3
+    """Polynomials in time up to this order are never a finding, whatever their size."""
+
+    white_noise_ratio: Positive = 1000
+    """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent)."""
+
+    min_jump_ratio: Share = 0.6
+    """Size of the smaller of the two jumps of a step as a part of the larger, at least (0 to 1)."""
+
+    min_cosine: Annotated[float, AtLeast(-1), AtMost(1)] = 0.8
+    """Cosine of the angle between one jump and the reverse of the other, at least."""
+
+    min_shift_fraction: Share = 0.2
+    """Shift of the whole step against as many samples outside, as a part of its jump, at least (0 to 1).
+
+    Change it when two unrelated jumps are taken for a step (higher)."""
+
+    max_imbalance_fraction: Share = 0.3
+    """Such a shift is not needed where the two jumps cancel but for this part of them: motion may hide it (0 to 1)."""
+
+    single_jump_fraction: Share = 0.6
+    """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
+
+    Change it when steps whose jumps differ in clearness are missed (lower)."""
+
+    joint_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.78
+    """Root mean square of the two jumps as a part of the threshold, at least (0 to 1).
+
+    Change it when weak steps are missed (lower)."""
+
+    weak_min_shift_fraction: Share = 0.7
+    """Shift of a step whose jumps together stay below the threshold, as a part of its jump, at least (0 to 1).
+
+    Change it when false weak steps are found (higher)."""
+
+    level_window_s: PositiveSeconds = 0.3
+    """Time on either side over which levels are compared where a gap or an end of the recording cuts a step short."""
+
+    truncated_min_shift_fraction: NotNegative = 0.4
+    """Shift of such a step against either side as a part of its jump, at least.
+
+    Change it when false steps are found beside gaps (higher)."""
+
+    recording_end_factor: Factor = 2
+    """Size of the jump, in units of the threshold, of a step that an end of the recording cuts short, at least.
+
+    Change it when false steps are found at the ends (higher), or steps are missed there (lower)."""
+
+    coordinates: PublishedStepsOptions = field(default_factory=PublishedStepsOptions)
+    """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""
+
+    paper: PublishedStepsOptions = field(
+        default_factory=lambda: PublishedStepsOptions(
+            scale_estimator="std", threshold_sigmas=4, floor_mm=0, min_duration_s=0.2
+        )
+    )
+    """Options of the preset `paper`: as published (skurowski2022)."""
+
+
+@dataclass(frozen=True)
+class SlowOptions(DetectorOptions):
+    """Detect slow changes."""
+
+    predictors: Annotated[PredictorOptions, Shared(("local_ridge", "polynomial", "replicated_network"))] = field(
+        default_factory=PredictorOptions
+    )
+    """The predictors."""
+
+    preset: Annotated[Literal["default", "paper"], Laboratory] = "default"
+    """The detector: `default` (against the neighbours, all axes together) or `paper` (as published: skurowski2022).
+
+    Change it when you repeat the paper (`paper`)."""
+
+    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (0.25, 0.32, 0.42, 0.55, 0.75, 1, 1.4)
+    """Durations of the drifts that are looked for.
+
+    Change it when slow changes of other durations are real in your data."""
+
+    threshold_sigmas: Annotated[Positive, Laboratory] = 4.5
+    """Smallest drift, in units of the local scale of the residual.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    floor_mm: Annotated[Millimetres, Laboratory] = 2.5
+    """Smallest height of a drift.
+
+    Change it when changes too small to matter to you are reported (higher)."""
+
+    min_duration_s: Seconds = 0.15
+    """Shortest finding.
+
+    Change it when findings are too short to be of this class."""
+
+    local_ridge_changes: Annotated[Mapping[str, Any], Changes(LocalRidgeOptions)] = field(
+        default_factory=lambda: {"inputs": 14, "ridge_mm2": 1.0}
+    )
+    """Options of the predictor local_ridge that differ in this stage: a closer fit than filling needs."""
+
+    flank_fraction: Positive = 0.5
+    """Time on either side of a drift that is looked at, as a part of its duration."""
+
+    samples_per_duration: Annotated[int, AtLeast(5)] = 24
+    """Samples with which the shape of a drift is resolved over its duration."""
+
+    correlation_times_s: tuple[PositiveSeconds, ...] = (0.02, 0.05, 0.1, 0.2, 0.5, 1, 3)
+    """Correlation times of the residual that are tried."""
+
+    max_lag_s: PositiveSeconds = 2
+    """Longest lag of the autocovariance of the residual."""
+
+    outlier_sigmas: Positive = 6
+    """Residuals beyond this many robust standard deviations do not count in the autocovariance."""
+
+    leverage_blocks: Annotated[int, AtLeast(2)] = 12
+    """Parts of the recording that are left out in turn to estimate how leverage widens the residual."""
+
+    scale_neighbours: Count = 10
+    """Nearest neighbours whose motion and residuals set the local scale."""
+
+    high_scale_mm: PositiveMillimetres = 3
+    """Local scale, as the height of a drift, above which a drift must exceed the threshold by `high_scale_factor`."""
+
+    high_scale_factor: Factor = 1.4
+    """Factor by which the threshold rises there.
+
+    Change it when false slow changes are found in fast motion (higher), or large drifts are missed there (lower)."""
+
+    min_scale_sigmas: Positive = 1
+    """Smallest local scale, in standard deviations of the residual."""
+
+    distinct_factor: NotNegative = 1.7
+    """A drift exceeds the second largest elsewhere on the marker by this factor: what a marker does again and again is motion.
+
+    Change it when false slow changes are found (higher), or repeated ones are missed (lower)."""
+
+    obvious_factor: Factor = 3
+    """A drift that exceeds the threshold by this factor need not be distinct, and may be the tip of a longer one.
+
+    Change it when a loose marker drifts three times or more in a similar way (lower)."""
+
+    max_baseline_fraction: Positive = 0.35
+    """Deviation of the residual from its usual level just before and after a drift, as a part of its height, at most."""
+
+    bridged_gap_s: Seconds = 0.05
+    """Gaps up to this are bridged, and neighbours may be missing for this long."""
+
+    attribution_neighbours: Count = 12
+    """Nearest neighbours to which a drift may be attributed, and whose gaps must not bound it."""
+
+    suspect_fraction: NotNegative = 0.75
+    """Neighbours that deviate by this part of the marker's own height are left out in turn to attribute the drift."""
+
+    remaining_fraction: NotNegative = 1
+    """Part of the threshold that the drift must still reach without them."""
+
+    paper: PublishedSlowOptions = field(default_factory=PublishedSlowOptions)
+    """Options of the preset `paper`: as published (skurowski2022)."""

@@ -1,69 +1,140 @@
-"""Settings of gap filling."""
+"""Options of gap filling."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from markermend.options.declaration import (
+    Above,
+    Count,
+    CountOrNone,
+    Factor,
+    Laboratory,
+    Millimetres,
+    NotNegative,
+    Positive,
+    PositiveMillimetres,
+    Seconds,
+    Share,
+    Shared,
+)
+from markermend.options.prediction import PredictorOptions
 
 WEIGHTS = ("error", "pma", "both", "equal")
 """Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all alike."""
 
 
 @dataclass(frozen=True)
-class FillOptions:
-    """What may be filled (config section `fill`).
+class DistanceOptions:
+    """Distances between markers, as likelihood of a position and as constraint on it."""
 
-    max_gap_s: longest gap filled, s, None = any. max_gap_s_of: the same for name patterns of markers. ends: whether
-    gaps at the recording's ends are filled. protect: name patterns of markers never filled. seen_share: markers seen in
-    fewer of the frames are left alone. border_s: how long the marker must be seen without a break on either side, s.
-    max_error_mm: gaps whose expected error (68 %) exceeds it stay open, None = any. max_altered_share: if more of the
-    recording's samples were altered, nothing is filled. reuse: filled markers are references for later ones.
-    members: predictors that fill together. trial_frames: most training frames on pseudo-gaps. ensemble: how the members
-    are weighted.
-    """
+    references: Count = 3
+    """Markers whose distances to the filled one are judged."""
 
-    max_gap_s: float | None
-    max_gap_s_of: Mapping[str, float]
-    ends: bool
-    protect: Sequence[str]
-    seen_share: float
-    border_s: float
-    max_error_mm: float | None
-    max_altered_share: float
-    reuse: bool
-    members: Sequence[str]
-    trial_frames: int
-    ensemble: EnsembleOptions
+    min_frames: Count = 60
+    """Frames on which both the marker and a reference must be seen."""
+
+    max_frames: Count = 500
+    """Frames and samples from which distances are learned, at most."""
+
+    smoothing_s: Seconds = 0.07
+    """Window of the moving average over the likelihoods of distances."""
+
+    min_likelihood: Positive = 1e-200
+    """Smallest likelihood of a distance."""
+
+    spacing_references: Count = 3
+    """Markers that the spacing constraint considers."""
+
+    spacing_lower_quantile: Share = 0.01
+    """Lower end of the interval in which a distance must lie (0 to 1)."""
+
+    spacing_upper_quantile: Share = 0.99
+    """Upper end of the interval in which a distance must lie (0 to 1)."""
+
+    spacing_rounds: CountOrNone = 0
+    """Rounds of the spacing constraint; 0 turns it off.
+
+    Change it when you repeat tits2018 (5); it makes short gaps worse."""
+
+
+@dataclass(frozen=True)
+class RadiusOptions:
+    """Radii of the balls around filled samples, before anything is known about the recording."""
+
+    inner: Positive = 1.65
+    """Radius of the ball that holds the true position with probability 0.68, in stated standard deviations of one axis
+    (1.872 for a Gaussian)."""
+
+    outer: Positive = 3.3
+    """Radius of the ball that holds it with probability 0.95, in the same units (2.795 for a Gaussian)."""
+
+    prior_pseudo_gaps: Positive = 20
+    """Pseudo-gaps of the recording that weigh as much as these radii.
+
+    Change it when recordings with few gaps state erratic errors (higher)."""
+
+    def __post_init__(self) -> None:
+        if not 0 < self.inner < self.outer or self.prior_pseudo_gaps <= 0:
+            raise ValueError("radii: 0 < inner < outer and prior_pseudo_gaps > 0")
 
 
 @dataclass(frozen=True)
 class EnsembleOptions:
-    """Settings of the averaging (config section `fill`, key `ensemble`).
+    """Averaging of the members."""
 
-    weights: one of WEIGHTS. longest_s: by name, members that are asked only about gaps up to so many s. fallback:
-    members that are asked only where no other that looks at the body can tell. power: weights fall with this power of
-    the error. pseudo_gaps: so many are tried. hidden_share: share of a marker's samples that are hidden at once for
-    trials, which then share what is learned without them. similar_length, similar_neighbours: gaps of a marker share
-    their pseudo-gaps if their lengths differ by less than this factor and the same of so many nearest neighbours are
-    missing; of a marker at most `most_sorts` sorts of gaps have pseudo-gaps of their own. worst: members whose error exceeds the best member's by this factor are left out. distances: see
-    DistanceOptions. error_mm: least error of a member. prior: weight of the stated errors, in pseudo-gaps, against what
-    the pseudo-gaps of a gap tell. radius: see RadiusOptions.
-    """
+    weights: Literal["error", "pma", "both", "equal"] = "error"
+    """Weights of the members: by their `error` on pseudo-gaps, by the likelihood of distances (`pma`), by `both`, or `equal`.
 
-    weights: str
-    longest_s: Mapping[str, float]
-    fallback: Sequence[str]
-    power: float
-    pseudo_gaps: int
-    hidden_share: float
-    similar_length: float
-    similar_neighbours: int
-    most_sorts: int
-    worst: float
-    distances: Mapping[str, float]
-    error_mm: float
-    prior: float
-    radius: Mapping[str, float]
+    Change it when you repeat tits2018 (`pma`)."""
+
+    max_gap_s_of_member: Mapping[str, Seconds] = field(
+        default_factory=lambda: {"linear": 0.5, "spline": 0.5, "pchip": 0.5, "makima": 0.5}
+    )
+    """Longest gap for which a member is used, by the member's name."""
+
+    fallback_members: tuple[str, ...] = ("linear_regression",)
+    """Members that are used only where no other member that uses the body can predict."""
+
+    error_power: NotNegative = 3
+    """Weights fall with this power of a member's error on the pseudo-gaps."""
+
+    pseudo_gaps: CountOrNone = 5
+    """Stretches of known samples that are hidden to measure the members' errors.
+
+    Change it when you trade time for accuracy (higher is slower)."""
+
+    max_hidden_share: Share = 0.2
+    """Share of a marker's samples that is hidden at once for pseudo-gaps, which then share one training (0 to 1; smaller is slower)."""
+
+    max_length_ratio: Annotated[float, Above(1)] = 1.5
+    """Gaps of a marker are of one kind, and share their pseudo-gaps, if their lengths differ by less than this factor and the
+    same neighbours are missing."""
+
+    compared_neighbours: CountOrNone = 12
+    """Nearest neighbours that are compared for this."""
+
+    max_gap_kinds: Count = 12
+    """Kinds of gaps of a marker that have pseudo-gaps of their own, at most; others are judged as the most similar kind.
+
+    Change it when filling takes too long where a marker flickers (lower)."""
+
+    max_error_ratio: Factor = 2
+    """Members whose error exceeds that of the best member by this factor are left out."""
+
+    min_error_mm: PositiveMillimetres = 0.01
+    """Smallest error of a member."""
+
+    stated_error_weight: NotNegative = 2
+    """Weight of the errors that members state, in pseudo-gaps."""
+
+    distances: DistanceOptions = field(default_factory=DistanceOptions)
+    """Distances between markers: how they weigh and bound positions."""
+
+    radius: RadiusOptions = field(default_factory=RadiusOptions)
+    """Radii of the balls around filled samples, before anything is known about the recording."""
 
     def __post_init__(self) -> None:
         if self.weights not in WEIGHTS:
@@ -71,37 +142,66 @@ class EnsembleOptions:
 
 
 @dataclass(frozen=True)
-class DistanceOptions:
-    """Settings of both (config section `fill.ensemble`, key `distances`).
+class FillOptions:
+    """Fill the gaps."""
 
-    references: distances to so many are judged. minimum_frames: joint frames that make a reference. frames: most frames
-    and samples used to learn distances. smoothing_s: moving average over the likelihoods. floor: least likelihood.
-    spacing_references, spacing_low, spacing_high, spacing_rounds: see constrain_spacing (0 rounds: off).
-    """
+    predictors: Annotated[PredictorOptions, Shared()] = field(default_factory=PredictorOptions)
+    """The predictors."""
 
-    references: int
-    minimum_frames: int
-    frames: int
-    smoothing_s: float
-    floor: float
-    spacing_references: int
-    spacing_low: float
-    spacing_high: float
-    spacing_rounds: int
+    protect: Annotated[tuple[str, ...], Shared()] = ()
+    """Markers that are not filled, as name patterns with `*` and `?`."""
 
+    max_gap_s: Annotated[Seconds | None, Laboratory] = 2
+    """Longest gap that is filled; a longer one stays as it is; `null` for any.
 
-@dataclass(frozen=True)
-class RadiusOptions:
-    """What is believed about radii before a recording is looked at (config section `fill.ensemble`, key `radius`).
+    Change it when your analysis can bear longer filled gaps, or only shorter ones."""
 
-    inner, outer: radii of the 68 and 95 % balls in units of the stated standard deviation per axis (Gaussian: 1.872 and
-    2.795). trials: how many pseudo-gaps of the recording weigh as much as that belief.
-    """
+    max_gap_s_of: Annotated[Mapping[str, Seconds], Laboratory] = field(default_factory=dict)
+    """Longest gap of single markers, by name pattern with `*` and `?`.
 
-    inner: float
-    outer: float
-    trials: float
+    Change it when some markers can bear longer or shorter filled gaps: `{"*TOE": 0.2}`."""
 
-    def __post_init__(self) -> None:
-        if not 0 < self.inner < self.outer or self.trials <= 0:
-            raise ValueError("radii: 0 < inner < outer and trials > 0")
+    fill_ends: Annotated[bool, Laboratory] = False
+    """Whether gaps at the start and the end of the recording are filled.
+
+    Change it when you know that it is safe to extrapolate there."""
+
+    min_seen_share: Annotated[NotNegative, Laboratory] = 0.3
+    """Markers that are seen in a smaller share of the frames are left alone (0 to 1).
+
+    Change it when markers that are seen for a small part of the recording matter to you."""
+
+    max_error_mm: Annotated[Millimetres | None, Laboratory] = 50
+    """Gaps with a larger expected error stay open; `null` for any.
+
+    Change it when your purpose can bear a larger error, or only a smaller one."""
+
+    max_altered_share: Annotated[NotNegative, Laboratory] = 0.25
+    """Nothing is filled if more than this share of the samples would be altered.
+
+    Change it when recordings of poor quality are refused as a whole (higher, with care)."""
+
+    members: Annotated[tuple[str, ...], Laboratory] = (
+        "local_ridge",
+        "local_ridge_wide",
+        "local_ridge_fine",
+        "local_interpolation",
+        "local_grnn",
+        "spline",
+        "linear_regression",
+    )
+    """Predictors, and variants of local_ridge, that fill together.
+
+    Change it when you repeat a paper, or filling takes too long (fewer)."""
+
+    border_s: Seconds = 0.02
+    """Time for which a marker must be seen without a break on either side of a gap."""
+
+    reuse_filled: bool = True
+    """Whether filled markers are inputs for those that are filled later."""
+
+    pseudo_gap_training_frames: CountOrNone = 400
+    """Training frames of local_ridge and its variants on pseudo-gaps, at most."""
+
+    ensemble: EnsembleOptions = field(default_factory=EnsembleOptions)
+    """Averaging of the members, and expected error."""

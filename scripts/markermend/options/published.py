@@ -1,91 +1,153 @@
-"""Settings of the published detectors of one coordinate (skurowski2022)."""
+"""Options of the published detectors, which look at each coordinate by itself (skurowski2022)."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+from markermend.options.declaration import (
+    Count,
+    CountOrNone,
+    Factor,
+    Millimetres,
+    NotNegative,
+    Positive,
+    PositiveSeconds,
+    Seconds,
+    Share,
+)
+
+ScaleEstimator = Literal["mad", "std"]
 
 
 @dataclass(frozen=True)
 class PublishedPeaksOptions:
-    """Settings of the detector of one coordinate (config peaks.coordinates and peaks.paper).
+    """Isolated peaks in one coordinate."""
 
-    trend: `median_of_difference` subtracts the moving median from the differences, `difference_of_median` takes
-    differences after subtracting it from the signal (the paper's order, which leaks trend). window_s: of that median.
-    longest_s: longest peak. margin_s: sums and morphology reach over
-    twice the longest peak and this. scale, sigmas, floor_mm: threshold of a sudden change, see robust.threshold. balance: the
-    changes of a peak sum to less than one in so many of their absolute sum. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
+    trend_removal: Literal["median_of_difference", "difference_of_median"] = "median_of_difference"
+    """Whether the moving median is subtracted from the differences, or from the signal before them as in the paper
+    (which leaks trend)."""
 
-    trend: str
-    window_s: float
-    longest_s: float
-    margin_s: float
-    scale: str
-    sigmas: float
-    floor_mm: float
-    balance: float
-    bridge_s: float
+    window_s: PositiveSeconds = 0.19
+    """Window of the moving median."""
+
+    max_duration_s: PositiveSeconds = 0.05
+    """Longest peak."""
+
+    margin_s: Seconds = 0.03
+    """Sums and morphology extend over twice the longest peak and this."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    threshold_sigmas: Positive = 5
+    """Smallest sudden change, in units of the usual size of changes."""
+
+    floor_mm: Millimetres = 1.5
+    """Smallest sudden change, per frame at 100 Hz."""
+
+    balance_ratio: Factor = 5
+    """The absolute sum of a peak's changes exceeds the size of their sum by this factor."""
+
+    slope_window_s: PositiveSeconds = 0.05
+    """Window over which slopes beside earlier findings are taken."""
 
 
 @dataclass(frozen=True)
 class PublishedNoiseOptions:
-    """Settings of the detector of one coordinate (config noise.coordinates and noise.paper).
+    """Heavy noise in one coordinate."""
 
-    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
-    robust.threshold. shortest_s: shortest stretch. density: share of its samples that exceed the threshold.
-    minimum_changes: and how many of them at least. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
+    window_s: PositiveSeconds = 0.13
+    """Window of the Savitzky-Golay filter that removes the trend from the differences."""
 
-    window_s: float
-    order: int
-    scale: str
-    sigmas: float
-    floor_mm: float
-    shortest_s: float
-    density: float
-    minimum_changes: int
-    bridge_s: float
+    polynomial_order: Count = 5
+    """Order of that filter."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    threshold_sigmas: Positive = 5
+    """Smallest sudden change, in units of the usual size of changes."""
+
+    floor_mm: Millimetres = 1.5
+    """Smallest sudden change, per frame at 100 Hz."""
+
+    min_duration_s: Seconds = 0.2
+    """Shortest stretch of heavy noise."""
+
+    min_sudden_share: Share = 0.2
+    """Share of the samples of a stretch that change suddenly, at least (0 to 1)."""
+
+    min_sudden_changes: Count = 6
+    """Sudden changes of a stretch, at least."""
+
+    slope_window_s: PositiveSeconds = 0.05
+    """Window over which slopes beside earlier findings are taken."""
 
 
 @dataclass(frozen=True)
 class PublishedStepsOptions:
-    """Settings of the detector of one coordinate (config steps.coordinates and steps.paper).
+    """Steps in one coordinate."""
 
-    window_s, order: Savitzky-Golay high-pass of the differences. scale, sigmas, floor_mm: threshold of a change, see
-    robust.threshold. shortest_s, longest_s: how far apart the two jumps are. ratio: neither jump is less than this part
-    of the other. bridge_s: slopes on either side of what
-    earlier detectors claimed are taken over this time.
-    """
+    window_s: PositiveSeconds = 0.13
+    """Window of the Savitzky-Golay filter that removes the trend from the differences."""
 
-    window_s: float
-    order: int
-    scale: str
-    sigmas: float
-    floor_mm: float
-    shortest_s: float
-    longest_s: float
-    ratio: float
-    bridge_s: float
+    polynomial_order: Count = 5
+    """Order of that filter."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    threshold_sigmas: Positive = 5
+    """Smallest sudden change, in units of the usual size of changes."""
+
+    floor_mm: Millimetres = 1.5
+    """Smallest sudden change, per frame at 100 Hz."""
+
+    min_duration_s: Seconds = 0.06
+    """Shortest time between the two jumps of a step."""
+
+    max_duration_s: PositiveSeconds = 2
+    """Longest time between the two jumps of a step."""
+
+    min_jump_ratio: Share = 0.5
+    """Size of the smaller of the two jumps of a step as a part of the larger, at least (0 to 1)."""
+
+    slope_window_s: PositiveSeconds = 0.05
+    """Window over which slopes beside earlier findings are taken."""
 
 
 @dataclass(frozen=True)
 class PublishedSlowOptions:
-    """Settings of the detector of one coordinate of the residual (config slow.paper).
+    """Slow changes in one coordinate of the residual."""
 
-    predictor: whose residual, one of PREDICTORS. smooth_s, order: window and order of a predictor that smooths. scale:
-    `mad` or `std`, of the residual. sigmas: upper threshold, in its standard deviations. lower: lower threshold,
-    likewise. top_s: shortest stretch beyond the upper threshold. shortest_s: shortest stretch beyond the lower one.
-    bridge_s: slopes on either side of what earlier detectors claimed are taken over this time.
-    """
+    predictor: Literal["replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge"] = (
+        "replicated_network"
+    )
+    """The predictor whose residual is judged.
 
-    predictor: str
-    smooth_s: float
-    order: int
-    scale: str
-    sigmas: float
-    lower: float
-    top_s: float
-    shortest_s: float
-    bridge_s: float
+    Change it when the network takes too long, or another predictor predicts better."""
+
+    smoothing_window_s: PositiveSeconds = 2
+    """Window of the predictors savitzky_golay and moving_median."""
+
+    polynomial_order: CountOrNone = 5
+    """Order of the predictor savitzky_golay."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of the residual: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    threshold_sigmas: Positive = 3
+    """Upper threshold, in units of the usual size."""
+
+    lower_sigmas: NotNegative = 0.5
+    """Lower threshold, at which a finding begins and ends, in units of the usual size."""
+
+    min_upper_duration_s: Seconds = 0.2
+    """Shortest time beyond the upper threshold."""
+
+    min_duration_s: Seconds = 0.5
+    """Shortest time beyond the lower threshold."""
+
+    slope_window_s: PositiveSeconds = 0.05
+    """Window over which slopes beside earlier findings are taken."""

@@ -1,57 +1,135 @@
-"""Settings of repair."""
+"""Options of the repair."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
 
-
-@dataclass(frozen=True)
-class RepairOptions:
-    """Settings of the repair (config section `repair`).
-
-    methods: for each class the methods to compare, preferred first: names of predictors, `savitzky_golay`,
-    `separate_noise`, `separate_step`, `separate_slow` (part the marker's course from the artifact), `exchange` (give exchanged
-    labels their own samples, before all other repairs) or `blank`. prefer: of two methods
-    whose expected errors (68 %) differ by less than this factor the preferred one is taken, else the one that errs less.
-    protect: marker name patterns never touched. max_altered_share: with more than this share of the seen samples found,
-    nothing is repaired. max_repair_s: longer findings become missing. max_error_mm: likewise where the expected error
-    exceeds it.
-    savitzky_golay_order, savitzky_golay_s: order and window of that smoother. trials: hidden stretches from which the
-    error of a method is told that does not state one. separation: see SeparationOptions. radius: radii
-    of the balls that hold the true position with 68 (`inner`) and 95 % (`outer`), in standard deviations of one axis.
-    """
-
-    methods: Mapping[str, Sequence[str]]
-    prefer: float
-    protect: Sequence[str]
-    max_altered_share: float
-    max_repair_s: float
-    max_error_mm: float
-    savitzky_golay_order: int
-    savitzky_golay_s: float
-    trials: int
-    separation: Mapping[str, Any]
-    radius: Mapping[str, float]
+from markermend.options.declaration import (
+    AtLeast,
+    AtMost,
+    Changes,
+    CountOrNone,
+    Factor,
+    Keys,
+    Laboratory,
+    Millimetres,
+    NotEmpty,
+    NotNegative,
+    Positive,
+    PositiveMillimetres,
+    Seconds,
+    Share,
+    Shared,
+)
+from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 
 
 @dataclass(frozen=True)
 class SeparationOptions:
-    """What is believed of artifacts (config section `repair`, key `separation`).
+    """Separation of the marker's trajectory from the artifact on it."""
 
-    ridges: settings in which each local ridge that predicts differs from the shared one. amplitudes_mm: amplitudes that
-    are tried. roughness_mm: standard deviations of white noise besides, by which an artifact may depart from the course
-    of its class; all are tried with all amplitudes. border_s: how far into the observed samples either border reaches.
-    margins: by these shares of its length a slow change may begin earlier and end later than was found: nobody can tell
-    that to the sample. trust: the power to which likelihoods count, at most 1: courses and covariances are known only
-    roughly. most_frames: longer artifacts are not parted: memory grows with the square of the length, time with the cube.
-    """
+    local_ridge_changes: Annotated[tuple[Annotated[Mapping[str, Any], Changes(LocalRidgeOptions)], ...], NotEmpty] = (
+        {},
+        {"anchors": 6, "inputs": 20},
+        {"anchors": 4, "inputs": 8, "ridge_mm2": 1.0},
+    )
+    """The local ridges that predict together: the options in which each differs from `local_ridge`; `{}` is that itself.
 
-    ridges: Sequence[Mapping[str, Any]]
-    amplitudes_mm: Sequence[float]
-    roughness_mm: Sequence[float]
-    border_s: float
-    margins: Sequence[float]
-    trust: float
-    most_frames: int
+    Change it when repair takes too long (fewer)."""
+
+    amplitudes_mm: Annotated[tuple[Annotated[PositiveMillimetres, AtMost(10000)], ...], NotEmpty] = (4, 12, 36)
+    """Amplitudes of artifacts that are tried.
+
+    Change it when your artifacts are smaller or larger."""
+
+    roughness_mm: Annotated[tuple[PositiveMillimetres, ...], NotEmpty] = (0.2, 2)
+    """Standard deviations, all of them tried, of white noise by which an artifact may depart from the shape of its class."""
+
+    border_s: Seconds = 0.15
+    """Time on either side of a finding whose samples are used."""
+
+    margin_fractions: Annotated[tuple[NotNegative, ...], NotEmpty] = (0, 0.1)
+    """Parts of its duration, all of them tried, by which a slow change may begin earlier and end later than was found."""
+
+    likelihood_power: Share = 0.15
+    """Power to which the likelihood of an artifact counts: 1 takes the assumed shapes and covariances as exact, 0 weighs all
+    alike (0 to 1)."""
+
+    max_frames: Annotated[int, AtLeast(2)] = 1000
+    """Longer artifacts, in frames, are not separated: time and memory grow fast."""
+
+
+@dataclass(frozen=True)
+class RepairRadiusOptions:
+    """Radii of the balls around repaired samples."""
+
+    inner: Positive = 1.7
+    """Radius of the ball that holds the true position with probability 0.68, in stated standard deviations of one axis."""
+
+    outer: Positive = 3.4
+    """Radius of the ball that holds it with probability 0.95, in the same units."""
+
+
+@dataclass(frozen=True)
+class RepairOptions:
+    """Repair what was found."""
+
+    predictors: Annotated[
+        PredictorOptions, Shared(("local_ridge", "interpolation", "polynomial", "replicated_network"))
+    ] = field(default_factory=PredictorOptions)
+    """The predictors."""
+
+    protect: Annotated[tuple[str, ...], Shared()] = ()
+    """Markers that are not touched, as name patterns with `*` and `?`."""
+
+    methods: Annotated[
+        Mapping[str, tuple[str, ...]], Keys(("labels", "peaks", "noise", "steps", "slow")), Laboratory
+    ] = field(
+        default_factory=lambda: {
+            "labels": ("exchange",),
+            "peaks": ("spline", "local_ridge"),
+            "noise": ("separate_noise", "local_ridge"),
+            "steps": ("separate_step", "local_ridge"),
+            "slow": ("separate_slow",),
+        }
+    )
+    """For each class the methods that are compared, in order of preference; an empty list makes its findings missing (exchanged labels: leaves them).
+
+    Change it when you prefer another repair for a class."""
+
+    max_altered_share: Annotated[NotNegative, Laboratory] = 0.1
+    """Nothing is repaired if more than this share of the seen samples was found.
+
+    Change it when recordings of poor quality are refused as a whole (higher, with care)."""
+
+    max_repair_s: Annotated[Seconds, Laboratory] = 2
+    """Longer findings become missing instead.
+
+    Change it when long artifacts should become gaps (lower) or be repaired (higher)."""
+
+    max_error_mm: Annotated[Millimetres, Laboratory] = 20
+    """Findings whose repair has a larger expected error become missing instead.
+
+    Change it when your purpose can bear a larger error, or only a smaller one."""
+
+    preference_factor: Factor = 1.25
+    """Of two methods whose expected errors differ by less than this factor the preferred one is taken, else the better one.
+
+    Change it when the order of the methods should always decide (higher)."""
+
+    savitzky_golay_order: CountOrNone = 13
+    """Order of the method savitzky_golay."""
+
+    savitzky_golay_window_s: Seconds = 1.01
+    """Window of the method savitzky_golay."""
+
+    hidden_stretches: CountOrNone = 10
+    """Stretches that are hidden to measure the error of a method that does not state one."""
+
+    separation: SeparationOptions = field(default_factory=SeparationOptions)
+    """Options of the methods separate_noise, separate_step and separate_slow, which separate the trajectory from the artifact."""
+
+    radius: RepairRadiusOptions = field(default_factory=RepairRadiusOptions)
+    """Radii of the balls around repaired samples."""

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import difflib
 import glob
-import json
 import os
-import re
-import shlex
 from collections import Counter
-from collections.abc import Collection, Iterator
-from math import isfinite
+from collections.abc import Collection, Mapping
 from typing import Any
 
+from markermend.options.config import read_config
+from markermend.options.values import BadOptions
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.neural_network.predictor import cannot_train
 from markermend.prediction.registry import REGISTRY
 from markermend.repair.methods import METHODS
+
+REFUSED = "The config cannot be used (config/README.md says what the keys mean):"
+"""How a refusal begins."""
 
 
 def prepare(config: dict[str, Any]) -> None:
@@ -36,48 +38,85 @@ def prepare(config: dict[str, Any]) -> None:
         config["detect"] = []
 
 
-def judge(config: dict[str, Any], *, deployed: bool) -> None:
-    """Refuse what the schema cannot see and every recording would fail on; raises BadDataSet naming all of it.
+def check(config: Mapping[str, Any], *, deployed: bool) -> dict[str, Any]:
+    """Read the config, and refuse what every recording would fail on.
 
-    config: of the schema's shape. Judged are numbers that are not finite, regular expressions, names of predictors and
-    repairs, and whether networks can be trained. deployed: whether the stages run in environments of their own, which
-    have what networks need.
+    Parameters
+    ----------
+    config : mapping
+        The config, as Snakemake put it together.
+    deployed : bool
+        Whether the stages run in environments of their own, which have what networks need.
+
+    Returns
+    -------
+    dict
+        The options of each section.
+
+    Raises
+    ------
+    BadDataSet
+        With all that cannot be used: keys, types, bounds, regular expressions, names of predictors and repairs, and
+        whether networks can be trained.
     """
-    problems = [f"{place}: {value} is not a finite number" for place, value in numbers(config) if not isfinite(value)]
-    for key in ("unlabelled", "static_names"):
-        for pattern in config["ingest"][key]:
-            try:
-                re.compile(pattern)
-            except re.error as error:
-                problems.append(f"ingest.{key}: {pattern!r} is no regular expression ({error})")
-    members = [*REGISTRY, *config["fill"]["variants"]]
-    problems += unknown("fill.members", config["fill"]["members"], members)
-    if not deployed and (reason := cannot_train(config["fill"]["members"])):
-        problems.append(f"fill.members: {reason}")
-    for kind, methods in config["repair"]["methods"].items():
-        problems += unknown(f"repair.methods.{kind}", methods, METHODS)
-    if problems:
-        raise BadDataSet("\n".join(["The config cannot be used", *problems]))
+    try:
+        options = read_config(config)
+    except BadOptions as problems:
+        raise BadDataSet(f"{REFUSED}\n{problems}") from problems
+    fill, predictors, repair = options["fill"], options["predictors"], options["repair"]
+    known = [*REGISTRY, *predictors.local_ridge_variants]
+    found = unknown("fill.members", fill.members, known)
+    found += unknown("advanced.fill.ensemble.fallback_members", fill.ensemble.fallback_members, known)
+    for kind, methods in repair.methods.items():
+        found += unknown(f"repair.methods.{kind}", methods, METHODS)
+    if not deployed and (reason := cannot_train(fill.members)):
+        found.append(f"fill.members: {reason}")
+    if found:
+        raise BadDataSet("\n".join([REFUSED, *found]))
+    return options
 
 
-def methods(config: dict[str, Any]) -> list[str]:
-    """The methods that a person may decide on: networks only where they are members, since they need torch."""
-    names = dict.fromkeys([*METHODS, *REGISTRY, *config["fill"]["variants"]])
-    return [name for name in names if name not in NETWORKS or name in config["fill"]["members"]]
+def methods(options: Mapping[str, Any]) -> list[str]:
+    """List the methods that a person may decide on.
+
+    Parameters
+    ----------
+    options : mapping
+        The options of each section.
+
+    Returns
+    -------
+    list of str
+        Methods of repair and predictors; networks only where they are members, since they need torch.
+    """
+    names = dict.fromkeys([*METHODS, *REGISTRY, *options["predictors"].local_ridge_variants])
+    return [name for name in names if name not in NETWORKS or name in options["fill"].members]
 
 
 def unknown(place: str, names: Collection[str], known: Collection[str]) -> list[str]:
-    """Say which names are not known."""
-    return [f"{place}: {name!r} is none of {', '.join(known)}" for name in names if name not in known]
+    """Say which names are not known.
 
+    Parameters
+    ----------
+    place : str
+        The keys that lead to the names.
+    names : collection of str
+        The names.
+    known : collection of str
+        The names that there are.
 
-def numbers(value: Any, place: str = "") -> Iterator[tuple[str, float]]:
-    """Every floating-point number in a config, with the keys that lead to it."""
-    if isinstance(value, float):
-        yield place, value
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, inner in items:
-        yield from numbers(inner, f"{place}.{key}" if place else str(key))
+    Returns
+    -------
+    list of str
+        A line for each unknown name.
+    """
+    problems = []
+    for name in names:
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=1)
+            advice = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+            problems.append(f"{place}: there is no {name!r}; {advice}")
+    return problems
 
 
 def folder(name: str) -> str:
@@ -89,27 +128,6 @@ def folder(name: str) -> str:
             "Choose another folder"
         )
     return path
-
-
-def flags(section: dict[str, Any], without: Collection[str] = ()) -> str:
-    """Write a config section as command-line flags, quoted for a shell, in the order of the section.
-
-    All become `--name=value`, so that a leading dash or `@` means nothing; lists and mappings are JSON.
-    """
-    return shlex.join(
-        f"--{name.replace('_', '-')}={text(value)}" for name, value in section.items() if name not in without
-    )
-
-
-def text(value: Any) -> str:
-    """Write one value as the stages read it."""
-    if value is None:
-        return "none"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, dict | list):
-        return json.dumps(value, sort_keys=True, ensure_ascii=False)
-    return str(value)
 
 
 def failures(results: str) -> Counter[tuple[str, str, str]]:

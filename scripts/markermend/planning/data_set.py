@@ -11,8 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from markermend.options.general import GeneralOptions
 from markermend.planning import config as planning_config
 from markermend.planning import config_schema, decision_table, recording_table, recordings
 from markermend.planning.recordings import BadDataSet, Entry
@@ -60,18 +59,16 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
 
 
 def find_decisions(
-    config: Mapping[str, Any], entries: Sequence[Entry], *, project: Path
+    options: Mapping[str, Any], entries: Sequence[Entry]
 ) -> tuple[dict[Folders, list[dict[str, Any]]], list[str]]:
     """Find what people decided; a table that the user named must be there, the one of the default need not.
 
     Parameters
     ----------
-    config
-        The config, checked.
+    options
+        The options of each section of the config.
     entries
         The recordings.
-    project
-        The folder of the Snakefile.
 
     Returns
     -------
@@ -85,12 +82,11 @@ def find_decisions(
     BadDataSet
         Where the table cannot be used.
     """
-    default = yaml.safe_load((project / "config/config.yaml").read_text(encoding="utf-8"))["decisions"]
-    name = config["decisions"]
-    if name is None or (name == default and not os.path.exists(default)):
+    default, name = GeneralOptions().decisions, options["general"].decisions
+    if name is None or (name == default and not os.path.exists(name)):
         return {}, []
     path = os.path.abspath(os.path.expanduser(name))
-    return decision_table.load(path, entries, planning_config.methods(dict(config)))
+    return decision_table.load(path, entries, planning_config.methods(options))
 
 
 def supplied_meshes(entries: Mapping[Folders, Entry], files: Sequence[str]) -> dict[str, list[str]]:

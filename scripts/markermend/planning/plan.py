@@ -19,12 +19,14 @@ from typing import Any, Protocol
 
 import markermend
 from markermend.core.artifacts import CLASSES
-from markermend.planning import code_hashes, config_schema, data_set, run_facts, run_summary
+from markermend.options.config import write_config
+from markermend.options.flags import write_flags
+from markermend.options.values import text
+from markermend.planning import code_hashes, data_set, run_facts, run_summary
 from markermend.planning import config as planning_config
 from markermend.planning.data_set import Folders, nameable
 from markermend.planning.recordings import Entry
 from markermend.planning.result_files import ResultFiles
-from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.storage.atomic import sha256, write_json, write_text
 
@@ -47,8 +49,8 @@ class Plan:
 
     Parameters
     ----------
-    config
-        The config, checked.
+    options
+        The options of each section of the config.
     project
         The folder of the Snakefile.
     files
@@ -67,7 +69,7 @@ class Plan:
         When the run began, with its time zone.
     """
 
-    config: Mapping[str, Any]
+    options: Mapping[str, Any]
     project: Path
     files: ResultFiles
     entries: Mapping[Folders, Entry]
@@ -80,7 +82,7 @@ class Plan:
     @property
     def detectors(self) -> list[str]:
         """The detectors that run, in their strict order."""
-        return [stage for stage in CLASSES if stage in self.config["detect"]]
+        return [stage for stage in CLASSES if stage in self.options["general"].detect]
 
     @cached_property
     def subjects(self) -> dict[str, list[str]]:
@@ -93,7 +95,7 @@ class Plan:
     @property
     def trains_networks(self) -> bool:
         """Whether neural networks help to fill, which need torch."""
-        return not set(NETWORKS).isdisjoint(self.config["fill"]["members"])
+        return not set(NETWORKS).isdisjoint(self.options["fill"].members)
 
     @property
     def quality_files(self) -> list[str]:
@@ -139,12 +141,12 @@ class Plan:
 
     def rate_flag(self, wildcards: Wildcards) -> str:
         """The recording's rate as the table of recordings has it, as a flag."""
-        return f"--rate={planning_config.text(self.entry(wildcards).rate)}"
+        return f"--rate={text(self.entry(wildcards).rate)}"
 
     def decisions_flag(self, wildcards: Wildcards) -> str:
         """The decisions on the recording, as a flag: other recordings' lines in the table rerun nothing."""
         decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
-        return f"--decisions={planning_config.text(decided)}"
+        return f"--decisions={text(decided)}"
 
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
         """The ingested trajectories of each of the subject's recordings."""
@@ -167,23 +169,17 @@ class Plan:
         """
         return code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
 
-    def options(self, stage: str, *shared: str, without: Sequence[str] = ()) -> Callable[[Wildcards], str]:
-        """The stage's section of the config as flags, with the sections that it shares with other stages.
+    def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
+        """The stage's options as flags.
 
         A function, so that Snakemake leaves braces in values as they are.
         """
-        section = {**self.config[stage], **{name: self.config[name] for name in shared}}
-        flags = planning_config.flags(section, without)
+        flags = write_flags(self.options[stage])
 
         def of_stage(wildcards: Wildcards) -> str:
             return flags
 
         return of_stage
-
-    def detector_options(self, stage: str) -> Callable[[Wildcards], str]:
-        """A detector's section of the config as flags, with the sections that it shares with other stages."""
-        regressions = LAGGED_REGRESSIONS if stage == "slow" else ()
-        return self.options(stage, *([] if stage == "labels" else ["local_ridge", *regressions]))
 
     def failed(self, stage: str) -> Callable[[Wildcards], int]:
         """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
@@ -205,7 +201,7 @@ class Plan:
         """Write the facts of the run, and print its summary."""
         folder = Path(self.files.report)
         facts = run_facts.run_facts(
-            self.project, config=self.config, recordings=len(self.entries), started=self.started
+            self.project, config=write_config(self.options), recordings=len(self.entries), started=self.started
         )
         write_json(folder / "provenance.json", facts)
         print(run_summary.summary(map(Path, self.quality_files), folder / "index.html"), file=sys.stderr)
@@ -236,14 +232,13 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         Where a file cannot be read.
     """
     planning_config.prepare(config)
-    config_schema.check(config, project / "workflow/schemas/config.schema.yaml", where="The config")
-    planning_config.judge(config, deployed=deployed)
-    results = planning_config.folder(config["results"])
-    entries = data_set.find_recordings(config["recordings"], results, schemas=project / "workflow/schemas")
-    meshes = data_set.supplied_meshes(entries, config["mesh"]["files"])
-    decisions, warnings = data_set.find_decisions(config, list(entries.values()), project=project)
+    options = planning_config.check(config, deployed=deployed)
+    results = planning_config.folder(options["general"].results)
+    entries = data_set.find_recordings(options["general"].recordings, results, schemas=project / "workflow/schemas")
+    meshes = data_set.supplied_meshes(entries, options["mesh"].files)
+    decisions, warnings = data_set.find_decisions(options, list(entries.values()))
     return Plan(
-        config=config,
+        options=options,
         project=project,
         files=ResultFiles(results),
         entries=entries,

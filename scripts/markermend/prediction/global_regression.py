@@ -21,7 +21,7 @@ class GlobalRegression:
     continuous = False
 
     def __init__(self, options: GlobalRegressionOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         if options.centring not in CENTRINGS:
             raise ValueError(f"unknown centring {options.centring!r}: one of {', '.join(CENTRINGS)}")
         self.options = options
@@ -33,11 +33,11 @@ class GlobalRegression:
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
         ranked, deviation = reference_markers(
-            hidden, marker, frames=options.frames, minimum_frames=options.minimum_frames
+            hidden, marker, frames=options.max_training_frames, minimum_frames=options.min_training_frames
         )
-        near = ranked[(deviation < options.deviation_mm) | (np.arange(len(ranked)) < options.minimum_inputs)]
+        near = ranked[(deviation < options.max_distance_deviation_mm) | (np.arange(len(ranked)) < options.min_inputs)]
         seen = hidden.present[np.ix_(frames, near)]
-        for used, places in group_by_pattern(seen, options.minimum_inputs):
+        for used, places in group_by_pattern(seen, options.min_inputs):
             rows = frames[places]
             if used.any():
                 positions[rows - (start - 1)] = self._regress(hidden, marker, near[used], rows)
@@ -46,9 +46,9 @@ class GlobalRegression:
     def _regress(self, scene: Scene, marker: int, inputs: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """Position (n, 3) at rows, where all inputs are seen; NaN where too few frames train."""
         seen = scene.present[:, marker] & scene.present[:, inputs].all(axis=1)
-        if np.count_nonzero(seen) < self.options.minimum_frames:
+        if np.count_nonzero(seen) < self.options.min_training_frames:
             return np.full((len(rows), 3), np.nan)
-        training = evenly_spaced(np.flatnonzero(seen), self.options.frames)
+        training = evenly_spaced(np.flatnonzero(seen), self.options.max_training_frames)
         both = np.concatenate([training, rows])
         centre = self._centre(scene, marker, inputs, both)
         design = (scene.positions[np.ix_(both, inputs)] - centre[:, None]).reshape(len(both), -1)

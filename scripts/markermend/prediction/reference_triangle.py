@@ -56,7 +56,7 @@ class _FrameModel(ABC):
     continuous: bool
 
     def __init__(self, options: ReferenceTriangleOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         self.options = options
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
@@ -77,7 +77,9 @@ class _FrameModel(ABC):
     def _triples(self, scene: Scene, marker: int) -> Iterator[np.ndarray]:
         """Triples of references: the best three, then those that need the fourth, and so on."""
         options = self.options
-        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(
+            scene, marker, frames=options.max_training_frames, minimum_frames=options.min_training_frames
+        )
         for places in sorted(combinations(range(min(len(ranked), options.references)), 3), key=lambda p: p[::-1]):
             yield ranked[list(places)]
 
@@ -89,11 +91,11 @@ class _FrameModel(ABC):
     def _choose(self, scene: Scene, marker: int, triple: np.ndarray, seen: np.ndarray) -> np.ndarray:
         """See _training."""
         joint = np.flatnonzero(seen & scene.present[:, marker])
-        if len(joint) < self.options.minimum_frames:
+        if len(joint) < self.options.min_training_frames:
             return joint[:0]
-        training = evenly_spaced(joint, self.options.frames)
+        training = evenly_spaced(joint, self.options.max_training_frames)
         height = np.abs(triangle(scene.positions[np.ix_(training, triple)]).shape[:, 2])
-        return training if np.median(height) >= self.options.height_mm else training[:0]
+        return training if np.median(height) >= self.options.min_height_mm else training[:0]
 
     @abstractmethod
     def _recover(
@@ -160,7 +162,7 @@ class LocalQuadratic(_FrameRegression):
     name = "local_quadratic"
 
     def __init__(self, options: ReferenceTriangleOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         super().__init__(options, lambda *given: quadratic(*given, ridge=options.ridge))
 
 
@@ -170,8 +172,8 @@ class LocalGRNN(_FrameRegression):
     name = "local_grnn"
 
     def __init__(self, options: ReferenceTriangleOptions) -> None:
-        """Keep the settings."""
-        super().__init__(options, lambda *given: grnn(*given, smoothness=options.smoothness))
+        """Keep the options."""
+        super().__init__(options, lambda *given: grnn(*given, smoothness=options.kernel_width_sigmas))
 
 
 def quadratic(inputs: np.ndarray, target: np.ndarray, wanted: np.ndarray, *, ridge: float) -> np.ndarray:

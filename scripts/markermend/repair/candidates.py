@@ -10,7 +10,7 @@ import numpy as np
 
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.numerics.intervals import samples
-from markermend.options.repair import RepairOptions, SeparationOptions
+from markermend.options.repair import RepairOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Prediction, Predictor, Scene
 from markermend.repair.methods import Proposal, predicted, separated, smoothed
@@ -162,7 +162,7 @@ class CandidateMaker:
             Those of the methods that can be applied, in their order.
         """
         measured, prediction = self.positions[start:stop, m], self._prediction(m, start, stop)
-        radius = self.options.radius["outer"] * float(np.sqrt(np.mean(prediction.error**2)))
+        radius = self.options.radius.outer * float(np.sqrt(np.mean(prediction.error**2)))
         proposals = [self._propose(method, m, start, stop) for method in methods if method not in NOT_PROPOSING]
         return [
             self._candidate(proposal, measured, prediction.positions, radius)
@@ -177,7 +177,7 @@ class CandidateMaker:
             after = rms_distance(np.where(np.isnan(measured), np.nan, proposal.positions), expected)
         return Candidate(
             proposal,
-            expected_error=float(np.max(proposal.error)) * self.options.radius["inner"],
+            expected_error=float(np.max(proposal.error)) * self.options.radius.inner,
             largest_change=float(np.nanmax(np.linalg.norm(proposal.positions - measured, axis=1))),
             misfit_before=rms_distance(measured, expected),
             misfit_after=after,
@@ -190,7 +190,7 @@ class CandidateMaker:
         shared = self.predictors.get("local_ridge")
         if not isinstance(shared, LocalRidge):
             return []
-        ridges = self.options.separation["ridges"]
+        ridges = self.options.separation.local_ridge_changes
         return [LocalRidge(replace(shared.options, **own)) if own else shared for own in ridges]
 
     def _prediction(self, m: int, start: int, stop: int) -> Prediction:
@@ -232,13 +232,12 @@ class CandidateMaker:
         """What a method would write; None where it cannot be applied to every sample."""
         options, original = self.options, self.positions[:, m]
         if method == "savitzky_golay":
-            window = samples(options.savitzky_golay_s, self.scene.rate, odd=True)
+            window = samples(options.savitzky_golay_window_s, self.scene.rate, odd=True)
             return smoothed(
                 original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
             )
         if method in SHAPE_COVARIANCES:
             if not self._ridges:
                 return None
-            own = SeparationOptions(**options.separation)
-            return separated(method, original, self._ridges, self.scene, m, start, stop, options=own)
-        return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.trials)
+            return separated(method, original, self._ridges, self.scene, m, start, stop, options=options.separation)
+        return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.hidden_stretches)

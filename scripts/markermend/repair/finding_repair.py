@@ -77,7 +77,7 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     m = result.markers.index(event.marker)
     candidates = maker.candidates(methods, m, event.start, event.stop)
     best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)
-    taken = choose(candidates, max_error_mm=options.max_error_mm, preference_factor=options.prefer)
+    taken = choose(candidates, max_error_mm=options.max_error_mm, preference_factor=options.preference_factor)
     if taken is None and ruling.confirmed:
         taken = best
     if taken:

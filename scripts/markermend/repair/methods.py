@@ -148,9 +148,11 @@ def separated(
     Proposal or None
         The proposal; None where the neighbours have no value for some sample, or for more samples than the options allow.
     """
-    margins = [round(share * (stop - start)) for share in options.margins] if method == "separate_slow" else [0]
+    margins = (
+        [round(share * (stop - start)) for share in options.margin_fractions] if method == "separate_slow" else [0]
+    )
     first, last = _observed_extent(scene.present[:, marker], start, stop, max(margins))
-    if last - first > options.most_frames or np.isnan(original[start:stop]).all():
+    if last - first > options.max_frames or np.isnan(original[start:stop]).all():
         return None
     correlation = _error_correlation(ridges[0], scene, marker, first, last, round(options.border_s * scene.rate))
     extents = [(max(start - margin, first) - first, min(stop + margin, last) - first) for margin in margins]
@@ -163,7 +165,7 @@ def separated(
         tried = artifact_covariances(method, last - first, options, extents)
         error = correlation * deviation * deviation[:, None]
         difference = original[first:last] - positions
-        separations.append(separate(difference, error, tried, likelihood_power=options.trust))
+        separations.append(separate(difference, error, tried, likelihood_power=options.likelihood_power))
         trajectories.append(positions + separations[-1].mean)
     if not separations:
         return None
@@ -208,8 +210,8 @@ def residual_covariance(ridge: LocalRidge, scene: Scene, marker: int) -> Covaria
         The covariance over the whole recording, mm^2.
     """
     residual = ridge.residuals(scene, np.array([marker]))[:, marker]
-    scales_s = np.array(ridge.options.scales_s)
-    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, max_lag_s=ridge.options.longest_s)
+    scales_s = np.array(ridge.options.correlation_times_s)
+    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, max_lag_s=ridge.options.max_lag_s)
 
 
 def smoothed(

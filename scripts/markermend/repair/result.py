@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
+from markermend.options.repair import RepairRadiusOptions
 from markermend.repair.candidates import Candidate
 
 
@@ -33,7 +34,7 @@ class Restoration:
         Positions as repaired so far, mm, NaN = missing.
     """
 
-    def __init__(self, recording: Recording, left: Iterable[Change], radius: Mapping[str, float]) -> None:
+    def __init__(self, recording: Recording, left: Iterable[Change], radius: RepairRadiusOptions) -> None:
         self._recording, self._radius = recording, radius
         self.positions = recording.positions.copy()
         self._origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
@@ -155,7 +156,7 @@ class Restoration:
             What was repaired, then what was not and why, each in the order of the work.
         """
         common = (self._recording.markers, self.positions, self._recording.rate, self._recording.first_frame)
-        inner, outer = self._radius["inner"], self._radius["outer"]
+        inner, outer = self._radius.inner, self._radius.outer
         restored = Restored(*common, self._recording.facts, self._origin, self._error * inner, self._error * outer)
         return restored, (*self._repairs, *self._left)
 
@@ -187,8 +188,8 @@ class Restoration:
                 alternatives(candidates),
                 samples=len(rows),
                 largest_change_mm=largest(moved),
-                expected_error_mm=largest(error * self._radius["inner"]),
-                expected_error95_mm=largest(error * self._radius["outer"]),
+                expected_error_mm=largest(error * self._radius.inner),
+                expected_error95_mm=largest(error * self._radius.outer),
                 decisions=ruling.texts,
             )
         )

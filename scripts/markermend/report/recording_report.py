@@ -13,6 +13,7 @@ from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.options.reporting import AttentionOptions, QcOptions
 from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
 from markermend.report.decision_outcomes import DecisionOutcome, drafts, outcomes
@@ -132,14 +133,14 @@ def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dic
     }
 
 
-def summarize(seen: Evidence, weights: Mapping[str, float]) -> dict[str, Any]:
+def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
     """Summarize a recording, see summary.summarize.
 
     Parameters
     ----------
     seen : Evidence
         What the stages wrote.
-    weights : mapping of str to float
+    weights : AttentionOptions
         Points of attention, see summary.attention.
 
     Returns
@@ -223,7 +224,7 @@ def place(page: Path) -> dict[str, str]:
     return {"page": "/".join(page.absolute().parts[-3:])}
 
 
-def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any]) -> str:
+def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
     """Write the page of a recording.
 
     Parameters
@@ -232,7 +233,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
         What the stages wrote.
     summary : mapping of str to Any
         What summarize gives.
-    options : mapping of str to Any
+    options : QcOptions
         `plots`, `context_s` and `plot_frames` of the stage qc.
 
     Returns
@@ -241,7 +242,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
         HTML.
     """
     artifacts = [finding for finding in seen.left if not finding.is_gap]
-    chosen = [*seen.changes[: options["plots"]], *artifacts[: options["plots"]]]
+    chosen = [*seen.changes[: options.plots], *artifacts[: options.plots]]
     drawn = {
         finding: (f"finding-{number}", cut(seen, finding, options))
         for number, finding in enumerate(dict.fromkeys(chosen))
@@ -268,7 +269,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: Mapping[str, Any])
     )
 
 
-def cut(seen: Evidence, finding: Change, options: Mapping[str, Any]) -> dict[str, Any]:
+def cut(seen: Evidence, finding: Change, options: QcOptions) -> dict[str, Any]:
     """Extract what the plot of a finding shows.
 
     Parameters
@@ -277,7 +278,7 @@ def cut(seen: Evidence, finding: Change, options: Mapping[str, Any]) -> dict[str
         What the stages wrote.
     finding : Change
         The finding.
-    options : mapping of str to Any
+    options : QcOptions
         `context_s` and `plot_frames` of the stage qc.
 
     Returns
@@ -285,5 +286,5 @@ def cut(seen: Evidence, finding: Change, options: Mapping[str, Any]) -> dict[str
     dict of str to Any
         See plot_data.excerpt.
     """
-    context_s, frames = options["context_s"], options["plot_frames"]
+    context_s, frames = options.context_s, options.max_plot_frames
     return excerpt(finding, seen.before, seen.after, context_s=context_s, frames=frames)

@@ -16,6 +16,7 @@ import numpy as np
 from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS, Recording, Restored, changed
+from markermend.options.reporting import AttentionOptions
 from markermend.report.sample_statistics import DIGITS, extent, finite, inconsistent_origins, largest_change, share
 
 
@@ -27,7 +28,7 @@ def summarize(
     changes: Sequence[Change],
     left: Sequence[Change],
     warnings: Sequence[str],
-    weights: Mapping[str, float],
+    weights: AttentionOptions,
 ) -> dict[str, Any]:
     """Summarize one recording.
 
@@ -41,7 +42,7 @@ def summarize(
         What was changed and what was not; an artifact that a person left is not open.
     warnings : sequence of str
         What the stages warned of.
-    weights : mapping of str to float
+    weights : AttentionOptions
         See attention.
 
     Returns
@@ -112,14 +113,14 @@ def set_aside(facts: Mapping[str, Any], stage: str, reason: str) -> dict[str, An
     }
 
 
-def attention(summary: Mapping[str, Any], weights: Mapping[str, float]) -> dict[str, float]:
+def attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str, float]:
     """Score how much a recording needs a person's attention.
 
     Parameters
     ----------
     summary : mapping of str to Any
         Of the recording.
-    weights : mapping of str to float
+    weights : AttentionOptions
         Points per percent of the samples changed (`changed_percent`), per percent still missing (`missing_percent`),
         per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`) and per warning
         (`warning`).
@@ -130,11 +131,11 @@ def attention(summary: Mapping[str, Any], weights: Mapping[str, float]) -> dict[
         Points by cause, which add up to the score; a complete recording that nothing was done to scores 0.
     """
     points = {
-        "changed": weights["changed_percent"] * 100 * summary["changed_share"],
-        "missing": weights["missing_percent"] * 100 * summary["missing_share_after"],
-        "expected error": weights["error_mm"] * (summary["expected_error_max_mm"] or 0.0),
-        "artifacts left": weights["open"] * summary["findings_open"]["events"],
-        "warnings": weights["warning"] * len(summary["warnings"]),
+        "changed": weights.changed_percent * 100 * summary["changed_share"],
+        "missing": weights.missing_percent * 100 * summary["missing_share_after"],
+        "expected error": weights.error_mm * (summary["expected_error_max_mm"] or 0.0),
+        "artifacts left": weights.open * summary["findings_open"]["events"],
+        "warnings": weights.warning * len(summary["warnings"]),
     }
     return {name: round(value, 3) for name, value in points.items()}
 

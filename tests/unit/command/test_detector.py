@@ -1,5 +1,6 @@
 """What detectors are given: trajectories on which the exchanges of an earlier stage are undone, and no others."""
 
+import shlex
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -9,8 +10,9 @@ import pytest
 import mesh as mesh_script
 from markermend.command import detector
 from markermend.core.events import Event
+from markermend.options.flags import write_flags
+from markermend.options.mesh import MeshOptions
 from markermend.storage import stage_files
-from support.signals import CONFIG
 
 SPAN = slice(300, 380)
 EXCHANGES = [Event("LTHI", 300, 380, 3.0, partner="LKNE"), Event("LKNE", 300, 380, 3.0, partner="LTHI")]
@@ -30,8 +32,7 @@ def files(tmp_path_factory, walker):
     made = SimpleNamespace(clean=clean, recording=recording, pair=pair, markers=folder / "01_markers.parquet")
     stage_files.write_recording(made.markers, recording, {})
     made.mesh, made.labels, made.frozen = (folder / name for name in ("mesh.json", "l.parquet", "f.parquet"))
-    settings = {name: value for name, value in CONFIG["mesh"].items() if name != "files"}
-    words = [f"--{name.replace('_', '-')}={value}" for name, value in settings.items()]
+    words = shlex.split(write_flags(MeshOptions()))
     mesh_script.main(["--markers", str(made.markers), "--mesh-files", "--mesh", str(made.mesh), *words])
     stage_files.write_events(made.labels, EXCHANGES, {"stage": "labels"})
     stage_files.write_events(made.frozen, FROZEN, {"stage": "frozen"})

@@ -4,25 +4,56 @@ import json
 import logging
 import shlex
 import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
 
 import pytest
 
-from markermend.command.stage import Stage, boolean, mapping, optional
+from markermend.command.stage import Stage
 from markermend.core.recording import BadRecording, SetAside
+from markermend.options.declaration import PositiveSeconds, Shared
+from markermend.options.mesh import MeshOptions
 from markermend.storage import atomic, stage_files
+
+
+@dataclass(frozen=True)
+class BlurOptions:
+    """Blur."""
+
+    window_s: PositiveSeconds = 1
+    """Window; 100 % of it."""
+
+    limit: float | None = None
+    """Limit."""
+
+    deep: bool = False
+    """Deep."""
+
+    names: tuple[str, ...] = ()
+    """Names."""
+
+    table: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    """Table."""
+
+    mesh: Annotated[MeshOptions, Shared(("max_frames",))] = field(default_factory=MeshOptions)
+    """Shared."""
+
+
+@dataclass(frozen=True)
+class PersonOptions:
+    """What is given beside the options."""
+
+    person: str
+    """Name of the person."""
 
 
 @pytest.fixture
 def stage():
-    made = Stage("blur", "Blur.")
+    made = Stage("blur", "Blur.", BlurOptions, PersonOptions)
     made.reads("markers", "in")
     made.reads("earlier", "more", many=True, optional=True)
     made.writes("blurred", "out")
-    made.option("window_s", float, "window, s; 100 % of it")
-    made.option("limit", optional(float), "limit")
-    made.option("deep", boolean, "deep")
-    made.option("names", str, "names", many=True)
-    made.option("table", mapping, "table")
     return made
 
 
@@ -32,6 +63,7 @@ def argv(tmp_path):
     return [
         *("--markers", str(tmp_path / "in.json"), "--earlier", "--blurred", str(tmp_path / "out.json")),
         *("--window-s=0.5", "--limit=none", "--deep=true", '--names=["a b", "@c", "-d"]', '--table={"x": [1]}'),
+        *('--mesh={"max_frames": 7}', "--person=Ann"),
     ]
 
 
@@ -39,15 +71,17 @@ def test_work_gets_paths_options_and_facts(stage, argv, tmp_path):
     calls = []
     stage.run(lambda call: calls.append(call), argv)
     (call,) = calls
+    assert call.options == BlurOptions(0.5, None, True, ("a b", "@c", "-d"), {"x": (1,)}, MeshOptions(max_frames=7))
+    assert call.person == "Ann"
     options = {"window_s": 0.5, "limit": None, "deep": True, "names": ["a b", "@c", "-d"], "table": {"x": [1]}}
-    assert call.options == options
+    options |= {"mesh": {"max_frames": 7}, "person": "Ann"}
     assert call.markers == tmp_path / "in.json" and call.earlier == []
     digest = atomic.sha256(tmp_path / "in.json")
     assert call.facts == {"stage": "blur", "options": options, "inputs": {"markers": digest, "earlier": []}}
     assert str(tmp_path) not in json.dumps(call.facts)
 
 
-@pytest.mark.parametrize("missing", range(8))
+@pytest.mark.parametrize("missing", range(10))
 def test_every_flag_is_required(stage, argv, missing, capsys):
     flags = [i for i, argument in enumerate(argv) if argument.startswith("--")]
     start = flags[missing]
@@ -119,8 +153,23 @@ def test_a_stop_is_no_failure(stage, argv, tmp_path):
     assert not (tmp_path / "out.json").exists()
 
 
+@pytest.mark.parametrize(
+    ("flag", "words"),
+    [
+        ("--window-s=soon", "'soon' is not a number of seconds, such as 1"),
+        ("--window-s=0", "0 is out of bounds; it must be above 0 s"),
+        ('--mesh={"frames": 7}', "mesh.frames: there is no such key; did you mean min_frames?"),
+    ],
+)
+def test_a_flag_that_cannot_be_used_is_an_error_of_the_command_line(stage, argv, flag, words, capsys):
+    name = flag.partition("=")[0]
+    with pytest.raises(SystemExit):
+        stage.run(lambda call: None, [flag if argument.startswith(name + "=") else argument for argument in argv])
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
 def test_help_reads(stage, capsys):
     with pytest.raises(SystemExit):
         stage.parser.parse_args(["--help"])
     text = capsys.readouterr().out
-    assert "100 % of it" in text and "--limit FLOAT|none" in text
+    assert "100 % of it" in text and "--limit FLOAT|none" in text and "--mesh JSON" in text

@@ -1,17 +1,18 @@
 import importlib
 import itertools
 import json
+import shlex
 
 import numpy as np
 import pytest
-import yaml
 
 from markermend.core import mesh
 from markermend.core.recording import BadRecording, SetAside
 from markermend.mesh.inference import infer_mesh
+from markermend.options.flags import write_flags
+from markermend.options.mesh import MeshOptions
 from markermend.storage import mesh_file, stage_files
-from support.bodies import options, recording, subject
-from support.paths import PROJECT
+from support.bodies import recording, subject
 
 
 @pytest.fixture(scope="module")
@@ -26,15 +27,13 @@ def pooled(body):
         recording(names, positions, name="all"),
         recording(names[:-2], positions[:, :-2], name="fewer"),
     ]
-    return infer_mesh(recordings, **options(PROJECT))
+    return infer_mesh(recordings, options=MeshOptions())
 
 
 @pytest.fixture
 def run(tmp_path):
     """Run the mesh stage on named recordings, in the given order; returns what it wrote."""
-    section = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))["mesh"]
-    del section["files"]
-    flags = [f"--{key.replace('_', '-')}={value}" for key, value in section.items()]
+    flags = shlex.split(write_flags(MeshOptions()))
 
     def run_stage(recordings, *files):
         paths = []
@@ -119,16 +118,10 @@ def test_the_stage_takes_the_users_mesh_and_says_what_is_wrong_with_it(body, run
         stage_files.read_json(run({"a": recording(names, positions, name="a")}, own))
 
 
-def test_options_are_those_of_the_configuration():
-    stage = importlib.import_module("mesh").STAGE
-    section = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))["mesh"]
-    assert set(stage.options) == set(section) - {"files"}
-
-
 def test_no_value_in_the_file_is_missing(body):
     names, positions = body
     lonely = recording([*names, "never"], np.pad(positions, ((0, 0), (0, 1), (0, 0)), constant_values=np.nan))
-    value = infer_mesh([lonely], **options(PROJECT)).as_json()
+    value = infer_mesh([lonely], options=MeshOptions()).as_json()
     json.dumps(value, allow_nan=False)
     assert value["predictors"]["never"] == ()
 

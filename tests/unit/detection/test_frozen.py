@@ -9,7 +9,7 @@ from markermend.core import events
 from markermend.detection.frozen import detect_frozen
 from markermend.options.detection import FrozenOptions
 from markermend.prediction.scene import Scene
-from support.signals import CONFIG, RIDGE, neighbours
+from support.signals import RIDGE, neighbours
 
 PLACES = [("LFIN", 500, 506), ("RKNE", 300, 370), ("STRN", 200, 230)]
 
@@ -20,7 +20,7 @@ def detect(recording, near=None, earlier=None):
         scene,
         markers=recording.markers,
         earlier=np.zeros(recording.positions.shape, bool) if earlier is None else earlier,
-        settings=FrozenOptions(**CONFIG["frozen"]),
+        options=FrozenOptions(),
         predictor=RIDGE,
     )
 

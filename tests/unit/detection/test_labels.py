@@ -9,19 +9,20 @@ from markermend.core.labels import undo_exchanges
 from markermend.detection import labels
 from markermend.formats import files
 from markermend.options.detection import LabelsOptions
+from markermend.options.ingest import IngestOptions
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Scene
 from markermend.repair.repair import repair
 from markermend.simulation.artifact_models import integers
 from markermend.simulation.contamination import Contamination
-from support.signals import CONFIG, neighbours
+from support.signals import neighbours
 
-SETTINGS = LabelsOptions(**CONFIG["labels"])
+OPTIONS = LabelsOptions()
 
 
 def find(recording):
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
-    return labels.detect_labels(scene, markers=recording.markers, settings=SETTINGS)
+    return labels.detect_labels(scene, markers=recording.markers, options=OPTIONS)
 
 
 def intervals(found):
@@ -117,7 +118,7 @@ def test_a_ring_that_turns_on_and_on(walker):
 
 def test_a_ring_is_undone_by_the_repair(walker):
     recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
-    options = RepairOptions(**CONFIG["repair"], protect=[])
+    options = RepairOptions()
     around = neighbours(recording.positions)
     mended = repair(recording, found={"labels": find(recording)}, neighbours=around, predictors={}, options=options)
     assert np.array_equal(mended.recording.positions, walker.recording.positions)
@@ -132,7 +133,7 @@ def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
     before = recording.positions.copy()
     assert np.array_equal(undo_exchanges(recording.positions, found, recording.markers), clean.positions)
     assert np.array_equal(recording.positions, before)
-    options = RepairOptions(**CONFIG["repair"], protect=[])
+    options = RepairOptions()
     around = neighbours(recording.positions)
     mended = repair(recording, found={"labels": found}, neighbours=around, predictors={}, options=options)
     assert np.array_equal(mended.recording.positions, clean.positions)
@@ -149,5 +150,5 @@ def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
     ],
 )
 def test_real_recordings(data, name, pair, spans):
-    recording = files.read(data / name, unlabelled=CONFIG["ingest"]["unlabelled"], rate=None).recording
+    recording = files.read(data / name, unlabelled=IngestOptions().unlabelled, rate=None).recording
     assert intervals(find(recording)) == both(*pair, *spans)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.published import noise
-from support.signals import RATES, detect, detect_signal, frames, motion, put, settings
+from support.signals import RATES, detect, detect_signal, frames, motion, options_of, put
 
 PLACES = [("LWRA", 100, 150), ("C7", 400, 440), ("LELB", 540, 600), ("RKNE", 800, 830), ("RASI", 1150, 1200)]
 
@@ -37,7 +37,7 @@ def test_short_noise_is_rejected(rate, sd, seed):
 def test_two_edges_are_not_noise_though_the_filter_smears_them():
     signal = motion(100.0)
     signal[700:725] += 30
-    mask, _ = noise.find_noise(signal, rate=100.0, settings=settings("noise", "coordinates"))
+    mask, _ = noise.find_noise(signal, rate=100.0, options=options_of("noise", "coordinates"))
     assert not mask.any()
 
 
@@ -47,7 +47,7 @@ def test_noise_up_to_a_gap_and_to_the_end():
     signal[650:700] += rng.normal(0, 5, 50)
     signal[700:720] = np.nan
     signal[-60:] += rng.normal(0, 5, 60)
-    mask, _ = noise.find_noise(signal, rate=100.0, settings=settings("noise", "coordinates"))
+    mask, _ = noise.find_noise(signal, rate=100.0, options=options_of("noise", "coordinates"))
     assert mask[655:695].all()
     assert mask[-55:-5].all()
     assert mask.sum() <= 110

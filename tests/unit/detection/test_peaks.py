@@ -8,7 +8,7 @@ import pytest
 from markermend.detection.published import peaks
 from markermend.options.detection import PeaksOptions
 from markermend.options.published import PublishedPeaksOptions
-from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
+from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, options_of, put
 
 # At the start, in the middle, before and after a gap, at the end.
 PLACES = [
@@ -71,10 +71,10 @@ def test_nothing_on_a_reach_a_frozen_marker_and_beside_gaps(rate):
 def test_the_published_order_of_median_and_difference_is_there():
     signal = motion(100.0)
     signal[700] += 20
-    mask, _ = peaks.find_peaks(signal, rate=100.0, settings=settings("peaks", "paper"))
+    mask, _ = peaks.find_peaks(signal, rate=100.0, options=options_of("peaks", "paper"))
     assert np.flatnonzero(mask).tolist() == [700]
     with pytest.raises(ValueError, match="trend"):
-        peaks.find_peaks(signal, rate=100.0, settings=replace(settings("peaks", "paper"), trend="none"))
+        peaks.find_peaks(signal, rate=100.0, options=replace(options_of("peaks", "paper"), trend_removal="none"))
 
 
 def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
@@ -110,8 +110,6 @@ def test_coordinates_are_merged_with_the_axes_that_fired(walker):
     assert [(e.start, e.stop, e.axes) for e in found["peaks"] if e.marker == "C7"] == [(300, 303, "xz")]
 
 
-def test_settings_are_those_of_the_preset():
-    assert isinstance(settings("peaks", "default"), PeaksOptions)
-    assert isinstance(settings("peaks", "paper"), PublishedPeaksOptions)
-    with pytest.raises(ValueError, match="preset"):
-        settings("peaks", "other")
+def test_options_are_those_of_the_preset():
+    assert isinstance(options_of("peaks", "default"), PeaksOptions)
+    assert isinstance(options_of("peaks", "paper"), PublishedPeaksOptions)

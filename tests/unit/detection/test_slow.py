@@ -10,7 +10,7 @@ from markermend.core.events import Event
 from markermend.detection.neighbour.drift_attribution import Company
 from markermend.detection.neighbour.drift_candidates import bar, briefly_gone
 from markermend.prediction.scene import Scene
-from support.signals import RIDGE, detect, neighbours, put, settings
+from support.signals import RIDGE, detect, neighbours, options_of, put
 
 PLACES = [("LTIAP", 182, 243), ("LANK", 386, 457), ("LUPA", 920, 989)]
 
@@ -58,7 +58,7 @@ def test_on_a_rigid_segment_the_distances_tell_whose_it_is(culprit):
     positions = np.concatenate([rigid, loose], axis=1)
     positions[200:250, culprit] += triangle(50, [0.3, 0.2, -0.1])
     scene = Scene(positions, 100.0, [np.delete(np.arange(9), m) for m in range(9)])
-    company = Company(scene, None, settings("slow", "default"), RIDGE)  # the matches do not matter
+    company = Company(scene, None, options_of("slow", "default"), RIDGE)  # the matches do not matter
     event = Event("culprit", 200, 250, 1.0, "xyz")
     for other in set(range(9)) - {culprit}:
         assert company.more_disturbed(culprit, other, event)
@@ -90,7 +90,7 @@ def test_what_is_brief_depends_on_how_long_the_event_is(stop, transient):
     positions = np.zeros((300, 3, 3))
     positions[108:112, 1] = np.nan
     scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
-    company = Company(scene, None, settings("slow", "default"), RIDGE)
+    company = Company(scene, None, options_of("slow", "default"), RIDGE)
     assert company.transient(0, Event("a", 100, stop, 2.0, "xyz")).tolist() == transient
 
 
@@ -99,7 +99,7 @@ def test_where_a_near_neighbour_is_briefly_gone_nothing_is_told():
     positions[108:112, 1] = np.nan
     positions[200:220, 2] = np.nan
     scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
-    gone = briefly_gone(scene, settings("slow", "default"))
+    gone = briefly_gone(scene, options_of("slow", "default"))
     assert gone[108:112, [0, 2]].all()
     assert np.count_nonzero(gone) == 8
 
@@ -122,5 +122,5 @@ def test_what_a_marker_does_elsewhere_too_raises_the_bar(elsewhere, expected):
     score[1000:1020] = 1.4
     for place, height in zip((200, 500, 1500), elsewhere, strict=False):
         score[place - 10 : place + 10] = np.minimum(np.r_[1:11, 10:0:-1] / 10, 1) * height
-    asked = bar(score, 1000, 1020, rate=100.0, settings=settings("slow", "default"))
+    asked = bar(score, 1000, 1020, rate=100.0, options=options_of("slow", "default"))
     assert asked == pytest.approx(expected)

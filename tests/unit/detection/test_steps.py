@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from markermend.detection.published import steps
-from support.signals import CONFIG, NOTHING, RATES, detect, detect_signal, frames, motion, put, settings
+from markermend.options.detection import StepsOptions
+from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, options_of, put
 
 PLACES = [("LWRA", 100, 150), ("C7", 400, 425), ("RKNE", 700, 860), ("RASI", 900, 908)]
 
@@ -42,7 +43,7 @@ def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
     gap[700:730] += 30
     gap[715:717] = np.nan
     for signal in (unequal, gap):
-        mask, _, alone = steps.find_steps(signal, rate=100.0, settings=settings("steps", "coordinates"))
+        mask, _, alone = steps.find_steps(signal, rate=100.0, options=options_of("steps", "coordinates"))
         assert not mask.any()
         assert alone.tolist() == [700, 730]
 
@@ -50,7 +51,7 @@ def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
 def test_the_published_shortest_step_is_longer():
     signal = motion(100.0)
     signal[700:715] += 10
-    assert not steps.find_steps(signal, rate=100.0, settings=settings("steps", "paper"))[0][700:715].any()
+    assert not steps.find_steps(signal, rate=100.0, options=options_of("steps", "paper"))[0][700:715].any()
 
 
 def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
@@ -106,13 +107,27 @@ def test_two_jumps_tell_a_step_that_neither_tells_alone(walker):
     assert detect(unpaired, only=("steps",)) == ({"steps": []}, [])
 
 
-@pytest.mark.parametrize("key", ["ratio", "weak", "whole", "held", "alike", "floor_mm", "rounds", "rivals"])
-def test_least_settings_still_find_a_clear_step(walker, monkeypatch, key):
-    monkeypatch.setitem(CONFIG["steps"]["default"], key, 0)
+@pytest.mark.parametrize(
+    "key",
+    [
+        "min_jump_ratio",
+        "single_jump_fraction",
+        "weak_min_shift_fraction",
+        "min_shift_fraction",
+        "max_imbalance_fraction",
+        "floor_mm",
+        "attribution_rounds",
+        "attribution_neighbours",
+    ],
+)
+def test_the_lowest_options_still_find_a_clear_step(walker, key):
+    lowest = replace(StepsOptions(), **{key: 0})
     positions = walker.recording.positions[:500, :12]
     few = replace(walker.recording, markers=walker.recording.markers[:12], positions=positions)
     place = (few.markers[4], 200, 260)
-    found, _ = detect(put(few, [place], lambda length: np.ones((length, 1)) * [30, 10, -20]), only=("steps",))
+    found, _ = detect(
+        put(few, [place], lambda length: np.ones((length, 1)) * [30, 10, -20]), only=("steps",), options=lowest
+    )
     assert place in [(e.marker, e.start, e.stop) for e in found["steps"]]
 
 

@@ -9,7 +9,7 @@ from markermend.core import events
 from markermend.detection.tails import detect_tails
 from markermend.options.detection import TailsOptions
 from markermend.prediction.scene import Scene
-from support.signals import CONFIG, RIDGE, neighbours
+from support.signals import RIDGE, neighbours
 
 GAPS = [("LFHD", 300, 320), ("RKNE", 700, 740), ("STRN", 200, 240)]
 
@@ -19,7 +19,7 @@ def detect(recording, near, earlier=()):
         Scene(recording.positions, recording.rate, near),
         markers=recording.markers,
         earlier=events.coordinates(earlier, recording.frames, recording.markers),
-        settings=TailsOptions(**CONFIG["tails"]),
+        options=TailsOptions(),
         predictor=RIDGE,
     )
 

@@ -15,10 +15,10 @@ def naive_radius(standardized_errors, options, probability):
     parts = [part for part in parts if part]
     grid = np.exp(np.arange(np.log(0.1), np.log(20), 2e-4))
     for distance, prior in zip(grid.tolist(), lognorm_through(options).cdf(grid).tolist(), strict=True):
-        reached = options.trials * prior
+        reached = options.prior_pseudo_gaps * prior
         for part in parts:
             reached += sum(value <= distance for value in part) / len(part)
-        if reached >= probability * (options.trials + len(parts)):
+        if reached >= probability * (options.prior_pseudo_gaps + len(parts)):
             return distance
     raise AssertionError("no such distance")
 
@@ -30,7 +30,7 @@ def lognorm_through(options):
     return lognorm(sigma, scale=np.exp(np.log(options.inner) - low * sigma))
 
 
-PRIOR = RadiusOptions(inner=1.4, outer=3.0, trials=10)
+PRIOR = RadiusOptions(inner=1.4, outer=3.0, prior_pseudo_gaps=10)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -38,7 +38,7 @@ def test_radii_equal_the_naive_quantiles_of_the_mixture(seed):
     rng = np.random.default_rng(seed)
     errors = [rng.lognormal(rng.normal(0, 0.5), 0.5, rng.integers(1, 6)) for _ in range(4)]
     errors[0][0] = np.nan
-    options = RadiusOptions(inner=1.4, outer=3.0, trials=2 + seed)
+    options = RadiusOptions(inner=1.4, outer=3.0, prior_pseudo_gaps=2 + seed)
     expected = [naive_radius(errors, options, probability) for probability in (0.68, 0.95)]
     assert coverage_radii(errors, options) == pytest.approx(expected, rel=3e-4)
 
@@ -58,7 +58,7 @@ def test_many_pseudo_gaps_tell_the_quantiles():
 
 def test_each_pseudo_gap_is_one_part_however_long():
     short, long = [np.full(1, 5.0)] * 60, [np.full(1000, 0.1)] * 40
-    inner, _ = coverage_radii([*short, *long], RadiusOptions(inner=1.4, outer=3.0, trials=1e-6))
+    inner, _ = coverage_radii([*short, *long], RadiusOptions(inner=1.4, outer=3.0, prior_pseudo_gaps=1e-6))
     assert inner == pytest.approx(5.0, rel=1e-3)
 
 
@@ -71,14 +71,16 @@ def test_few_pseudo_gaps_move_the_belief_a_little():
 def test_units_do_not_matter():
     rng = np.random.default_rng(3)
     missed = [rng.lognormal(0, 0.7, 20) for _ in range(30)]
-    scaled = coverage_radii([1000 * part for part in missed], RadiusOptions(inner=1400, outer=3000, trials=10))
+    scaled = coverage_radii(
+        [1000 * part for part in missed], RadiusOptions(inner=1400, outer=3000, prior_pseudo_gaps=10)
+    )
     assert np.array(scaled) / 1000 == pytest.approx(coverage_radii(missed, PRIOR), rel=1e-4)
 
 
-@pytest.mark.parametrize("wrong", [{"inner": 0}, {"outer": 1}, {"trials": 0}])
+@pytest.mark.parametrize("wrong", [{"inner": 0}, {"outer": 1}, {"prior_pseudo_gaps": 0}])
 def test_wrong_beliefs_are_refused(wrong):
     with pytest.raises(ValueError, match="radii"):
-        RadiusOptions(**{"inner": 1.4, "outer": 3.0, "trials": 10, **wrong})
+        RadiusOptions(**{"inner": 1.4, "outer": 3.0, "prior_pseudo_gaps": 10, **wrong})
 
 
 def test_stated_balls_hold_about_what_they_say(walker):

@@ -1,18 +1,18 @@
 """Distances to references: what is learned of them, and what follows for positions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from markermend.filling.distance_likelihood import DistanceModel
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import reference_markers
-from support.fillings import CONFIG, scene
-
-DEFAULT = CONFIG["fill"]["ensemble"]["distances"]
+from support.fillings import scene
 
 
 def options(**changed):
-    return DistanceOptions(**{**DEFAULT, **changed})
+    return replace(DistanceOptions(), **changed)
 
 
 @pytest.fixture
@@ -22,7 +22,7 @@ def body(walker):
 
 def test_the_steadiest_markers_are_the_references(body):
     own = options(references=2, spacing_references=4)
-    ranked, _ = reference_markers(scene(body), 9, frames=own.frames, minimum_frames=own.minimum_frames)
+    ranked, _ = reference_markers(scene(body), 9, frames=own.max_frames, minimum_frames=own.min_frames)
     learned = DistanceModel.estimate(scene(body), 9, own)
     assert learned.references.tolist() == ranked[:4].tolist()
     for reference, density in zip(learned.references, learned.densities, strict=True):

@@ -30,13 +30,13 @@ def reason(start, stop, *, facts=None, ruling=None, blanked=(), **limits):
         ((0, 20), {}, Cause.AT_END, "at the recording's start", None),
         ((590, 600), {}, Cause.AT_END, "at the recording's end", None),
         ((0, 600), {}, Cause.NEVER_SEEN, "never seen", None),
-        ((50, 500), {}, Cause.SELDOM_SEEN, "marker seen in 25% of the frames (fill.seen_share: 0.3)", (0.3, 0.25)),
+        ((50, 500), {}, Cause.SELDOM_SEEN, "marker seen in 25% of the frames (fill.min_seen_share: 0.3)", (0.3, 0.25)),
         ((200, 220), {"protect": ["?1", "NECK"]}, Cause.PROTECTED, "protected marker", None),
         (
             (1, 20),
             {"border_s": 0.05},
             Cause.BORDER,
-            "not seen on both sides for long enough (fill.border_s: 0.05)",
+            "not seen on both sides for long enough (advanced.fill.border_s: 0.05)",
             (0.05, 0.01),
         ),
     ],
@@ -49,7 +49,12 @@ def test_what_stays_open_says_why(gap, limits, cause, text, limit):
 
 @pytest.mark.parametrize(
     ("gap", "limits"),
-    [((200, 220), {}), ((0, 20), {"ends": True}), ((100, 350), {"max_gap_s": None}), ((2, 20), {"border_s": 0.02})],
+    [
+        ((200, 220), {}),
+        ((0, 20), {"fill_ends": True}),
+        ((100, 350), {"max_gap_s": None}),
+        ((2, 20), {"border_s": 0.02}),
+    ],
 )
 def test_what_may_be_filled_has_no_reason(gap, limits):
     assert reason(*gap, **limits) is None

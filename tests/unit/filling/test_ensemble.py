@@ -10,8 +10,9 @@ from markermend.filling.ensemble import Ensemble
 from markermend.filling.gap import Gap
 from markermend.filling.member_weights import expected_errors, inverse_power_weights, squared_errors, typical_errors
 from markermend.filling.pseudo_gaps import pseudo_gaps
+from markermend.options.filling import DistanceOptions
 from markermend.prediction.scene import Prediction
-from support.fillings import CONFIG, ensemble, ensemble_options, predictor, rigid_body, scene
+from support.fillings import ensemble, ensemble_options, predictor, rigid_body, scene
 
 
 @dataclass
@@ -65,8 +66,8 @@ def naive_evaluation(own, seen, gap):
         seen,
         gap,
         count=options.pseudo_gaps,
-        hidden_share=options.hidden_share,
-        neighbours=options.similar_neighbours,
+        hidden_share=options.max_hidden_share,
+        neighbours=options.compared_neighbours,
     )
     predicted = [
         [member.predict(trial.scene, gap.marker, trial.gap.start, trial.gap.stop) for member in own.members]
@@ -79,18 +80,21 @@ def naive_evaluation(own, seen, gap):
         squares = squared_errors([trials[k].truth for k in chosen], [positions[k] for k in chosen], len(own.members))
         typical = typical_errors(squares)
         return typical, inverse_power_weights(
-            typical, power=options.power, max_ratio=options.worst, min_error_mm=options.error_mm
+            typical, power=options.error_power, max_ratio=options.max_error_ratio, min_error_mm=options.min_error_mm
         )
 
     missed, squares = [], []
     for k, trial in enumerate(trials):
         others = [other for other in range(len(trials)) if other != k]
-        mean, deviation, _ = naive_average(positions[k], errors[k], *weigh(others), options.error_mm)
+        mean, deviation, _ = naive_average(positions[k], errors[k], *weigh(others), options.min_error_mm)
         missed.append([np.linalg.norm(mean[n] - trial.truth[n]) / deviation[n] for n in range(len(mean))])
         squares.append(np.mean([value**2 for value in missed[k]]) / 3)
 
     def scale(chosen):
-        return np.sqrt((options.prior + sum(squares[k] for k in chosen)) / (options.prior + len(chosen)))
+        return np.sqrt(
+            (options.stated_error_weight + sum(squares[k] for k in chosen))
+            / (options.stated_error_weight + len(chosen))
+        )
 
     every = range(len(trials))
     scaled = [np.array(missed[k]) / scale([other for other in every if other != k]) for k in every]
@@ -107,7 +111,7 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
         Noisy("dddd", truth, 9.0),
         Noisy("eeeee", truth, 0.3, misses=0.3),
     ]
-    own = Ensemble(members, members, ensemble_options(fallback=[], longest_s={}))
+    own = Ensemble(members, members, ensemble_options(fallback_members=(), max_gap_s_of_member={}))
     gap = Gap(2, 120 + seed, 150)
     positions = truth.copy()
     positions[gap.samples] = np.nan
@@ -127,7 +131,7 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
         np.stack([each.error[1:-1] for each in predicted]),
         typical,
         weights,
-        own.options.error_mm,
+        own.options.min_error_mm,
     )
     assert np.allclose(filled.positions, mean)
     assert filled.deviation == pytest.approx(scale * deviation)
@@ -138,14 +142,14 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
 
 def test_the_deviation_inherits_that_of_filled_neighbours():
     truth = rigid_body()
-    own = Ensemble([Noisy("a", truth, 0.5)], [Noisy("a", truth, 0.5)], ensemble_options(longest_s={}))
+    own = Ensemble([Noisy("a", truth, 0.5)], [Noisy("a", truth, 0.5)], ensemble_options(max_gap_s_of_member={}))
     gap, rng = Gap(2, 120, 150), np.random.default_rng(1)
     seen = scene(truth)
     inherited = np.where(rng.random(truth.shape[:2]) < 0.3, rng.uniform(0, 5, truth.shape[:2]), 0.0)
     weights = own.evaluate(seen, gap)
     plain = own.fill(seen, gap, weights)
     found = own.fill(replace(seen, inherited_std=inherited), gap, weights)
-    nearest = seen.neighbours[2][: CONFIG["fill"]["ensemble"]["distances"]["references"]]
+    nearest = seen.neighbours[2][: DistanceOptions().references]
     for n in range(30):
         common = sum(inherited[120 + n, other] for other in nearest) / len(nearest)
         assert found.deviation[n] == pytest.approx(np.sqrt(plain.deviation[n] ** 2 + common**2))
@@ -163,7 +167,7 @@ def test_distances_are_modelled_only_where_they_are_used(weights, rounds, used, 
         return estimate(*args)
 
     monkeypatch.setattr(DistanceModel, "estimate", watched)
-    distances = {**CONFIG["fill"]["ensemble"]["distances"], "spacing_rounds": rounds}
+    distances = DistanceOptions(spacing_rounds=rounds)
     own = ensemble(["local_ridge", "spline"], weights=weights, distances=distances)
     seen, gap = scene(rigid_body()), Gap(2, 120, 150)
     own.fill(seen, gap, own.evaluate(seen, gap))
@@ -172,10 +176,10 @@ def test_distances_are_modelled_only_where_they_are_used(weights, rounds, used, 
 
 def test_the_better_member_gets_the_weight(walker):
     seen = scene(walker.recording.positions)
-    both = ensemble(["local_ridge", "spline"], longest_s={})
+    both = ensemble(["local_ridge", "spline"], max_gap_s_of_member={})
     long = both.fill(seen, Gap(7, 400, 600), both.evaluate(seen, Gap(7, 400, 600)))
     assert long.weights["local_ridge"] > 0.9
-    equal = ensemble(["local_ridge", "spline"], weights="equal", longest_s={})
+    equal = ensemble(["local_ridge", "spline"], weights="equal", max_gap_s_of_member={})
     halves = equal.fill(seen, Gap(7, 400, 420), equal.evaluate(seen, Gap(7, 400, 420)))
     assert halves.weights == pytest.approx({"local_ridge": 0.5, "spline": 0.5})
     single = [predictor(name).predict(seen, 7, 400, 420).positions[1:-1] for name in ("local_ridge", "spline")]
@@ -208,7 +212,7 @@ def test_a_fallback_predicts_only_where_no_other_can(walker):
     positions = walker.recording.positions[:800].copy()
     near = [int(other) for other in scene(positions).neighbours[7]]
     names = ["local_ridge", "linear_regression"]
-    last, alike = (ensemble(names, fallback=each) for each in (["linear_regression"], []))
+    last, alike = (ensemble(names, fallback_members=each) for each in (["linear_regression"], []))
     alone = scene(positions)
     usual = last.fill(alone, Gap(7, 300, 330), last.evaluate(alone, Gap(7, 300, 330)))
     assert list(usual.weights) == ["local_ridge"]
@@ -226,7 +230,7 @@ def test_gaps_of_many_kinds_share_the_most_similar_kind(walker):
     places = [(40 + 30 * k, near[: k + 1]) for k in range(6)]
     for start, lost in places:
         positions[start : start + 10, [7, *lost]] = np.nan
-    seen, own, known = scene(positions), ensemble(["spline"], most_sorts=4), []
+    seen, own, known = scene(positions), ensemble(["spline"], max_gap_kinds=4), []
     for start, lost in places[:4]:
         known.append(own.kind(seen, Gap(7, start, start + 10), known))
         assert known[-1].absent == set(lost)

@@ -11,10 +11,10 @@ from markermend.core.reasons import Cause
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS
 from markermend.filling.fill import fill_gaps
 from markermend.mesh.inference import infer_mesh
+from markermend.options.mesh import MeshOptions
 from support import bodies
 from support.fillings import fill as fill_with_defaults
-from support.fillings import fill_options, neighbours, restored, rigid_body, settings
-from support.paths import PROJECT
+from support.fillings import fill_options, neighbours, restored, rigid_body
 from support.treated import treated, weights
 
 QUICK = ["local_ridge", "local_interpolation", "spline"]
@@ -117,7 +117,7 @@ def test_a_change_states_how_a_gap_was_filled(person):
 
 def test_ends_are_filled_on_request(person):
     recording = gapped(person, (7, 0, 30), (12, 570, 600))
-    result = fill(recording, person[2], ends=True)
+    result = fill(recording, person[2], fill_ends=True)
     assert len(result.fills) == 2
     assert np.linalg.norm((result.positions - person[0])[recording.missing], axis=1).mean() < 25
 
@@ -147,7 +147,7 @@ def test_no_marker_need_be_complete_and_reuse_is_optional(torso):
     everything = range(torso[0].shape[1])
     recording = gapped(torso, *((m, 20 + 10 * m, 32 + 10 * m) for m in everything))
     for reuse in (True, False):
-        result = fill(recording, torso[2], averaging={"pseudo_gaps": 2}, reuse=reuse)
+        result = fill(recording, torso[2], averaging={"pseudo_gaps": 2}, reuse_filled=reuse)
         assert len(result.fills) == len(everything)
         assert np.linalg.norm((result.positions - torso[0])[recording.missing], axis=1).mean() < 8
 
@@ -178,9 +178,9 @@ def test_the_result_is_the_same_every_time(person):
 
 def test_the_entry_function_takes_neighbours_from_the_mesh_and_members_from_the_options(person):
     recording = gapped(person, (7, 200, 240))
-    mesh = infer_mesh([bodies.recording(person[1], person[0])], **bodies.options(PROJECT))
+    mesh = infer_mesh([bodies.recording(person[1], person[0])], options=MeshOptions())
     options = fill_options(members=["spline"])
-    result = fill_gaps(recording, mesh, options=options, predictors=settings())
+    result = fill_gaps(recording, mesh, options=options)
     assert [change.method for change in result.changes] == ["spline"]
     near = mesh.neighbour_indices(recording.markers)
     assert np.array_equal(result.recording.positions, fill(recording, near, members=["spline"]).positions)
@@ -203,7 +203,7 @@ class TestDecisions:
             {"max_gap_s": 0.1},
             {"max_error_mm": 0.001},
             {"max_altered_share": 0.00001},
-            {"seen_share": 0.99},
+            {"min_seen_share": 0.99},
             {"border_s": 2.5},
         ],
         ids=str,

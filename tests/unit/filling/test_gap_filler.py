@@ -34,7 +34,7 @@ class Recorder:
 def filled(errors=None, *, name="recorder", max_error_mm=None, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0):
     member = Recorder(errors or {}, name)
     # Without pseudo-gaps the prior radii stand.
-    ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, longest_s={}))
+    ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
     positions = rigid_body()
     for gap in gaps:
         positions[gap.samples] = np.nan
@@ -78,7 +78,7 @@ def test_an_input_may_turn_out_too_uncertain_once_the_radii_are_calibrated():
     # The scale of the only gap's kind comes from its own pseudo-gaps, the radii from how these differ.
     result, _, growing = filled(trials=2, gaps=(FIRST,))
     deviation = result.accepted[FIRST].deviation.max()
-    prior = ensemble_options().radius["inner"]
+    prior = ensemble_options().radius.inner
     assert result.radii[0] > prior
     limit = deviation * (prior + result.radii[0]) / 2
     result, _, growing = filled(trials=2, gaps=(FIRST,), max_error_mm=limit)

@@ -1,13 +1,15 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from markermend.mesh.inference import group_recordings, infer_mesh, infer_meshes
-from support.bodies import adjusted_rand_index, labels, options, recording, subject
-from support.paths import PROJECT
+from markermend.options.mesh import MeshOptions
+from support.bodies import adjusted_rand_index, labels, recording, subject
 
-OPTIONS = options(PROJECT)
+OPTIONS = MeshOptions()
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +19,7 @@ def chain():
 
 @pytest.fixture(scope="module")
 def chain_mesh(chain):
-    return infer_mesh([recording(*chain[:2])], **OPTIONS)
+    return infer_mesh([recording(*chain[:2])], options=OPTIONS)
 
 
 def edges(mesh):
@@ -41,7 +43,7 @@ def test_a_chain_of_rigid_bodies_gives_exact_segments_and_tree(chain, chain_mesh
 def test_a_branching_body_gives_exact_segments_and_tree(seed):
     tree = (None, 0, 1, 0, 3, 0)
     names, positions, owners = subject(seed, tree=tree, frames=3000)
-    mesh = infer_mesh([recording(names, positions)], **OPTIONS)
+    mesh = infer_mesh([recording(names, positions)], options=OPTIONS)
     assert adjusted_rand_index(labels(mesh, names), owners) == 1.0
     own = {s: tuple(n for n, o in zip(names, owners, strict=True) if o == s) for s in set(owners)}
     joined = {frozenset((own[s], own[p])) for s, p in enumerate(tree) if p is not None}
@@ -51,7 +53,7 @@ def test_a_branching_body_gives_exact_segments_and_tree(seed):
 def test_the_residual_is_the_deviation_of_a_marker_per_axis(chain):
     names, positions, _ = chain
     shaking = positions + np.random.default_rng(2).normal(0, 2, positions.shape)
-    mesh = infer_mesh([recording(names, shaking)], **OPTIONS)
+    mesh = infer_mesh([recording(names, shaking)], options=OPTIONS)
     assert [s.residual_mm for s in mesh.segments] == pytest.approx([2.0] * 5, rel=0.1)
 
 
@@ -77,7 +79,7 @@ def test_two_subjects_and_a_prop_are_separate():
     seconds = np.arange(1500) / 100
     ball = np.stack((2000 * np.sin(seconds), -900 + 700 * np.cos(1.3 * seconds), 1000 + 400 * np.sin(2 * seconds)), 1)
     both = np.concatenate((positions, elsewhere[::-1], ball[:, None], ball[:, None] + 40.0), axis=1)
-    mesh = infer_mesh([recording([*names, *others, "ball", "ball2"], both)], **OPTIONS)
+    mesh = infer_mesh([recording([*names, *others, "ball", "ball2"], both)], options=OPTIONS)
     component = {marker: s.component for s in mesh.segments for marker in s.markers}
     assert {component[n] for n in names} | {component[n] for n in others} == {0, 1}
     assert component[names[0]] != component[others[0]]
@@ -95,8 +97,8 @@ def test_marker_order_and_laboratory_axes_do_not_matter(seed):
     order = rng.permutation(len(names))
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     moved = recording([names[i] for i in order], (positions @ turn + rng.uniform(-1e3, 1e3, 3))[:, order])
-    plain = infer_mesh([recording(names, positions)], **OPTIONS)
-    other = infer_mesh([moved], **OPTIONS)
+    plain = infer_mesh([recording(names, positions)], options=OPTIONS)
+    other = infer_mesh([moved], options=OPTIONS)
     assert other.predictors == plain.predictors
     assert other.neighbours == plain.neighbours
     assert [(s.markers, s.parent, s.parent_marker) for s in other.segments] == [
@@ -108,7 +110,7 @@ def test_a_fifth_missing_at_random_changes_little(chain, chain_mesh):
     names, positions, _ = chain
     spoilt = positions.copy()
     spoilt[np.random.default_rng(3).random(spoilt.shape[:2]) < 0.2] = np.nan
-    mesh = infer_mesh([recording(names, spoilt)], **OPTIONS)
+    mesh = infer_mesh([recording(names, spoilt)], options=OPTIONS)
     assert adjusted_rand_index(labels(mesh, names), labels(chain_mesh, names)) >= 0.8
     assert edges(mesh) == edges(chain_mesh)
 
@@ -120,13 +122,13 @@ def test_artifacts_change_little(chain, chain_mesh):
     for m in range(len(names)):
         start = rng.integers(0, 1400)
         spoilt[start : start + 60, m] += rng.normal(0, 40, 3)
-    assert edges(infer_mesh([recording(names, spoilt)], **OPTIONS)) == edges(chain_mesh)
+    assert edges(infer_mesh([recording(names, spoilt)], options=OPTIONS)) == edges(chain_mesh)
 
 
 def test_a_subject_that_stands_still_is_warned_about(chain):
     names, positions, _ = chain
     still = positions[:300] * 0.02 + positions[0]
-    mesh = infer_mesh([recording(names, still)], **OPTIONS)
+    mesh = infer_mesh([recording(names, still)], options=OPTIONS)
     assert [w.split(":")[0] for w in mesh.warnings] == [
         "only 3.0 s of motion (10 s wanted)",
         f"only {len(mesh.segments)} segments for 20 markers (4 wanted)",
@@ -139,14 +141,14 @@ def test_a_subject_that_stands_still_is_warned_about(chain):
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_recordings_of_few_markers(chain, count):
     names, positions, _ = chain
-    mesh = infer_mesh([recording(names[:count], positions[:, :count])], **OPTIONS)
+    mesh = infer_mesh([recording(names[:count], positions[:, :count])], options=OPTIONS)
     assert [s.markers for s in mesh.segments] == [tuple(names[:count])]
     assert [set(mesh.predictors[n]) for n in names[:count]] == [set(names[:count]) - {n} for n in names[:count]]
     assert (mesh.segments[0].parent, mesh.segments[0].parent_marker) == (None, None)
 
 
 def test_no_markers_at_all():
-    mesh = infer_mesh([recording([], np.empty((100, 0, 3)))], **OPTIONS)
+    mesh = infer_mesh([recording([], np.empty((100, 0, 3)))], options=OPTIONS)
     assert (mesh.segments, mesh.predictors) == ((), {})
 
 
@@ -155,7 +157,7 @@ def test_hardly_seen_markers_have_empty_lists(chain, frames):
     names, positions, _ = chain
     spoilt = positions.copy()
     spoilt[frames:, 2] = np.nan
-    mesh = infer_mesh([recording(names, spoilt)], **OPTIONS)
+    mesh = infer_mesh([recording(names, spoilt)], options=OPTIONS)
     assert mesh.segment_of(names[2]) is None
     assert mesh.predictors[names[2]] == mesh.neighbours[names[2]] == ()
     assert all(names[2] not in near for near in (*mesh.predictors.values(), *mesh.neighbours.values()))
@@ -164,7 +166,7 @@ def test_hardly_seen_markers_have_empty_lists(chain, frames):
 
 @pytest.mark.parametrize("positions", [np.full((100, 3, 3), np.nan), np.zeros((0, 3, 3)), np.ones((20, 3, 3))])
 def test_nothing_to_infer_from(positions):
-    mesh = infer_mesh([recording("abc", positions)], **OPTIONS)
+    mesh = infer_mesh([recording("abc", positions)], options=OPTIONS)
     assert mesh.segments == ()
     assert mesh.predictors == {"a": (), "b": (), "c": ()}
 
@@ -172,17 +174,17 @@ def test_nothing_to_infer_from(positions):
 def test_identical_trajectories_are_one_segment(chain):
     names, positions, _ = chain
     twice = np.concatenate((positions, positions[:, :1]), axis=1)
-    mesh = infer_mesh([recording([*names, "copy"], twice)], **OPTIONS)
+    mesh = infer_mesh([recording([*names, "copy"], twice)], options=OPTIONS)
     assert mesh.segment_of("copy") == mesh.segment_of(names[0])
     assert mesh.predictors["copy"][0] == names[0]
-    same = infer_mesh([recording("abcd", np.repeat(positions[:, :1], 4, axis=1))], **OPTIONS)
+    same = infer_mesh([recording("abcd", np.repeat(positions[:, :1], 4, axis=1))], options=OPTIONS)
     assert [s.markers for s in same.segments] == [("a", "b", "c", "d")]
 
 
 def test_markers_never_seen_together_are_strangers():
     positions = subject(1)[1][:, :2].copy()
     positions[:700, 0] = positions[700:, 1] = np.nan
-    mesh = infer_mesh([recording("ab", positions)], **OPTIONS)
+    mesh = infer_mesh([recording("ab", positions)], options=OPTIONS)
     assert [(s.markers, s.component) for s in mesh.segments] == [(("a",), 0), (("b",), 1)]
     assert mesh.predictors == {"a": (), "b": ()}
 
@@ -193,7 +195,7 @@ def test_recordings_are_pooled_and_their_order_does_not_matter(chain, chain_mesh
     second = recording(names, positions[700:], name="b")
     static = recording(names, np.repeat(positions[:1], 500, axis=0), name="c", kind="static")
     one, other = (
-        infer_meshes(group, supplied=[], marker_overlap=0.8, **OPTIONS)
+        infer_meshes(group, supplied=[], options=OPTIONS)
         for group in ([first, second, static], [static, second, first])
     )
     assert one == other
@@ -201,8 +203,8 @@ def test_recordings_are_pooled_and_their_order_does_not_matter(chain, chain_mesh
     assert edges(one[0]) == edges(chain_mesh)
     assert one[0].absent == {"a": (names[0],)}
     assert one[0].warnings == ()
-    assert one[0].segments == infer_mesh([first, second], **OPTIONS).segments
-    alone = infer_mesh([static], **OPTIONS)
+    assert one[0].segments == infer_mesh([first, second], options=OPTIONS).segments
+    alone = infer_mesh([static], options=OPTIONS)
     assert len(alone.segments) == 1
     assert len(alone.warnings) >= 2
 
@@ -221,5 +223,5 @@ def test_recordings_with_other_markers_get_a_mesh_of_their_own():
 def test_inputs_stay_as_they_are(chain):
     names, positions, _ = chain
     whole = recording(names, positions)
-    infer_mesh([whole], **{**OPTIONS, "frames": 200})
+    infer_mesh([whole], options=replace(OPTIONS, max_frames=200))
     np.testing.assert_array_equal(whole.positions, positions)

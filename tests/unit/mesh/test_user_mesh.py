@@ -6,10 +6,10 @@ import pytest
 from markermend.core.recording import BadRecording
 from markermend.mesh import user_mesh
 from markermend.mesh.inference import infer_mesh, infer_meshes
-from support.bodies import options, recording, subject
-from support.paths import PROJECT
+from markermend.options.mesh import MeshOptions
+from support.bodies import recording, subject
 
-OPTIONS = options(PROJECT)
+OPTIONS = MeshOptions()
 UPPER = {"name": "upper", "markers": ["0a", "0b", "0c", "0d", "1a", "1b"], "parent": None, "parent_marker": None}
 LOWER = {"name": "lower", "markers": ["1c", "1d", "2a", "2b", "2c", "2d"], "parent": 0, "parent_marker": "1a"}
 
@@ -25,8 +25,8 @@ def own():
 
 
 def test_the_supplied_mesh_wins_and_its_statistics_come_from_the_data(body, own):
-    supplied = infer_mesh([recording(*body)], supplied=own, **OPTIONS)
-    inferred = infer_mesh([recording(*body)], **OPTIONS)
+    supplied = infer_mesh([recording(*body)], supplied=own, options=OPTIONS)
+    inferred = infer_mesh([recording(*body)], options=OPTIONS)
     assert [(s.name, list(s.markers), s.parent) for s in supplied.segments] == [
         ("upper", UPPER["markers"], None),
         ("lower", LOWER["markers"], 0),
@@ -43,15 +43,13 @@ def test_it_serves_only_recordings_with_its_markers(body, own):
     names, positions = body
     mine, other = recording(names, positions, name="mine"), recording(["p", "q"], positions[:, :2], name="other")
     static = recording([*names, "medial"], np.pad(positions, ((0, 0), (0, 1), (0, 0))), name="static", kind="static")
-    meshes = infer_meshes([other, static, mine], supplied=[own], marker_overlap=0.8, **OPTIONS)
+    meshes = infer_meshes([other, static, mine], supplied=[own], options=OPTIONS)
     assert [(m.recordings, m.segments[0].name) for m in meshes] == [(("mine", "static"), "upper"), (("other",), "p+q")]
     closer = user_mesh.parse({"segments": [{**UPPER, "name": "all", "markers": names}]}, "closer.json")
     for both in ([own, closer], [closer, own]):
-        assert (
-            infer_meshes([mine], supplied=both, marker_overlap=0.8, **OPTIONS)[0].segments[0].name == both[0].names[0]
-        )
+        assert infer_meshes([mine], supplied=both, options=OPTIONS)[0].segments[0].name == both[0].names[0]
     partial = user_mesh.parse({"segments": [{**UPPER, "name": "most", "markers": names[:-1]}]}, "partial.json")
-    assert infer_meshes([mine], supplied=[partial, own], marker_overlap=0.8, **OPTIONS)[0].segments[0].name == "upper"
+    assert infer_meshes([mine], supplied=[partial, own], options=OPTIONS)[0].segments[0].name == "upper"
 
 
 def test_markers_that_the_mesh_does_not_name_hang_on_the_nearest(body):
@@ -60,14 +58,14 @@ def test_markers_that_the_mesh_does_not_name_hang_on_the_nearest(body):
     far = np.random.default_rng(1).normal(0, 3000, (len(positions), 1, 3))
     beside = positions[:, -1:] + 20.0
     more = recording([*names, "beside", "far"], np.concatenate((positions, beside, far), axis=1))
-    mesh = infer_mesh([more], supplied=own, **OPTIONS)
+    mesh = infer_mesh([more], supplied=own, options=OPTIONS)
     extra = {s.markers: s for s in mesh.segments[2:]}
     assert extra[("beside",)].parent == 1
     assert extra[("beside",)].parent_marker == names[-1]
     assert extra[("far",)].parent is extra[("far",)].parent_marker is None
     assert (extra[("beside",)].component, extra[("far",)].component) == (0, 1)
     assert mesh.predictors["beside"][0] == names[-1]
-    assert len(mesh.predictors["beside"]) == OPTIONS["minimum_predictors"]
+    assert len(mesh.predictors["beside"]) == OPTIONS.min_predictors
     assert mesh.warnings == ("not named in the mesh file, hung on the nearest: beside, far",)
 
 
@@ -75,7 +73,7 @@ def test_markers_and_segments_that_no_recording_holds_are_left_out(body):
     gone = {"name": "gone", "markers": ["x", "y"], "parent": 0, "parent_marker": "0a"}
     lower = {**LOWER, "parent": "gone", "parent_marker": "x", "markers": [*LOWER["markers"], "z"]}
     own = user_mesh.parse({"segments": [UPPER, gone, lower]}, "own.json")
-    mesh = infer_mesh([recording(*body)], supplied=own, **OPTIONS)
+    mesh = infer_mesh([recording(*body)], supplied=own, options=OPTIONS)
     assert [(s.name, s.parent, list(s.markers)) for s in mesh.segments[1:]] == [("lower", 0, LOWER["markers"])]
     assert mesh.segments[1].parent_marker in UPPER["markers"]
     assert mesh.warnings == ("named in the mesh file, held by no recording: x, y, z",)
@@ -83,18 +81,18 @@ def test_markers_and_segments_that_no_recording_holds_are_left_out(body):
 
 def test_it_holds_where_there_are_too_few_frames_to_infer(body, own):
     names, positions = body
-    mesh = infer_mesh([recording(names, positions[:10])], supplied=own, **OPTIONS)
+    mesh = infer_mesh([recording(names, positions[:10])], supplied=own, options=OPTIONS)
     assert [list(s.markers) for s in mesh.segments] == [UPPER["markers"], LOWER["markers"]]
     assert mesh.predictors["1c"] == ("1d", "2a", "2b", "2c", "2d", "1a")
     assert mesh.segments[1].edge_cost is None
 
 
 def test_an_inferred_mesh_can_be_supplied_again(body, tmp_path):
-    inferred = infer_mesh([recording(*body)], **OPTIONS)
+    inferred = infer_mesh([recording(*body)], options=OPTIONS)
     path = tmp_path / "mesh.json"
     path.write_text(json.dumps({"meshes": [inferred.as_json()]}))
     (own,) = user_mesh.read(path)
-    assert infer_mesh([recording(*body)], supplied=own, **OPTIONS) == inferred
+    assert infer_mesh([recording(*body)], supplied=own, options=OPTIONS) == inferred
 
 
 @pytest.mark.parametrize(

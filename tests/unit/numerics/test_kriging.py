@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise_variance
+from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.marker_selection import pseudo_random_subset
-from support.fillings import CONFIG
 from support.naive import numerics as naive
 
-SCALES = np.array(CONFIG["local_ridge"]["scales_s"])
+SCALES = np.array(LocalRidgeOptions().correlation_times_s)
 
 
 @pytest.fixture

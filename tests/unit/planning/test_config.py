@@ -1,34 +1,9 @@
 import re
-import shlex
 
 import pytest
-import yaml
 
 from markermend.planning import config as planning_config
 from markermend.planning.recordings import BadDataSet
-from support.paths import PROJECT
-
-
-def test_flags_carry_every_kind_of_value():
-    section = {
-        "cut_mm": 12,
-        "share": 0.1,
-        "deep": True,
-        "limit": None,
-        "names": ["static", "a b", "{x}"],
-        "none": [],
-        "prior": {"b": 1, "a": [2]},
-        "dash": "-x",
-    }
-    assert shlex.split(planning_config.flags(section, without=["share"])) == [
-        "--cut-mm=12",
-        "--deep=true",
-        "--limit=none",
-        '--names=["static", "a b", "{x}"]',
-        "--none=[]",
-        '--prior={"a": [2], "b": 1}',
-        "--dash=-x",
-    ]
 
 
 @pytest.mark.parametrize(
@@ -76,23 +51,19 @@ def test_failures_are_counted_by_subject_recording_and_stage(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("keys", "value", "words"),
+    ("config", "words"),
     [
-        (("fill", "members"), ["spline", "nope"], "fill.members: 'nope'"),
-        (("repair", "methods", "peaks"), ["linear_regression"], "repair.methods.peaks: 'linear_regression'"),
-        (("ingest", "static_names"), ["("], "no regular expression"),
-        (("fill", "max_gap_s"), float("nan"), "fill.max_gap_s: nan"),
+        ({"fill": {"members": ["spline", "splin"]}}, "fill.members: there is no 'splin'; did you mean spline?"),
+        ({"repair": {"methods": {"peaks": ["nope"]}}}, "repair.methods.peaks: there is no 'nope'; known are exchange"),
+        ({"ingest": {"static_names": ["("]}}, "not a regular expression"),
+        ({"fill": {"max_gap_s": float("nan")}}, "fill.max_gap_s: nan"),
+        ({"fill": {"ends": True}}, "fill.ends: this is now fill.fill_ends"),
     ],
 )
-def test_names_and_numbers_that_no_schema_can_judge(keys, value, words):
-    config = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
-    planning_config.judge(config, deployed=False)
-    place = config
-    for key in keys[:-1]:
-        place = place[key]
-    place[keys[-1]] = value
+def test_what_every_recording_would_fail_on_is_refused(config, words):
+    assert planning_config.check({}, deployed=False)["fill"].max_gap_s == 2
     with pytest.raises(BadDataSet, match=re.escape(words)):
-        planning_config.judge(config, deployed=False)
+        planning_config.check(config, deployed=False)
 
 
 @pytest.mark.parametrize("name", ["a{b}", "a<b>c"])
@@ -102,9 +73,9 @@ def test_results_that_snakemake_takes_for_a_pattern_are_refused(name):
 
 
 def test_a_person_may_decide_on_every_method_that_the_stages_can_run():
-    config = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
-    known = planning_config.methods(config)
+    options = planning_config.check({}, deployed=True)
+    known = planning_config.methods(options)
     assert {"separate_step", "blank", "spline", "local_ridge", "local_ridge_wide", "kalman"} <= set(known)
     assert "network_lstm" not in known and len(set(known)) == len(known)
-    config["fill"]["members"] = ["network_lstm"]
-    assert "network_lstm" in planning_config.methods(config)
+    options = planning_config.check({"fill": {"members": ["network_lstm"]}}, deployed=True)
+    assert "network_lstm" in planning_config.methods(options)

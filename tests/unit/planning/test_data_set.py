@@ -4,6 +4,8 @@ import os
 
 import pytest
 
+from markermend.options.config import read_config
+from markermend.options.general import GeneralOptions
 from markermend.planning import data_set
 from markermend.planning.recordings import BadDataSet, Entry
 from support.paths import PROJECT
@@ -83,14 +85,19 @@ def test_a_name_that_is_not_utf_8_cannot_be_an_input(tmp_path):
     assert data_set.nameable(os.fsdecode(path)) is False
 
 
-def test_a_table_of_decisions_need_not_be_there_unless_it_was_named(tmp_path, monkeypatch, config):
+def decided_by(name):
+    """The options with another table of decisions."""
+    return read_config({"decisions": name})
+
+
+def test_a_table_of_decisions_need_not_be_there_unless_it_was_named(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     entries = [entry("S01", "walk")]
-    for name in (None, config["decisions"]):
-        assert data_set.find_decisions({**config, "decisions": name}, entries, project=PROJECT) == ({}, [])
+    for name in (None, GeneralOptions().decisions):
+        assert data_set.find_decisions(decided_by(name), entries) == ({}, [])
     with pytest.raises(OSError, match=r"other\.tsv"):
-        data_set.find_decisions({**config, "decisions": "other.tsv"}, entries, project=PROJECT)
+        data_set.find_decisions(decided_by("other.tsv"), entries)
     (tmp_path / "other.tsv").write_text("recording\tmarker\tdecision\nwalk\tM1\tprotect\nrun\tM1\tprotect\n")
-    decided, warnings = data_set.find_decisions({**config, "decisions": "other.tsv"}, entries, project=PROJECT)
+    decided, warnings = data_set.find_decisions(decided_by("other.tsv"), entries)
     assert [line["marker"] for line in decided["S01", "walk"]] == ["M1"]
     assert len(warnings) == 1 and "'run'" in warnings[0]

@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from markermend.core.artifacts import CLASSES
+from markermend.options.config import SECTIONS
+from markermend.options.flags import stage_options
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
 from support.paths import PROJECT
@@ -58,7 +60,7 @@ def test_an_original_is_an_input_or_is_known_by_its_content(plan, tmp_path):
 def test_what_the_table_says_of_a_recording_becomes_flags(plan):
     run = job(recording="run")
     flags = [flag(run) for flag in (plan.subject_flag, plan.recording_flag, plan.kind_flag, plan.rate_flag)]
-    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120.0"]
+    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120"]
     assert plan.rate_flag(job()) == "--rate=none"
 
 
@@ -98,17 +100,18 @@ def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan
     assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
 
 
-def test_options_are_flags_of_the_section_and_of_those_it_shares(plan, config):
-    flags = dict(flag[2:].split("=", 1) for flag in shlex.split(plan.options("repair", "protect")(job())))
-    assert set(flags) == {name.replace("_", "-") for name in (*config["repair"], "protect")}
-    without = plan.options("mesh", without=["files"])(job())
-    assert "--files" not in without and "--frames=" in without
+@pytest.mark.parametrize("stage", ["ingest", "mesh", *CLASSES, "repair", "fill", "export", "qc", "report"])
+def test_every_stage_gets_its_options_as_flags(plan, stage):
+    names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]
+    assert names == [option.name.replace("_", "-") for option in stage_options(SECTIONS[stage])]
 
 
-def test_every_detector_gets_its_section(plan, config):
-    for stage in CLASSES:
-        names = {flag[2:].partition("=")[0] for flag in shlex.split(plan.detector_options(stage)(job()))}
-        assert {name.replace("_", "-") for name in config[stage]} <= names
+def test_an_option_reaches_the_stages_that_read_it_and_no_other(plan, config):
+    config["advanced"]["predictors"]["polynomial"]["lags"] = 2
+    other = make_plan(config, PROJECT, deployed=False)
+    stages = [name for name in SECTIONS if name not in ("general", "predictors")]
+    changed = [name for name in stages if plan.stage_options(name)(job()) != other.stage_options(name)(job())]
+    assert changed == ["slow", "repair", "fill"]
 
 
 def test_code_is_the_script_its_modules_and_what_else_it_reads(plan):

@@ -83,5 +83,5 @@ def test_references_on_a_line_are_passed_over():
 
 def test_three_references_are_needed():
     positions = rigid_body(markers=3)
-    model = LocalInterpolation(replace(predictor("local_interpolation").options, height_mm=0.0))
+    model = LocalInterpolation(replace(predictor("local_interpolation").options, min_height_mm=0.0))
     assert np.isnan(model.predict(scene(positions), 2, 100, 120).positions).all()

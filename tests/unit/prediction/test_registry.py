@@ -5,7 +5,7 @@ import pytest
 
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import REGISTRY, members
-from support.fillings import predictor, rigid_body, scene, settings
+from support.fillings import predictor, predictor_options, rigid_body, scene
 
 NAMES = sorted(REGISTRY)
 EXACT = [name for name in NAMES if name.startswith("local") or name == "linear_regression"]
@@ -104,13 +104,13 @@ def test_a_blackout_leaves_nothing_to_go_by(name, person):
 
 
 def test_members_are_made_by_name_and_wrong_names_are_refused():
-    made = members(["spline", "local_ridge_wide"], settings())
+    made = members(["spline", "local_ridge_wide"], predictor_options())
     assert [member.name for member in made] == ["spline", "local_ridge_wide"]
     assert made[1].options.anchors == 6
     with pytest.raises(ValueError, match="unknown member nonsense"):
-        members(["nonsense"], settings())
+        members(["nonsense"], predictor_options())
     with pytest.raises(ValueError, match="named twice"):
-        members(["spline", "spline"], settings())
+        members(["spline", "spline"], predictor_options())
 
 
 def test_sharing_what_is_learned_changes_nothing(walker):

@@ -9,15 +9,16 @@ from scipy.ndimage import gaussian_filter1d
 from markermend.core.decisions import Decision
 from markermend.core.events import Event, mask
 from markermend.core.recording import MISSING
+from markermend.options.prediction import PredictorOptions
 from markermend.prediction.interpolation import KINDS
-from markermend.prediction.registry import SHARED, members
+from markermend.prediction.registry import members
 from markermend.prediction.scene import Prediction
 from markermend.repair.candidates import Candidate, choose
 from markermend.repair.methods import Proposal
 from markermend.repair.separation import SHAPE_COVARIANCES
 from support import bodies
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend
-from support.signals import CONFIG, detect, neighbours, put
+from support.signals import detect, neighbours, put
 from support.treated import expected
 
 
@@ -85,7 +86,7 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
     """Over a few frames of smooth motion the spline is surest, over seconds the neighbours are."""
     recording = distorted(clean, 25.0, START, START + length)
     found = {"noise": [Event(MARKER, START, START + length, 4.0)]}
-    result = mend(recording, found, methods={**METHODS, "noise": ["local_ridge", "spline"]}, prefer=1.0)
+    result = mend(recording, found, methods={**METHODS, "noise": ["local_ridge", "spline"]}, preference_factor=1.0)
     (told,) = result.repairs
     assert told.method == min(expected(told), key=expected(told).get)
     assert len(expected(told)) == 2
@@ -96,7 +97,7 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
 
 @pytest.mark.parametrize("method", [*SHAPE_COVARIANCES, "savitzky_golay", "local_ridge", "polynomial", *KINDS])
 def test_every_repaired_sample_has_an_expected_error(clean, method):
-    (made,) = members([method], {name: CONFIG[name] for name in SHARED}) if method in (*KINDS, "polynomial") else [None]
+    (made,) = members([method], PredictorOptions()) if method in (*KINDS, "polynomial") else [None]
     recording = distorted(clean, 25.0, 700, 704)
     found = {"steps": [Event(MARKER, 700, 704, 5.0)]}
     decided = [Decision(MARKER, 700, 704, "accept", "step")]

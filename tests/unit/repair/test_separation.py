@@ -1,5 +1,7 @@
 """Separating the error of a prediction from an artifact: exact, with true errors, and better than either alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -22,16 +24,14 @@ from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error
 
 N = 24
 KERNEL = Covariance(np.array([0.04, 2.0, 5.0, 1.0, 0.5]), np.array([0.05, 0.3]))
-SEPARATION = {
-    "ridges": [{}],
-    "amplitudes_mm": [3, 12, 48],
-    "roughness_mm": [0.1, 1],
-    "border_s": 0.1,
-    "margins": [0],
-    "trust": 1,
-    "most_frames": 1000,
-}
-OPTIONS = SeparationOptions(**SEPARATION)
+OPTIONS = SeparationOptions(
+    local_ridge_changes=({},),
+    amplitudes_mm=(3, 12, 48),
+    roughness_mm=(0.1, 1),
+    border_s=0.1,
+    margin_fractions=(0,),
+    likelihood_power=1,
+)
 EXTENTS = [(0, N), (3, N - 2)]
 
 
@@ -177,7 +177,12 @@ def test_several_ridges_predict_together(wobbling, kind):
     method, _, change = DAMAGE[kind]
     recording, found = distorted(wobbling, change), {kind: [Event(MARKER, START, STOP, 4.0)]}
     alone, other, both = (
-        mend(recording, found, methods={**METHODS, kind: [method]}, separation={**SEPARATION, "ridges": ridges})
+        mend(
+            recording,
+            found,
+            methods={**METHODS, kind: [method]},
+            separation=replace(OPTIONS, local_ridge_changes=ridges),
+        )
         for ridges in ([{}], [{"inputs": 4}], [{}, {"inputs": 4}])
     )
     apart = [np.sqrt((error(wobbling, one) ** 2).mean()) for one in (alone, other, both)]
@@ -196,7 +201,7 @@ def test_a_gap_within_stays_a_gap(clean, method):
 
 def test_what_is_too_long_to_part_is_left_to_others(clean):
     found = {"steps": [Event(MARKER, START, STOP, 4.0)]}
-    given = {**SEPARATION, "most_frames": STOP - START - 1}
+    given = replace(OPTIONS, max_frames=STOP - START - 1)
     methods = {**METHODS, "steps": ["separate_step"]}
     result = mend(distorted(clean, 12.0), found, methods=methods, separation=given)
     (left,) = result.repairs_left
@@ -207,9 +212,14 @@ def test_a_slow_change_may_begin_before_it_was_found(clean):
     """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
     course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
     recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
-    given = {**SEPARATION, "amplitudes_mm": [3, 10, 30], "roughness_mm": [0.3, 2], "border_s": 0.15}
+    given = replace(OPTIONS, amplitudes_mm=(3, 10, 30), roughness_mm=(0.3, 2), border_s=0.15)
     exact, wider = (
-        mend(recording, found, methods={**METHODS, "slow": ["separate_slow"]}, separation={**given, "margins": margins})
+        mend(
+            recording,
+            found,
+            methods={**METHODS, "slow": ["separate_slow"]},
+            separation=replace(given, margin_fractions=margins),
+        )
         for margins in ([0], [0, 0.1])
     )
     assert error(clean, wider).max() < 0.5 * error(clean, exact).max()

@@ -1,15 +1,16 @@
 """The methods paragraph: one sentence per step that ran, from the options that the stages' files state."""
 
 import json
+import shlex
 
 import pytest
 
 import fill
-from markermend.command.stage import flag
-from markermend.planning import config
+from markermend.options.filling import FillOptions
+from markermend.options.flags import write_flags
 from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, limits, paragraph
 from markermend.storage import change_file, stage_files
-from support.fillings import CONFIG, restored, rigid_body
+from support.fillings import fill_options, restored, rigid_body
 
 NAMES = ("A", "B", "C", "D")
 
@@ -22,9 +23,7 @@ def fill_file(folder, **averaging):
     ranked = {name: [other for other in NAMES if other != name] for name in NAMES}
     body = {"recordings": ["walk"], "markers": NAMES, "segments": [], "predictors": ranked, "neighbours": ranked}
     (folder / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
-    own = {**CONFIG["fill"], "ensemble": {**CONFIG["fill"]["ensemble"], **averaging}}
-    given = {**CONFIG, **own, "decisions": []}
-    options = [f"{flag(name)}={config.text(given[name])}" for name in fill.STAGE.options]
+    options = [*shlex.split(write_flags(fill_options(averaging))), "--decisions=[]"]
     change_file.write(folder / "06_changes.parquet", [], {"stage": "repair"})
     files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
     files += ["--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
@@ -40,7 +39,7 @@ def test_the_weights_of_a_real_fill_file_are_stated(weights, tmp_path):
     assert WEIGHTS[weights] in text
     assert not any(other in text for key, other in WEIGHTS.items() if key != weights)
     assert "of at most 2 s and with an expected error of at most 50 mm" in text
-    assert ", ".join(name.replace("_", " ") for name in CONFIG["fill"]["members"]) in text
+    assert ", ".join(name.replace("_", " ") for name in FillOptions().members) in text
     assert "person" not in text
 
 

@@ -30,16 +30,16 @@ class Company:
 
     scene: Scene
     matches: Matches
-    settings: SlowOptions
+    options: SlowOptions
     predictor: ScaledResidualSource
 
     def near(self, marker: int) -> np.ndarray:
         """The neighbours that are asked about a marker, the nearest first."""
-        return np.asarray(self.scene.neighbours[marker], int)[: self.settings.rivals]
+        return np.asarray(self.scene.neighbours[marker], int)[: self.options.attribution_neighbours]
 
     def seen(self, event: Event, markers: np.ndarray) -> np.ndarray:
         """Whether markers are seen (frames, markers), from before an event to after it."""
-        margin = int(self.settings.flank * (event.stop - event.start))
+        margin = int(self.options.flank_fraction * (event.stop - event.start))
         return self.scene.present[max(event.start - margin, 0) : event.stop + margin, markers]
 
     def transient(self, marker: int, event: Event) -> np.ndarray:
@@ -48,7 +48,7 @@ class Company:
         A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What
         is brief, next to the event too, does not count: it makes no slow change.
         """
-        near, brief = self.near(marker), intervals.samples(self.settings.brief_s, self.scene.rate)
+        near, brief = self.near(marker), intervals.samples(self.options.bridged_gap_s, self.scene.rate)
         brief = min(brief, (event.stop - event.start) // BRIEF)
         seen = self.seen(event, near)
         count = np.count_nonzero(seen, axis=0)
@@ -72,12 +72,12 @@ class Company:
 
     def suspects(self, marker: int, event: Event) -> np.ndarray:
         """The neighbours that are off as well during an event of a marker."""
-        near, flank = self.near(marker), self.settings.flank
+        near, flank = self.near(marker), self.options.flank_fraction
         own, *heights = (
             drift_shape.height(self.matches.residual[:, m], event.start, event.stop, flank=flank)
             for m in (marker, *near)
         )
-        off = np.nan_to_num(heights) > self.settings.suspect * own
+        off = np.nan_to_num(heights) > self.options.suspect_fraction * own
         return near[off | (self.matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)]
 
     def off_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
@@ -85,12 +85,12 @@ class Company:
         positions = self.scene.positions.copy()
         positions[:, hidden] = np.nan  # throughout: a looser prediction needs its own scale
         rest = replace(self.scene, positions=positions)
-        residual, wider = self.predictor.scaled_residuals(rest, np.array([marker]), blocks=self.settings.blocks)
+        residual, wider = self.predictor.scaled_residuals(rest, np.array([marker]), blocks=self.options.leverage_blocks)
         score = self.matches.judge_anew(
-            residual[:, marker], wider[:, marker], marker=marker, rate=rest.rate, settings=self.settings
+            residual[:, marker], wider[:, marker], marker=marker, rate=rest.rate, options=self.options
         )
-        needed = bar(score, event.start, event.stop, rate=rest.rate, settings=self.settings)
-        return bool(score[event.start : event.stop].max() > self.settings.kept * needed)
+        needed = bar(score, event.start, event.stop, rate=rest.rate, options=self.options)
+        return bool(score[event.start : event.stop].max() > self.options.remaining_fraction * needed)
 
     def more_disturbed(self, one: int, other: int, event: Event) -> bool:
         """Whether a marker's distances to the neighbours of two rise or fall clearly more during an event than the other's do.
@@ -100,12 +100,14 @@ class Company:
         """
         company = np.setdiff1d(np.union1d(self.near(one), self.near(other)), [one, other])
         company = company[self.seen(event, company).all(axis=0)]
-        return self.settings.suspect * self.disturbance(one, company, event) > self.disturbance(other, company, event)
+        return self.options.suspect_fraction * self.disturbance(one, company, event) > self.disturbance(
+            other, company, event
+        )
 
     def disturbance(self, marker: int, company: np.ndarray, event: Event) -> float:
         """How much the distances of a marker to others change during an event: root of the sum of squares, in usual deviations."""
         positions = self.scene.positions
         distance = np.linalg.norm(positions[:, company] - positions[:, [marker]], axis=2)
         usual = np.array([robust.mad_std(own) for own in distance.T]) + RIGID_MM
-        change = drift_shape.risen(distance, event.start, event.stop, flank=self.settings.flank)
+        change = drift_shape.risen(distance, event.start, event.stop, flank=self.options.flank_fraction)
         return float(np.linalg.norm(change / usual))

@@ -42,27 +42,27 @@ def contrasts(regularity: WindowCovariance, size: int, places: tuple[int, ...]) 
     return Contrasts(np.array(places), across / strength[:, None], strength**-0.5, misfit)
 
 
-def central(rate: float, settings: ResidualWindowOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
+def central(rate: float, options: ResidualWindowOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
     """The maps for a jump amid its context, and the length of their windows."""
-    context = residual_windows.context(rate, settings, fewest=FEWEST)
+    context = residual_windows.context(rate, options, fewest=FEWEST)
     return partial(contrasts, size=2 * context, places=(context,)), 2 * context
 
 
 def find(
-    course: Courses, marker: int, *, rate: float, settings: ResidualWindowOptions, least: float = 1.0
+    course: Courses, marker: int, *, rate: float, options: ResidualWindowOptions, least: float = 1.0
 ) -> list[Edge]:
     """Find the edges of one marker, in time; of those that are nearer than half the context, the best.
 
     least: a part of the threshold is enough.
     """
-    context = residual_windows.context(rate, settings, fewest=FEWEST)
+    context = residual_windows.context(rate, options, fewest=FEWEST)
     size = 2 * context
     candidates: list[Edge] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
         for span, places in residual_windows.spans(start, stop, size, context):
             inside = tuple(place for place in places if NEAREST <= place <= size - NEAREST)
             maps = contrasts(course.regularity, size, inside)
-            over = residual_windows.exceeding(course, marker, span, maps, settings, least=least)
+            over = residual_windows.exceeding(course, marker, span, maps, options, least=least)
             candidates += [Edge(*one) for one in zip(over.frame.tolist(), over.size, over.score.tolist(), strict=True)]
     kept: list[Edge] = []
     for edge in sorted(candidates, key=lambda e: (-e.score, e.frame)):

@@ -51,9 +51,9 @@ def sharp(values: np.ndarray, window: int) -> np.ndarray:
     return out
 
 
-def _window(rate: float, settings: IncrementOptions) -> int:
+def _window(rate: float, options: IncrementOptions) -> int:
     """Samples in the window of the moving median: fewer than three have no trend."""
-    return max(3, intervals.samples(settings.window_s, rate, odd=True))
+    return max(3, intervals.samples(options.median_window_s, rate, odd=True))
 
 
 def measure(
@@ -62,10 +62,10 @@ def measure(
     only: Sequence[int] | None = None,
     was: Changes | None = None,
     *,
-    settings: IncrementOptions,
+    options: IncrementOptions,
 ) -> Changes:
     """Measure the sudden changes of a scene from its residuals; with `was`, anew for the markers `only`."""
-    window = _window(scene.rate, settings)
+    window = _window(scene.rate, options)
     vector = np.zeros(residual.shape) if was is None else was.vector.copy()
     own = np.zeros(residual.shape[:2]) if was is None else was.size.copy()
     for m in range(residual.shape[1]) if only is None else only:
@@ -74,17 +74,17 @@ def measure(
         along = np.einsum("na,na->n", sharp(scene.positions[:, m], window), vector[:, m])
         own[:, m] = np.clip(along / np.maximum(length, 1e-9), 0, length)
     seen = ~np.isnan(residual).any(axis=2)
-    tail = float(np.quantile(own[seen], settings.tail_quantile)) if was is None and seen.any() else 0.0
+    tail = float(np.quantile(own[seen], options.tail_quantile)) if was is None and seen.any() else 0.0
     tail = tail if was is None else was.tail
     length = np.where(seen, np.linalg.norm(vector, axis=2), np.nan)
     usual = residual_scale.usual_size(
         length,
         scene.neighbours,
-        window=intervals.samples(settings.activity_s, scene.rate, odd=True),
-        near=settings.activity_neighbours,
-        ratio=settings.activity_ratio,
+        window=intervals.samples(options.scale_window_s, scene.rate, odd=True),
+        near=options.scale_neighbours,
+        ratio=options.max_scale_ratio,
     )
-    level = np.maximum(settings.sigmas * usual, max(settings.floor_mm, settings.tails * tail))
+    level = np.maximum(options.threshold_sigmas * usual, max(options.floor_mm, options.tail_factor * tail))
     return Changes(vector, own, np.nan_to_num(own / level), residual, tail)
 
 
@@ -93,7 +93,7 @@ def detect(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: IncrementOptions,
+    options: IncrementOptions,
     predictor: prediction_scene.ResidualSource,
     judge: Callable[[Changes, int], list[Event]],
 ) -> tuple[list[Event], Changes]:
@@ -105,13 +105,13 @@ def detect(
     """
     found, changes = attribution.find(
         inputs.without(scene, earlier),
-        measure=partial(measure, settings=settings),
+        measure=partial(measure, options=options),
         judge=judge,
         markers=markers,
         predictor=predictor,
-        rounds=settings.rounds,
-        reach=settings.rivals,
-        border=_window(scene.rate, settings),
+        rounds=options.attribution_rounds,
+        reach=options.attribution_neighbours,
+        border=_window(scene.rate, options),
     )
     return events.tidy(found), changes
 

@@ -30,30 +30,30 @@ def displacement(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) 
 
 
 def judge_steps(
-    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, settings: StepsOptions
+    course: Courses, marker: int, *, missing: np.ndarray, name: str, rate: float, options: StepsOptions
 ) -> list[Event]:
     """Find the steps of one marker: nearest opposite jumps with the marker displaced in between.
 
     missing: bool (frames, markers). No step goes on across a gap; across what an earlier detector claimed it does.
     Jumps that are clear together are paired first.
     """
-    found_edges = edges.find(course, marker, rate=rate, settings=settings, least=settings.weak)
+    found_edges = edges.find(course, marker, rate=rate, options=options, least=options.single_jump_fraction)
     frames = np.array([edge.frame for edge in found_edges], int)
     residual, gone = course.residual[:, marker], np.cumsum(missing[:, marker])
-    longest = intervals.samples(settings.longest_s, rate)
+    longest = intervals.samples(options.max_duration_s, rate)
     candidates = [
         (together(found_edges[k], found_edges[j]) < 1, int(frames[j] - frames[k]), k, j)
         for k in range(len(frames))
         for j in range(k + 1, int(np.searchsorted(frames, frames[k] + longest, side="right")))
         if gone[frames[k]] == gone[frames[j]]
-        and _are_a_step(residual, found_edges[k], found_edges[j], rate=rate, settings=settings)
+        and _are_a_step(residual, found_edges[k], found_edges[j], rate=rate, options=options)
     ]
     found, used = [], np.zeros(len(frames), bool)
     for _, _, k, j in sorted(candidates):
         if not used[k : j + 1].any():
             used[k : j + 1] = True
             jumps = np.array([found_edges[k].jump, found_edges[j].jump])
-            score = together(found_edges[k], found_edges[j]) / settings.joint
+            score = together(found_edges[k], found_edges[j]) / options.joint_jump_fraction
             found.append(Event(name, int(frames[k]), int(frames[j]), score, events.carrying(jumps)))
     return found
 
@@ -63,19 +63,19 @@ def together(first: Edge, second: Edge) -> float:
     return float(np.hypot(first.score, second.score) / np.sqrt(2))
 
 
-def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float, settings: StepsOptions) -> bool:
+def _are_a_step(residual: np.ndarray, first: Edge, second: Edge, *, rate: float, options: StepsOptions) -> bool:
     """Whether two jumps are opposite and of a size, and the residual (frames, 3) is displaced in between."""
     sizes = float(np.linalg.norm(first.jump)), float(np.linalg.norm(second.jump))
-    opposite = -first.jump @ second.jump >= settings.cosine * sizes[0] * sizes[1]
-    balanced = min(sizes) >= settings.ratio * max(sizes)
-    if second.frame - first.frame < intervals.samples(settings.shortest_s, rate) or not opposite or not balanced:
+    opposite = -first.jump @ second.jump >= options.min_cosine * sizes[0] * sizes[1]
+    balanced = min(sizes) >= options.min_jump_ratio * max(sizes)
+    if second.frame - first.frame < intervals.samples(options.min_duration_s, rate) or not opposite or not balanced:
         return False
     mean, clear = (first.jump - second.jump) / 2, together(first, second)
-    if clear < settings.joint or np.linalg.norm(mean) < settings.floor_mm:
+    if clear < options.joint_jump_fraction or np.linalg.norm(mean) < options.floor_mm:
         return False
-    if clear >= 1 and np.linalg.norm(first.jump + second.jump) <= settings.alike * np.linalg.norm(mean):
+    if clear >= 1 and np.linalg.norm(first.jump + second.jump) <= options.max_imbalance_fraction * np.linalg.norm(mean):
         return True
-    held = settings.held if clear >= 1 else settings.whole
+    held = options.min_shift_fraction if clear >= 1 else options.weak_min_shift_fraction
     return displacement(residual, first.frame, second.frame, mean) >= held
 
 
@@ -87,7 +87,7 @@ def cut_short(
     missing: np.ndarray,
     name: str,
     rate: float,
-    settings: StepsOptions,
+    options: StepsOptions,
 ) -> list[Event]:
     """Find the steps of one marker of which one jump is not seen: a gap or an end of the recording is in its place.
 
@@ -97,9 +97,12 @@ def cut_short(
     residual = course.residual[:, marker]
     jumping = {frame for other in others if other.marker != name for frame in (other.start, other.stop)}
     holes = np.flatnonzero(np.concatenate([[True], missing, [True]])) - 1
-    shortest, longest = intervals.samples(settings.shortest_s, rate), intervals.samples(settings.longest_s, rate)
+    shortest, longest = (
+        intervals.samples(options.min_duration_s, rate),
+        intervals.samples(options.max_duration_s, rate),
+    )
     candidates: list[tuple[int, int, Edge]] = []
-    for edge in edges.find(course, marker, rate=rate, settings=settings):
+    for edge in edges.find(course, marker, rate=rate, options=options):
         k = int(np.searchsorted(holes, edge.frame))
         sides = (int(holes[k - 1]) + 1, edge.frame), (edge.frame, int(holes[k]))
         if edge.frame not in jumping:
@@ -108,13 +111,13 @@ def cut_short(
     own = [other for other in others if other.marker == name]
     for start, stop, edge in sorted(candidates, key=lambda candidate: (candidate[1] - candidate[0], candidate[0])):
         alone = all(stop < other.start or other.stop < start for other in [*own, *found])
-        if alone and _is_off(residual, start, stop, edge, missing, rate, settings):
+        if alone and _is_off(residual, start, stop, edge, missing, rate, options):
             found.append(Event(name, start, stop, edge.score, events.carrying(edge.jump[None])))
     return found
 
 
 def _is_off(
-    residual: np.ndarray, start: int, stop: int, edge: Edge, missing: np.ndarray, rate: float, settings: StepsOptions
+    residual: np.ndarray, start: int, stop: int, edge: Edge, missing: np.ndarray, rate: float, options: StepsOptions
 ) -> bool:
     """Whether [start, stop), with a jump at one border, lies off what is beyond the jump and what is beyond the gap.
 
@@ -123,13 +126,13 @@ def _is_off(
     jump = edge.jump if edge.frame == start else -edge.jump
     seen = np.flatnonzero(~missing)
     before, after = seen[seen < start], seen[seen >= stop]
-    reaches = [intervals.samples(settings.level_s, rate)]
+    reaches = [intervals.samples(options.level_window_s, rate)]
     if not (len(before) and len(after)):
-        if edge.score < settings.sure or len(before) + len(after) < REST * (stop - start):
+        if edge.score < options.recording_end_factor or len(before) + len(after) < REST * (stop - start):
             return False
         reaches.append(REST * (stop - start))
     return all(
-        _lies_off(residual[own], residual[beyond], jump, settings.cut)
+        _lies_off(residual[own], residual[beyond], jump, options.truncated_min_shift_fraction)
         for reach in reaches
         for own, beyond in (
             (slice(start, min(start + reach, stop)), before[-reach:]),

@@ -62,27 +62,27 @@ def jumps(regularity: WindowCovariance, size: int) -> np.ndarray:
     return across / np.sqrt(np.maximum((across * jump).sum(axis=1), 1e-12))[:, None]
 
 
-def of_longest(rate: float, settings: PeaksOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
+def of_longest(rate: float, options: PeaksOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
     """The maps for the longest excursion amid its context, and the length of their windows."""
     length, context = (
-        intervals.samples(settings.longest_s, rate),
-        residual_windows.context(rate, settings, fewest=FEWEST),
+        intervals.samples(options.max_duration_s, rate),
+        residual_windows.context(rate, options, fewest=FEWEST),
     )
     size = length + 2 * context
     return partial(contrasts, length=length, size=size, places=(context,)), size
 
 
-def find(course: Courses, marker: int, *, rate: float, settings: PeaksOptions) -> list[Excursion]:
+def find(course: Courses, marker: int, *, rate: float, options: PeaksOptions) -> list[Excursion]:
     """Find the excursions of one marker, the surest first; none is nearer to a surer one than what that is judged by."""
-    context = residual_windows.context(rate, settings, fewest=FEWEST)
+    context = residual_windows.context(rate, options, fewest=FEWEST)
     candidates: list[Excursion] = []
     for start, stop in runs(~np.isnan(course.usual[:, marker])):
-        for length in range(1, min(intervals.samples(settings.longest_s, rate), stop - start - 2 * context) + 1):
+        for length in range(1, min(intervals.samples(options.max_duration_s, rate), stop - start - 2 * context) + 1):
             size = length + 2 * context
             for span, places in residual_windows.spans(start, stop, size, context):
                 inside = tuple(place for place in places if place + length <= size)
                 maps = contrasts(course.regularity, length, size, inside)
-                candidates += _in(course, marker, span, maps, length, settings)
+                candidates += _in(course, marker, span, maps, length, options)
     kept: list[Excursion] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
@@ -91,21 +91,21 @@ def find(course: Courses, marker: int, *, rate: float, settings: PeaksOptions) -
 
 
 def _in(
-    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, settings: PeaksOptions
+    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, options: PeaksOptions
 ) -> list[Excursion]:
     """The excursions of a span, each cut to the samples that are off."""
-    over = residual_windows.exceeding(course, marker, span, maps, settings)
+    over = residual_windows.exceeding(course, marker, span, maps, options)
     found = []
     for i, first in enumerate(over.frame.tolist()):
         place = int(maps.place[over.map[i]])
         each = apart(course.regularity, length, maps.length, place)
         off = each @ over.residual[i].T
         own = residual_windows.own_part(each @ over.positions[i].T, off)
-        inside = np.flatnonzero(own >= settings.weak * own.max())
+        inside = np.flatnonzero(own >= options.extent_fraction * own.max())
         low, high = int(inside[0]), int(inside[-1]) + 1
         # Off up to the very border of a gap: a jump and an excursion are the same.
         enclosed = place + low > 0 and place + high < maps.length
-        if enclosed and _jump_misfit(over.residual[i], course.regularity) <= settings.edge * over.misfit[i]:
+        if enclosed and _jump_misfit(over.residual[i], course.regularity) <= options.max_shift_ratio * over.misfit[i]:
             continue
         found.append(Excursion(first + low, first + high, float(over.score[i]), off[low:high]))
     return found

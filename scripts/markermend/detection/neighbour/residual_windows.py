@@ -76,9 +76,9 @@ class Exceeding:
     misfit: np.ndarray
 
 
-def context(rate: float, settings: ResidualWindowOptions, *, fewest: int) -> int:
+def context(rate: float, options: ResidualWindowOptions, *, fewest: int) -> int:
     """Samples on either side: as long as asked for, and enough to tell the misfit."""
-    return max(intervals.samples(settings.context_s, rate), fewest)
+    return max(intervals.samples(options.context_s, rate), fewest)
 
 
 def spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:
@@ -108,14 +108,14 @@ def measure(
     *,
     maps: Callable[[WindowCovariance], Contrasts],
     length: int,
-    settings: ResidualWindowOptions,
+    options: ResidualWindowOptions,
 ) -> Courses:
     """Learn how regular residuals are, and measure their misfits under the first of the maps of windows of a length.
 
     With `was`, anew for the markers `only`.
     """
     if was is None:
-        order, shrinkage, at_most = settings.order, settings.shrinkage, settings.windows
+        order, shrinkage, at_most = options.polynomial_order, options.white_noise_ratio, options.covariance_windows
         regularity = fit_window_covariance(residual, size=length, order=order, shrinkage=shrinkage, max_windows=at_most)
     else:
         regularity = was.regularity
@@ -130,9 +130,9 @@ def measure(
     usual = residual_scale.usual_size(
         misfit,
         scene.neighbours,
-        window=intervals.samples(settings.activity_s, scene.rate, odd=True),
-        near=settings.activity_neighbours,
-        ratio=settings.activity_ratio,
+        window=intervals.samples(options.scale_window_s, scene.rate, odd=True),
+        near=options.scale_neighbours,
+        ratio=options.max_scale_ratio,
     )
     return Courses(residual, scene.positions, misfit, usual, regularity)
 
@@ -144,18 +144,18 @@ def _misfit(window: np.ndarray, form: np.ndarray) -> np.ndarray:
 
 
 def exceeding(
-    courses: Courses, marker: int, span: slice, maps: Contrasts, settings: ResidualWindowOptions, *, least: float = 1.0
+    courses: Courses, marker: int, span: slice, maps: Contrasts, options: ResidualWindowOptions, *, least: float = 1.0
 ) -> Exceeding:
     """The windows of a span of one marker's frames, without gaps, that exceed the threshold, or this part of it."""
     residual, positions = (sliding_windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
     size = (residual @ maps.size.T).transpose(0, 2, 1)
-    at, which = np.nonzero((size**2).sum(axis=2) > (least * settings.floor_mm) ** 2)
+    at, which = np.nonzero((size**2).sum(axis=2) > (least * options.floor_mm) ** 2)
     size = size[at, which]
     own = own_part(np.einsum("ian,in->ia", positions[at], maps.size[which]), size)
     misfit = _misfit(residual[at], maps.misfit[which])
     frame = span.start + at + maps.place[which]
     noise = np.hypot(misfit, courses.usual[frame, marker])
-    score = own / np.maximum(settings.sigmas * noise * maps.gain[which], settings.floor_mm)
+    score = own / np.maximum(options.threshold_sigmas * noise * maps.gain[which], options.floor_mm)
     k = score > least
     return Exceeding(residual[at[k]], positions[at[k]], which[k], frame[k], size[k], score[k], misfit[k])
 
@@ -165,7 +165,7 @@ def detect(
     *,
     markers: Sequence[str],
     earlier: np.ndarray,
-    settings: ResidualWindowOptions,
+    options: ResidualWindowOptions,
     maps: Callable[[WindowCovariance], Contrasts],
     length: int,
     predictor: prediction_scene.ResidualSource,
@@ -181,12 +181,12 @@ def detect(
     """
     found, courses = attribution.find(
         inputs.without(scene, earlier),
-        measure=partial(measure, maps=maps, length=length, settings=settings),
+        measure=partial(measure, maps=maps, length=length, options=options),
         judge=judge,
         markers=markers,
         predictor=predictor,
-        rounds=settings.rounds,
-        reach=settings.rivals,
+        rounds=options.attribution_rounds,
+        reach=options.attribution_neighbours,
         border=length // 2,
         suspect=suspect,
         open_at=open_at,

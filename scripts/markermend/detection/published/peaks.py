@@ -20,19 +20,23 @@ def without_trend(signal: np.ndarray, *, trend: str, window: int) -> np.ndarray:
     raise ValueError(f"trend {trend!r} is neither median_of_difference nor difference_of_median")
 
 
-def find_peaks(signal: np.ndarray, *, rate: float, settings: PublishedPeaksOptions) -> tuple[np.ndarray, np.ndarray]:
+def find_peaks(signal: np.ndarray, *, rate: float, options: PublishedPeaksOptions) -> tuple[np.ndarray, np.ndarray]:
     """Find the isolated peaks of one coordinate (skurowski2022 eq 18-25).
 
     signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
     """
-    longest = intervals.samples(settings.longest_s, rate)
-    window = intervals.samples(2 * settings.longest_s + settings.margin_s, rate, odd=True)
-    change = without_trend(signal, trend=settings.trend, window=intervals.samples(settings.window_s, rate, odd=True))
-    level = increments.threshold(change, scale=settings.scale, sigmas=settings.sigmas, floor_mm=settings.floor_mm)
+    longest = intervals.samples(options.max_duration_s, rate)
+    window = intervals.samples(2 * options.max_duration_s + options.margin_s, rate, odd=True)
+    change = without_trend(
+        signal, trend=options.trend_removal, window=intervals.samples(options.window_s, rate, odd=True)
+    )
+    level = increments.threshold(
+        change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
+    )
     kept = np.where(np.abs(change) > level, change, 0.0)
     kept[np.isnan(change)] = np.nan
     total, absolute = filters.moving_sum(kept, window), filters.moving_sum(np.abs(kept), window)
-    candidate = ((absolute > 0) & (absolute > settings.balance * np.abs(total))).astype(float)
+    candidate = ((absolute > 0) & (absolute > options.balance_ratio * np.abs(total))).astype(float)
     candidate[np.isnan(change)] = np.nan
     isolated = morphology.top_hat(morphology.closing(candidate, window), window) > 0
     mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))

@@ -16,23 +16,25 @@ from markermend.prediction.scene import Scene
 
 
 def find_steps(
-    signal: np.ndarray, *, rate: float, settings: PublishedStepsOptions
+    signal: np.ndarray, *, rate: float, options: PublishedStepsOptions
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the steps of one coordinate (skurowski2022 3.4.4): intervals between opposite jumps.
 
     signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask, a score, both (frames,), and the
     frames of jumps without a counterpart (open steps).
     """
-    change = difference_high_pass(signal, window_s=settings.window_s, order=settings.order, rate=rate)
-    level = increments.threshold(change, scale=settings.scale, sigmas=settings.sigmas, floor_mm=settings.floor_mm)
-    window = max(intervals.samples(settings.window_s, rate, odd=True), 2 * settings.order + 1)
+    change = difference_high_pass(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
+    level = increments.threshold(
+        change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
+    )
+    window = max(intervals.samples(options.window_s, rate, odd=True), 2 * options.polynomial_order + 1)
     at = increments.edges(change, level, window // 2)
     pairs, alone = increments.derivative_pairs(
         change,
         at,
-        shortest=intervals.samples(settings.shortest_s, rate),
-        longest=intervals.samples(settings.longest_s, rate),
-        ratio=settings.ratio,
+        shortest=intervals.samples(options.min_duration_s, rate),
+        longest=intervals.samples(options.max_duration_s, rate),
+        ratio=options.min_jump_ratio,
     )
     mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
     for start, stop in pairs:
@@ -42,19 +44,19 @@ def find_steps(
 
 
 def _detect_in_coordinates(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, settings: PublishedStepsOptions
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: PublishedStepsOptions
 ) -> tuple[list[Event], list[OpenStep]]:
     """See detect_steps: coordinate by coordinate."""
     alone: dict[tuple[str, int], float] = {}
 
     def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        mask, score, left = find_steps(signal, rate=scene.rate, settings=settings)
+        mask, score, left = find_steps(signal, rate=scene.rate, options=options)
         change = filters.difference(signal)
-        change -= filters.moving_median(change, intervals.samples(settings.window_s, scene.rate, odd=True))
+        change -= filters.moving_median(change, intervals.samples(options.window_s, scene.rate, odd=True))
         for frame in left.tolist():
             alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
         return mask, score
 
-    found = coordinatewise.detect(scene, find, markers=markers, earlier=earlier, bridge_s=settings.bridge_s)
+    found = coordinatewise.detect(scene, find, markers=markers, earlier=earlier, bridge_s=options.slope_window_s)
     within = events.mask(found, len(scene.positions), markers)
     return found, [OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]]

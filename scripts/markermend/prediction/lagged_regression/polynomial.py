@@ -25,7 +25,7 @@ class Polynomial(LaggedRegression):
         """Ordinary least squares on one, the coordinates and their powers (skurowski2022 eq 3, 9)."""
         middle = task.rows.mean(axis=0)
         scale = np.maximum(task.rows.std(axis=0), 1e-3)
-        powers = self.options.powers
+        powers = self.options.max_power
 
         def design(rows: np.ndarray) -> np.ndarray:
             # Powers of standardized coordinates span what those of the coordinates do, without the rounding.

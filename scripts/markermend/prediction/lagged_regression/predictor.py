@@ -18,7 +18,7 @@ from markermend.prediction.marker_selection import evenly_spaced, jointly_observ
 from markermend.prediction.scene import Prediction, Scene
 
 LAGGED_REGRESSIONS = ("polynomial", "replicated_network")
-"""The loose predictors by name; their settings have sections of the config of the same names."""
+"""The loose predictors by name; their options have sections of the config of the same names."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class LaggedRegression(ABC):
     continuous = False
 
     def __init__(self, options: LaggedRegressionOptions) -> None:
-        """Keep the settings; nothing is learned before a marker is asked for."""
+        """Keep the options; nothing is learned before a marker is asked for."""
         self.options = options
 
     @abstractmethod
@@ -56,7 +56,7 @@ class LaggedRegression(ABC):
 
     def rows(self, scene: Scene, marker: int, inputs: np.ndarray, frames: np.ndarray) -> np.ndarray:
         """Inputs of a marker (n, k) at frames: coordinates of the markers `inputs`, now and before, mm."""
-        step = max(1, round(self.options.lag_s * scene.rate))
+        step = max(1, round(self.options.lag_interval_s * scene.rate))
         known = [scene.positions[np.ix_(frames, inputs)].reshape(len(frames), -1)]
         for lag in range(1, self.options.lags + 1):
             before = scene.positions[np.ix_(np.maximum(frames - lag * step, 0), inputs)].reshape(len(frames), -1)
@@ -111,9 +111,9 @@ class LaggedRegression(ABC):
         """What there is to learn from: of frames that show the marker and its inputs, measured ones if they are enough."""
         for source in (scene.measured or scene, scene):
             joint = np.flatnonzero(source.present[:, marker] & source.present[:, inputs].all(axis=1))
-            if len(joint) >= self.options.minimum_frames:
+            if len(joint) >= self.options.min_training_frames:
                 break
-        frames = evenly_spaced(joint, self.options.frames)
+        frames = evenly_spaced(joint, self.options.max_training_frames)
         rows = self.rows(source, marker, inputs, frames)
         return Task(rows, source.positions[frames, marker], frames, marker, scene.rate)
 
@@ -121,7 +121,7 @@ class LaggedRegression(ABC):
         """Siblings and parent marker, then the other neighbours, nearest first; and how many to use."""
         near = np.asarray(scene.neighbours[marker], int)
         if scene.segment_mates is None:
-            return near, self.options.nearest
+            return near, self.options.neighbours
         first = np.asarray(scene.segment_mates[marker], int)
         return np.concatenate([first, near[~np.isin(near, first)]]), len(first)
 
@@ -129,7 +129,9 @@ class LaggedRegression(ABC):
         """The inputs of a marker, ascending; none where it is seen too rarely with others."""
         ranked, count = self._ranked(scene, marker)
         options = self.options
-        chosen, _ = jointly_observed(scene, marker, ranked, share=options.share, minimum_frames=options.minimum_frames)
+        chosen, _ = jointly_observed(
+            scene, marker, ranked, share=options.min_joint_share, minimum_frames=options.min_training_frames
+        )
         return np.sort(chosen[:count])
 
     def _occasions(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -148,7 +150,7 @@ class LaggedRegression(ABC):
             options = self.options
             seen = ranked[used]
             inputs, _ = jointly_observed(
-                scene, marker, seen, share=options.share, minimum_frames=options.minimum_frames
+                scene, marker, seen, share=options.min_joint_share, minimum_frames=options.min_training_frames
             )
             if len(inputs):
                 yield np.sort(inputs[:count]), left[places]

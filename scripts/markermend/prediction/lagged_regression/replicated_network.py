@@ -26,22 +26,22 @@ class ReplicatedNetwork(LaggedRegression):
     options: ReplicatedNetworkOptions
 
     def __init__(self, options: ReplicatedNetworkOptions) -> None:
-        """Keep the settings; nothing is trained before a marker is asked for."""
+        """Keep the options; nothing is trained before a marker is asked for."""
         super().__init__(options)
 
     def rows(self, scene: Scene, marker: int, inputs: np.ndarray, frames: np.ndarray) -> np.ndarray:
         """The relatives' coordinates and, last, the marker's own moving average (skurowski2022 eq 11), (n, k), mm."""
-        window = intervals.samples(self.options.average_s, scene.rate)
+        window = intervals.samples(self.options.moving_average_s, scene.rate)
         average = scene.cached((self.name, window, marker), lambda: moving_average(scene.positions[:, marker], window))
         return np.concatenate([super().rows(scene, marker, inputs, frames), average[frames]], axis=1)
 
     def learn(self, tasks: Sequence[Task]) -> list[Learned]:
         """See LaggedRegression. Networks with as many inputs advance together."""
-        scalings = [Scaling(task, self.options.powers) for task in tasks]
+        scalings = [Scaling(task, self.options.max_power) for task in tasks]
         learned: dict[int, Learned] = {}
         for width in {scaling.width for scaling in scalings}:
             alike = [number for number, scaling in enumerate(scalings) if scaling.width == width]
-            sizes = (width, *self.options.hidden, 3 * self.options.replicas)
+            sizes = (width, *self.options.hidden_units, 3 * self.options.replicas)
             found = self._train([tasks[number] for number in alike], [scalings[number] for number in alike], sizes)
             for number, parameters in zip(alike, found, strict=True):
                 learned[number] = scalings[number].learned(parameters, sizes)
@@ -50,7 +50,7 @@ class ReplicatedNetwork(LaggedRegression):
     def _train(self, tasks: Sequence[Task], scalings: Sequence[Scaling], sizes: Sequence[int]) -> np.ndarray:
         """Parameters (tasks, n) of networks, each begun as its marker and the seed say."""
         options = self.options
-        each = round(1 / options.held_out)
+        each = round(1 / options.validation_share)
         held = [np.arange(len(task.frames)) % each == each // 2 for task in tasks]
         parts = list(zip(tasks, scalings, held, strict=True))
         trained = Stack([scaling.data(task, ~out) for task, scaling, out in parts], sizes)
@@ -59,7 +59,9 @@ class ReplicatedNetwork(LaggedRegression):
         return minimise(
             trained.loss,
             np.stack(start),
-            options=DescentOptions(options.iterations, options.rest, options.probe, options.patience),
+            options=DescentOptions(
+                options.max_iterations, options.gradient_tolerance, options.curvature_step, options.patience
+            ),
             held_out=judged.error,
         ).parameters
 

@@ -82,10 +82,10 @@ def train(
     norm = (inputs**2).sum(axis=1)
     square = norm[:, None] + norm - 2 * inputs @ inputs.T
     typical = max(float(np.sqrt(np.median(np.maximum(square, 0.0)))), 1e-6)
-    block = np.arange(len(inputs)) * options.blocks // len(inputs)
+    block = np.arange(len(inputs)) * options.validation_blocks // len(inputs)
     best, least = None, np.inf
-    for length in options.lengths:
-        for amplitude in options.amplitudes:
+    for length in options.length_scales:
+        for amplitude in options.variance_ratios:
             kernel = Kernel(1 / (ridge * weights.sum()), amplitude, length * typical)
             inverse = np.linalg.inv(kernel(inputs, inputs) + np.diag(1 / np.maximum(weights, 1e-6)))
             process = GaussianProcess(kernel, inputs, inverse, inverse @ target)
@@ -110,7 +110,7 @@ class LocalGaussian(LocalRidge):
 
     def _learn(self, model: RidgeModel, used: np.ndarray) -> GaussianProcess:
         columns = np.flatnonzero(np.repeat(used, 3))
-        rows = evenly_spaced(np.arange(len(model.local)), self.gaussian.points)
+        rows = evenly_spaced(np.arange(len(model.local)), self.gaussian.max_training_frames)
         return train(
             model.local[np.ix_(rows, columns)],
             model.local[rows, -3:],
@@ -124,5 +124,5 @@ class LocalGaussian(LocalRidge):
 
     def _left_out(self, model: RidgeModel, used: np.ndarray, learned: GaussianProcess, block: np.ndarray) -> np.ndarray:
         columns = np.flatnonzero(np.repeat(used, 3))
-        points = evenly_spaced(np.arange(len(model.local)), self.gaussian.points)
+        points = evenly_spaced(np.arange(len(model.local)), self.gaussian.max_training_frames)
         return model.local[:, -3:] - learned.left_out(model.local[:, columns], block, block[points])

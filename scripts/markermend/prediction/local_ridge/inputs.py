@@ -48,7 +48,7 @@ class RidgeChoice:
     def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
         """Neighbours to use for these frames: steadiest first, but those that are there throughout come before."""
         ranked = np.asarray(scene.neighbours[marker], int)
-        ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.minimum_frames]
+        ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.min_training_frames]
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
         share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
@@ -72,7 +72,7 @@ class RidgeChoice:
         if shape is None:
             return None
         for extra in np.flatnonzero(throughout):
-            if width(shape) >= self.options.width_mm or len(chosen) >= self.options.anchors + 3:
+            if width(shape) >= self.options.min_anchor_extent_mm or len(chosen) >= self.options.anchors + 3:
                 break
             if extra not in chosen:
                 wider, grown = self._shape(scene, marker, candidates[[*chosen, extra]])
@@ -87,7 +87,7 @@ class RidgeChoice:
 
         def learn() -> tuple[np.ndarray, np.ndarray | None]:
             together = scene.present[:, marker] & scene.present[:, anchors].all(axis=1)
-            return together, _shape(scene, together, anchors, self.options.minimum_frames)
+            return together, _shape(scene, together, anchors, self.options.min_training_frames)
 
         return scene.cached((self, "shape", marker, anchors.tobytes()), learn)
 
@@ -104,13 +104,13 @@ class RidgeChoice:
         options = self.options
         joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
         # Kriging needs to know how residuals go together at every lag: evenly spaced frames would tell of a few alone.
-        training = pseudo_random_subset(joint, options.frames)
+        training = pseudo_random_subset(joint, options.max_training_frames)
         rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
         points = scene.positions[np.ix_(training, np.append(inputs, marker))] - origin[:, None]
         local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)
         centre = np.median(local, axis=0)
         local = local - centre
-        weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.robust_sigmas)
+        weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.outlier_sigmas)
         return RidgeModel(anchors, inputs, shape, centre, local, weights, training)
 
     def _inputs(
@@ -118,7 +118,7 @@ class RidgeChoice:
     ) -> np.ndarray:
         """The anchors and the next candidates that are ever seen in the frames to predict and leave enough joint training frames."""
         inputs = list(candidates[anchors])
-        enough = max(self.options.minimum_frames, int(0.6 * together.sum()))
+        enough = max(self.options.min_training_frames, int(0.6 * together.sum()))
         for c, candidate in enumerate(candidates):
             if len(inputs) >= self.options.inputs:
                 break

@@ -28,7 +28,7 @@ class LocalRidge:
     continuous = True
 
     def __init__(self, options: LocalRidgeOptions) -> None:
-        """Keep the settings; nothing is trained before a marker is asked for."""
+        """Keep the options; nothing is trained before a marker is asked for."""
         self.options = options
         self._choice = RidgeChoice(options)
 
@@ -141,7 +141,7 @@ class LocalRidge:
             left,
             block,
             ridge=self.options.ridge_mm2,
-            most=self.options.novelty,
+            most=self.options.max_leverage,
         )
         return novelty, left / factor[:, None]
 
@@ -160,7 +160,7 @@ class LocalRidge:
         covariance = fit_covariance(
             residual,
             rate=scene.rate,
-            scales_s=np.array(self.options.scales_s),
-            max_lag_s=self.options.longest_s,
+            scales_s=np.array(self.options.correlation_times_s),
+            max_lag_s=self.options.max_lag_s,
         )
         return covariance, novelty

@@ -17,7 +17,7 @@ class IteratedSvd:
     continuous = False
 
     def __init__(self, options: IteratedSvdOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         self.options = options
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
@@ -27,13 +27,13 @@ class IteratedSvd:
         positions = np.full((stop - start + 2, 3), np.nan)
         nothing = Prediction(positions, np.full(len(positions), np.nan))
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
-        near = near[np.count_nonzero(hidden.present[:, near], axis=0) >= options.minimum_frames]
+        near = near[np.count_nonzero(hidden.present[:, near], axis=0) >= options.min_training_frames]
         asked = np.arange(max(start - 1, 0), min(stop + 1, len(hidden.positions)))
         asked = asked[hidden.present[np.ix_(asked, near)].any(axis=1)]
-        if len(asked) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.minimum_frames:
+        if len(asked) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.min_training_frames:
             return nothing
         centres, training = self._centres(hidden, marker, near, asked)
-        rows = np.union1d(evenly_spaced(training, options.frames), asked)
+        rows = np.union1d(evenly_spaced(training, options.max_training_frames), asked)
         values = hidden.positions[np.ix_(rows, np.append(marker, near))]
         centre = values[:, 1:][:, centres].mean(axis=1) if centres.any() else np.zeros((len(rows), 3))
         place = np.searchsorted(rows, asked)
@@ -41,10 +41,10 @@ class IteratedSvd:
         values[place, 0] = np.nan
         filled, _ = complete_matrix(
             (values - centre[:, None]).reshape(len(rows), -1),
-            explained=options.explained,
-            shrinkage=options.shrinkage,
+            explained=options.explained_variance,
+            shrinkage=options.shrink_singular_values,
             tolerance=options.tolerance_mm,
-            iterations=options.iterations,
+            iterations=options.max_iterations,
         )
         positions[asked - (start - 1)] = filled[place, :3] + centre[place]
         return nothing
@@ -58,8 +58,8 @@ class IteratedSvd:
                 scene,
                 marker,
                 never_missing if len(never_missing) else throughout,
-                share=self.options.share,
-                minimum_frames=self.options.minimum_frames,
+                share=self.options.min_joint_share,
+                minimum_frames=self.options.min_training_frames,
             )
             if len(chosen):
                 return np.isin(near, chosen), joint

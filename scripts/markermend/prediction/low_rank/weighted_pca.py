@@ -21,7 +21,7 @@ class WeightedPca:
     continuous = False
 
     def __init__(self, options: WeightedPcaOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         if options.strategy not in STRATEGIES:
             raise ValueError(f"unknown strategy {options.strategy!r}: one of {', '.join(STRATEGIES)}")
         self.options = options
@@ -32,7 +32,7 @@ class WeightedPca:
         frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
         positions = np.full((stop - start + 2, 3), np.nan)
         near = np.asarray(hidden.neighbours[marker], int)
-        for used, places in group_by_pattern(hidden.present[np.ix_(frames, near)], self.options.minimum_inputs):
+        for used, places in group_by_pattern(hidden.present[np.ix_(frames, near)], self.options.min_inputs):
             rows = frames[places]
             if used.any():
                 positions[rows - (start - 1)] = self._recover(hidden, marker, near[used], near[~used], rows)
@@ -41,23 +41,27 @@ class WeightedPca:
     def _recover(self, scene: Scene, marker: int, seen: np.ndarray, unseen: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """Position (n, 3) at rows, which show the markers `seen`; NaN where too few frames train."""
         options = self.options
-        distance = _distances(scene, marker, seen, options.frames)
+        distance = _distances(scene, marker, seen, options.max_training_frames)
         own_gaps = ~scene.present[:, seen].all(axis=0)
-        inputs = seen[~(own_gaps & (distance > options.distal * np.nanmean(distance)))]
+        inputs = seen[~(own_gaps & (distance > options.max_distance_ratio * np.nanmean(distance)))]
         ranked = inputs[np.argsort(~scene.present[:, inputs].all(axis=0), kind="stable")]
         # Together: the others that miss these frames have their columns too, where enough training frames remain.
         others = unseen if options.strategy == "together" else unseen[:0]
         chosen, joint = jointly_observed(
-            scene, marker, np.concatenate([ranked, others]), share=options.share, minimum_frames=options.minimum_frames
+            scene,
+            marker,
+            np.concatenate([ranked, others]),
+            share=options.min_joint_share,
+            minimum_frames=options.min_training_frames,
         )
         inputs, gaps = chosen[np.isin(chosen, ranked)], [marker, *chosen[np.isin(chosen, others)]]
         if len(inputs) == 0:
             return np.full((len(rows), 3), np.nan)
-        training = evenly_spaced(joint, options.frames)
+        training = evenly_spaced(joint, options.max_training_frames)
         complete_ones = inputs[scene.present[:, inputs].all(axis=0)]
         centres = complete_ones if len(complete_ones) else inputs
-        nearest = np.min([_distances(scene, gap, inputs, options.frames) for gap in gaps], axis=0)
-        weights = np.exp(-(nearest**2) / (2 * options.scale_mm**2))
+        nearest = np.min([_distances(scene, gap, inputs, options.max_training_frames) for gap in gaps], axis=0)
+        weights = np.exp(-(nearest**2) / (2 * options.weight_width_mm**2))
         weights = np.concatenate([np.full(len(gaps), options.missing_weight), weights]).repeat(3)
         columns = [*gaps, *inputs]
         centre = scene.positions[np.ix_(rows, centres)].mean(axis=1)
@@ -67,7 +71,7 @@ class WeightedPca:
             )
             for f in (training, rows)
         )
-        found = reconstruct(known, asked, 3 * len(gaps), weights=weights, explained=options.explained)
+        found = reconstruct(known, asked, 3 * len(gaps), weights=weights, explained=options.explained_singular_values)
         return found[:, :3] + centre
 
 

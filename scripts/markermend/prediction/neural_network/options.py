@@ -1,3 +1,3 @@
-"""The settings of the networks, apart from torch, which only their training imports."""
+"""The options of the networks, apart from torch, which only their training imports."""
 
 from __future__ import annotations

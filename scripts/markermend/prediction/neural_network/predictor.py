@@ -70,7 +70,7 @@ class Network:
     continuous = False
 
     def __init__(self, name: str, options: NeuralNetworkOptions) -> None:
-        """Keep the settings. Raises ValueError where torch is not installed."""
+        """Keep the options. Raises ValueError where torch is not installed."""
         if reason := cannot_train([name]):
             raise ValueError(reason)
         self.name, self.kind, self.options = name, KINDS[name], options
@@ -111,8 +111,8 @@ class Network:
         seen = np.logical_and.reduce(scene.present[start:stop], axis=0)
         known, key, options = self._learned(source).inputs, (marker, seen.tobytes()), self.options
         if key not in known:
-            most, least = options.inputs, options.minimum_inputs
-            share, frames = options.share, options.minimum_frames
+            most, least = options.inputs, options.min_inputs
+            share, frames = options.min_joint_share, options.min_training_frames
             known[key] = chosen(source, marker, seen, most=most, minimum=least, share=share, minimum_frames=frames)
         return known[key]
 
@@ -131,10 +131,12 @@ class Network:
 
         options = self.options
         seen = source.present[:, marker] & source.present[:, inputs].all(axis=1)
-        parts = [evenly_spaced(np.flatnonzero(seen), options.frames)]
+        parts = [evenly_spaced(np.flatnonzero(seen), options.max_training_frames)]
         if self.kind in GATES:
-            longest = len(seen) if options.stretch_s is None else max(2, round(options.stretch_s * source.rate))
-            parts = stretches(seen, longest=longest, frames=options.frames)
+            longest = (
+                len(seen) if options.max_sequence_s is None else max(2, round(options.max_sequence_s * source.rate))
+            )
+            parts = stretches(seen, longest=longest, frames=options.max_training_frames)
         columns, middle = features(source.positions[:, inputs], np.concatenate(parts), centred=options.centred)
         targets = source.positions[np.concatenate(parts), marker] - middle
         inlet, outlet = Scale.of(columns), Scale.of(targets)
@@ -149,11 +151,11 @@ class Network:
 
         options, reach = self.options, 1 + round(self.options.context_s * scene.rate)
         first, last = max(frames[0] - reach, 0), min(frames[-1] + 1 + reach, len(scene.positions))
-        examples = evenly_spaced(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.frames)
+        examples = evenly_spaced(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.max_training_frames)
         near = completed(
             scene.positions[first:last, inputs],
             source.positions[np.ix_(examples, inputs)],
-            minimum=min(options.minimum_inputs, len(inputs)),
+            minimum=min(options.min_inputs, len(inputs)),
         )
         columns, middle = features(near, np.arange(last - first), centred=options.centred)
         told = np.full((last - first, 3), np.nan)

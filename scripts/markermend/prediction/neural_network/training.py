@@ -39,8 +39,8 @@ def train(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOptions) -
     and averaged over the frames. Each network's gradient is shortened to the length `clip` on its own.
     """
     learned: list[Weights] = []
-    for first in range(0, len(lessons), options.batch):
-        learned += _train_batch(kind, lessons[first : first + options.batch], options)
+    for first in range(0, len(lessons), options.batch_networks):
+        learned += _train_batch(kind, lessons[first : first + options.batch_networks], options)
     return learned
 
 
@@ -66,8 +66,8 @@ def initial(kind: str, inputs: int, outputs: int, options: NeuralNetworkOptions)
                 constants[:, units : 2 * units] = 1
             weights += [_glorot(rng, inputs, width), former, constants]
         size = _directions(kind) * units
-    weights += [_glorot(rng, size, options.units), np.zeros((1, options.units))]
-    return [*weights, _glorot(rng, options.units, outputs), np.zeros((1, outputs))]
+    weights += [_glorot(rng, size, options.dense_units), np.zeros((1, options.dense_units))]
+    return [*weights, _glorot(rng, options.dense_units, outputs), np.zeros((1, outputs))]
 
 
 def _directions(kind: str) -> int:
@@ -96,7 +96,7 @@ def _train_batch(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOpt
     for epoch in range(options.epochs):
         loss = (shares * (_forward(kind, weights, x, backwards) - y).square()).sum() / 2
         gradients = torch.autograd.grad(loss, weights)
-        rate = options.learning_rate * options.drop ** (epoch // options.drop_every)
+        rate = options.learning_rate * options.learning_rate_factor ** (epoch // options.learning_rate_epochs)
         _descend(weights, velocities, gradients, rate, options)
     return [
         [
@@ -117,7 +117,7 @@ def _descend(
 ) -> None:
     """One step downhill with momentum, in place."""
     length = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()
-    scale = options.clip / length.clamp(min=options.clip)
+    scale = options.max_gradient_norm / length.clamp(min=options.max_gradient_norm)
     for part, velocity, gradient in zip(weights, velocities, gradients, strict=True):
         velocity.mul_(options.momentum).add_(gradient * scale)
         part.sub_(rate * velocity)

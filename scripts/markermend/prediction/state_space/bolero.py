@@ -41,7 +41,7 @@ class Bolero:
     continuous = False
 
     def __init__(self, options: BoleroOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         self.options = options
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
@@ -67,14 +67,16 @@ class Bolero:
     def _body(self, scene: Scene, marker: int, gap: tuple[int, int], window: tuple[int, int]) -> np.ndarray:
         """Who is looked at: the marker, its neighbours, and the ends of its bones; empty where it is hardly seen."""
         options = self.options
-        enough = np.count_nonzero(scene.present[slice(*window)], axis=0) >= options.minimum_frames
+        enough = np.count_nonzero(scene.present[slice(*window)], axis=0) >= options.min_training_frames
         if not enough[marker]:
             return np.zeros(0, int)
         near = np.asarray(scene.neighbours[marker], int)
         near = near[enough[near]]
         seldom = scene.present[slice(*gap), near].mean(axis=0) < 0.5
         near = near[np.argsort(seldom, kind="stable")][: options.neighbours]
-        ranked, _ = reference_markers(scene, marker, frames=options.frames, minimum_frames=options.minimum_frames)
+        ranked, _ = reference_markers(
+            scene, marker, frames=options.max_bone_frames, minimum_frames=options.min_training_frames
+        )
         ends = ranked[enough[ranked]][: options.bones]
         return np.concatenate([[marker], near, ends[~np.isin(ends, near)]])
 
@@ -91,11 +93,11 @@ class Bolero:
         scale = float(np.sqrt(np.nanmean((apart - np.nanmean(apart, axis=0)) ** 2))) or 1.0
         system, _ = learn(
             apart / scale,
-            hidden=options.hidden,
+            hidden=options.state_dimensions,
             lag=round(options.lag_s * scene.rate),
-            iterations=options.iterations,
+            iterations=options.max_iterations,
             tolerance=options.tolerance,
-            floor=options.floor_share**2,
+            floor=options.min_deviation_share**2,
         )
         return _Window(first, body, apart / scale, centre, scale, system)
 
@@ -112,11 +114,13 @@ class Bolero:
             window.body,
             window.body[missing],
             count=options.bones,
-            frames=options.frames,
-            minimum_frames=options.minimum_frames,
+            frames=options.max_bone_frames,
+            minimum_frames=options.min_training_frames,
         )
         if len(bones.length) == 0:
             return system.positions(states.mean[rows])[:, 0], system.spread(states.covariance[rows], 0)
-        lengths = BoneLengths(system, observed, bones.scaled(window.scale, options.floor_share), rows)
-        _, positions = lengths.settle(states.mean, iterations=options.steps, tolerance=options.floor_share)
+        lengths = BoneLengths(system, observed, bones.scaled(window.scale, options.min_deviation_share), rows)
+        _, positions = lengths.settle(
+            states.mean, iterations=options.max_bone_steps, tolerance=options.min_deviation_share
+        )
         return positions[:, 0], lengths.covariance(positions, 0)

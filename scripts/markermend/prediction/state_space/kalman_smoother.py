@@ -47,7 +47,7 @@ class KalmanSmoother:
     continuous = False
 
     def __init__(self, options: KalmanSmootherOptions) -> None:
-        """Keep the settings."""
+        """Keep the options."""
         self.options = options
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
@@ -57,7 +57,7 @@ class KalmanSmoother:
         positions, error = np.full((stop - start + 2, 3), np.nan), np.full(stop - start + 2, np.nan)
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
         chosen, joint = jointly_observed(
-            hidden, marker, near, share=options.share, minimum_frames=options.minimum_frames
+            hidden, marker, near, share=options.min_joint_share, minimum_frames=options.min_training_frames
         )
         context = max(2, round(options.context_s * scene.rate))
         window = np.arange(max(start - 1 - context, 0), min(stop + 1 + context, len(scene.positions)))
@@ -77,17 +77,17 @@ class KalmanSmoother:
     def _learn(self, scene: Scene, body: np.ndarray, joint: np.ndarray, lag: int) -> LinearDynamics:
         """Components of the shape, and how fast they change over the lag (frames), from frames that show the body."""
         options = self.options
-        training = evenly_spaced(joint, options.frames)
+        training = evenly_spaced(joint, options.max_training_frames)
         poses = scene.positions[np.ix_(training, body)]
         place = poses.mean(axis=1)
         shapes = (poses - place[:, None]).reshape(len(poses), -1)
         shape = shapes.mean(axis=0)
         sizes, vectors = np.linalg.eigh(np.cov(shapes, rowvar=False))
         sizes, vectors = np.maximum(sizes[::-1], 0.0), vectors[:, ::-1]
-        count = int(np.searchsorted(np.cumsum(sizes), options.explained * sizes.sum())) + 1
-        basis = vectors[:, : min(count, options.components, len(sizes))]
+        count = int(np.searchsorted(np.cumsum(sizes), options.explained_variance * sizes.sum())) + 1
+        basis = vectors[:, : min(count, options.max_components, len(sizes))]
         rest = (shapes - shape) - (shapes - shape) @ basis @ basis.T
-        noise = np.maximum((rest**2).mean(axis=0).reshape(-1, 3).mean(axis=1), options.noise_mm**2)
+        noise = np.maximum((rest**2).mean(axis=0).reshape(-1, 3).mean(axis=1), options.min_noise_mm**2)
         # What the pose does not tell of the marker; its residuals in sample are much too small.
         stretches = training // (2 * lag)
         noise[0] = max(noise[0], _left_out(poses, stretches, rank=basis.shape[1], folds=options.folds))
@@ -100,9 +100,9 @@ class KalmanSmoother:
         middles = every.mean(axis=1)
         course[joint, :3] = middles - place.mean(axis=0)
         course[joint, 3:] = ((every - middles[:, None]).reshape(len(joint), -1) - shape) @ basis
-        typical = np.maximum(np.nanvar(course, axis=0), options.noise_mm**2)
+        typical = np.maximum(np.nanvar(course, axis=0), options.min_noise_mm**2)
         pace = np.nan_to_num(_mean_square(np.diff(course, axis=0)), nan=1.0)
-        least = options.noise_mm**2 / scene.rate**3
+        least = options.min_noise_mm**2 / scene.rate**3
         return steady_motion(
             loading,
             middle,

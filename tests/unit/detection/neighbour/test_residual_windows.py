@@ -8,16 +8,16 @@ import pytest
 from markermend.detection.neighbour import edges, pulses, residual_windows
 from markermend.numerics import window_covariance
 from markermend.prediction.scene import Scene
-from support.signals import RATES, settings
+from support.signals import RATES, options_of
 
-PEAKS, STEPS = settings("peaks", "default"), settings("steps", "default")
+PEAKS, STEPS = options_of("peaks", "default"), options_of("steps", "default")
 
 
 def measured(residual, positions, rate, own):
     """The courses of one marker (frames, 3)."""
     scene = Scene(positions[:, None], rate, [np.zeros(0, int)])
     maps, length = edges.central(rate, own) if own is STEPS else pulses.of_longest(rate, own)
-    return residual_windows.measure(scene, residual[:, None], maps=maps, length=length, settings=own)
+    return residual_windows.measure(scene, residual[:, None], maps=maps, length=length, options=own)
 
 
 def rough(frames, seed):
@@ -69,7 +69,7 @@ def test_excursions_are_cut_to_the_samples_that_are_off(rate):
     places = [(0, 1), (100, 101), (200, 202), (398, 400)]
     for start, stop in places:
         residual[start:stop] += [4, 0, -3]
-    found = pulses.find(measured(residual, residual, rate, PEAKS), 0, rate=rate, settings=PEAKS)
+    found = pulses.find(measured(residual, residual, rate, PEAKS), 0, rate=rate, options=PEAKS)
     assert sorted((one.start, one.stop) for one in found) == places
     np.testing.assert_allclose([one.off.mean(axis=0) for one in found if one.start == 100], [[4, 0, -3]], atol=0.5)
 
@@ -87,7 +87,7 @@ def test_what_is_no_excursion(shape):
     positions = residual if shape != "of the neighbour" else positions
     if shape == "of the neighbour":
         residual[200:203] += 10
-    assert pulses.find(measured(residual, positions, 100.0, PEAKS), 0, rate=100.0, settings=PEAKS) == []
+    assert pulses.find(measured(residual, positions, 100.0, PEAKS), 0, rate=100.0, options=PEAKS) == []
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -96,7 +96,7 @@ def test_edges_are_found_where_they_are_and_beside_gaps(rate):
     residual[100:] += [3, 4, 0]
     residual[200:] -= [3, 4, 0]
     residual[3:] += [0, 6, 0]
-    found = edges.find(measured(residual, residual, rate, STEPS), 0, rate=rate, settings=STEPS)
+    found = edges.find(measured(residual, residual, rate, STEPS), 0, rate=rate, options=STEPS)
     assert [edge.frame for edge in found] == [3, 100, 200]
     np.testing.assert_allclose(found[1].jump, [3, 4, 0], atol=0.3)
 
@@ -106,7 +106,12 @@ def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
     residual[::37] += [2.6, 0, 0]
     course = measured(residual, residual, 100.0, PEAKS)
     low, high = (
-        {one.start for one in pulses.find(course, 0, rate=100.0, settings=replace(PEAKS, edge=0, sigmas=sigmas))}
+        {
+            one.start
+            for one in pulses.find(
+                course, 0, rate=100.0, options=replace(PEAKS, max_shift_ratio=0, threshold_sigmas=sigmas)
+            )
+        }
         for sigmas in (3, 7)
     )
     assert high < low

@@ -7,12 +7,13 @@ import pytest
 
 from markermend.core import events
 from markermend.detection.published import slow
+from markermend.options.prediction import PredictorOptions
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
-from support.signals import CONFIG, RATES, frames, neighbours, put, settings
+from support.signals import RATES, frames, neighbours, options_of, put
 
-PAPER = settings("slow", "paper")
+PAPER = options_of("slow", "paper")
 
 
 def triangle(length, height=10.0):
@@ -29,7 +30,7 @@ def residual(rate, seed=0):
 def test_hills_and_valleys_are_regrown_to_their_feet(rate, sign, length):
     signal, start, stop = residual(rate), frames(700, rate), frames(700 + length, rate)
     signal[start:stop] += sign * triangle(stop - start)
-    mask, score = slow.find_slow(signal, rate=rate, settings=PAPER)
+    mask, score = slow.find_slow(signal, rate=rate, options=PAPER)
     inside = np.flatnonzero(mask)
     assert np.array_equal(inside, np.arange(inside[0], inside[-1] + 1))
     assert abs(inside[0] - start) <= frames(6, rate)
@@ -42,14 +43,14 @@ def test_a_short_hill_a_jump_of_one_sample_and_noise_are_rejected(rate):
     signal, start = residual(rate), frames(700, rate)
     signal[start : start + frames(40, rate)] += triangle(frames(40, rate))
     signal[start + 3 * int(rate)] += 50
-    assert not slow.find_slow(signal, rate=rate, settings=PAPER)[0].any()
+    assert not slow.find_slow(signal, rate=rate, options=PAPER)[0].any()
 
 
 def test_a_gap_ends_a_hill():
     signal = residual(100.0)
     signal[700:800] += 10
     signal[745:755] = np.nan
-    mask, _ = slow.find_slow(signal, rate=100.0, settings=PAPER)
+    mask, _ = slow.find_slow(signal, rate=100.0, options=PAPER)
     assert not mask.any()
 
 
@@ -57,7 +58,7 @@ def test_thresholds_are_three_and_half_a_robust_deviation():
     signal = residual(100.0)
     sigma = 1.4826 * np.median(np.abs(signal - np.median(signal)))
     ramp = np.interp(np.arange(len(signal)), [600, 800, 1000], [0, 10, 0], left=0, right=0)
-    mask, score = slow.find_slow(signal + ramp, rate=100.0, settings=PAPER)
+    mask, score = slow.find_slow(signal + ramp, rate=100.0, options=PAPER)
     start, stop = np.flatnonzero(mask)[[0, -1]]
     assert abs(start - 600) <= 0.5 * sigma / 0.05 + 10 and abs(stop - 1000) <= 0.5 * sigma / 0.05 + 10
     assert score.max() == pytest.approx(10 / (3 * sigma), rel=0.35)  # the ramp widens the deviation
@@ -68,23 +69,25 @@ def test_a_top_lasts_a_fifth_of_a_second_and_a_hill_half_a_second(length, found)
     signal = residual(100.0)
     signal[600:700] = 0.3  # above the lower threshold: 1 s
     signal[640 : 640 + length] = 5
-    assert slow.find_slow(signal, rate=100.0, settings=PAPER)[0].any() == found
+    assert slow.find_slow(signal, rate=100.0, options=PAPER)[0].any() == found
     signal = residual(100.0)
     signal[599:661], signal[600:660] = 0, 0.3
     signal[600 : 600 + 2 * length + 10] = 5
     signal[600 + 2 * length + 10 : 661] = 0
-    assert slow.find_slow(signal, rate=100.0, settings=PAPER)[0].any() == found
+    assert slow.find_slow(signal, rate=100.0, options=PAPER)[0].any() == found
 
 
 @pytest.mark.parametrize("name", ["savitzky_golay", "moving_median"])
 @pytest.mark.parametrize(("height", "expected"), [(0, set()), (10, {"x"})])
 def test_a_smoother_sees_a_hill_where_the_motion_is_slower(name, height, expected):
-    own = replace(PAPER, predictor=name, smooth_s=5.0, order=2)
+    own = replace(PAPER, predictor=name, smoothing_window_s=5.0, polynomial_order=2)
     sway = 2 * np.sin(0.4 * np.arange(2000) / 100.0)
     positions = np.stack([sway + residual(100.0, seed) for seed in range(3)], axis=1)[:, None]
     positions[900:1000, 0, 0] += triangle(100, height)
     scene, nothing = Scene(positions, 100.0, [np.zeros(0, int)]), np.zeros(positions.shape, bool)
-    found = slow.detect(scene, markers=["A"], earlier=nothing, settings=own, predictor=slow.predictor(own, CONFIG))
+    found = slow.detect(
+        scene, markers=["A"], earlier=nothing, options=own, predictor=slow.predictor(own, PredictorOptions())
+    )
     assert {event.axes for event in found} == expected  # a polynomial rings beside the hill as well
     assert any(event.start < 950 < event.stop for event in found) == bool(expected)
 
@@ -103,9 +106,9 @@ def test_a_hill_is_found_where_the_pose_comes_again_without_it(name):
     positions, others = gait(), [np.delete(np.arange(5), m) for m in range(5)]
     positions[1000:1100, 2, 0] += triangle(100, 30)
     scene, own = Scene(positions, 100.0, others, segment_mates=others), replace(PAPER, predictor=name)
-    source = Only(slow.predictor(own, CONFIG), 2)
+    source = Only(slow.predictor(own, PredictorOptions()), 2)
     nothing = np.zeros(positions.shape, bool)
-    found = slow.detect(scene, markers=list("ABCDE"), earlier=nothing, settings=own, predictor=source)
+    found = slow.detect(scene, markers=list("ABCDE"), earlier=nothing, options=own, predictor=source)
     [event] = [event for event in found if "x" in event.axes]
     assert event.marker == "C"
     assert abs(event.start - 1000) <= 30 and abs(event.stop - 1100) <= 30
@@ -122,7 +125,7 @@ def test_a_loose_predictor_follows_a_hill_in_a_pose_that_comes_once():
     scene = Scene(recording.positions, recording.rate, near, segment_mates=[own[:4] for own in near])
     height = {}
     for name in ("replicated_network", "local_ridge"):
-        source = slow.predictor(replace(PAPER, predictor=name), CONFIG)
+        source = slow.predictor(replace(PAPER, predictor=name), PredictorOptions())
         height[name] = np.abs(source.residuals(scene, np.array([marker]))[1000:1100, marker, 0]).max()
     assert height["local_ridge"] > 9
     assert height["replicated_network"] < 5
@@ -151,7 +154,7 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
             return scene.positions
 
     scene = Scene(positions, rate, [np.zeros(0, int)])
-    arguments = {"markers": ["A"], "settings": PAPER, "predictor": Level()}
+    arguments = {"markers": ["A"], "options": PAPER, "predictor": Level()}
     [event] = slow.detect(scene, earlier=np.zeros_like(claimed), **arguments)
     assert (event.start, event.stop, event.axes) == (600, 800, "x")
     assert slow.detect(scene, earlier=claimed, **arguments) == []
@@ -162,4 +165,4 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
 
 def test_an_unknown_predictor_is_refused():
     with pytest.raises(ValueError, match="none of replicated_network, polynomial"):
-        slow.predictor(replace(PAPER, predictor="oracle"), CONFIG)
+        slow.predictor(replace(PAPER, predictor="oracle"), PredictorOptions())

@@ -31,7 +31,7 @@ def scene(positions, segment_mates=None, rate=100.0):
 def quick(name, **changed):
     """A loose predictor with default settings, but few steps of training."""
     made = predictor(name)
-    few = {"iterations": 150} if name == "replicated_network" else {}
+    few = {"max_iterations": 150} if name == "replicated_network" else {}
     return type(made)(replace(made.options, **few, **changed))
 
 
@@ -45,7 +45,7 @@ def test_a_polynomial_relation_is_learned(name, within):
 
 
 def test_a_straight_line_does_not_learn_it():
-    assert np.abs(quick("polynomial", powers=1).residuals(scene(limb()), np.array([0]))[:, 0, 0]).max() > 2
+    assert np.abs(quick("polynomial", max_power=1).residuals(scene(limb()), np.array([0]))[:, 0, 0]).max() > 2
 
 
 @pytest.mark.parametrize("name", BOTH)
@@ -53,7 +53,7 @@ def test_siblings_and_parent_are_the_inputs_and_nearest_stand_in_for_them(name):
     positions = limb()
     named = scene(positions, segment_mates=[np.array([4, 2])] * 6)
     assert quick(name)._usual(named, 0).tolist() == [2, 4]
-    assert quick(name, nearest=3)._usual(scene(positions), 0).tolist() == [1, 2, 3]
+    assert quick(name, neighbours=3)._usual(scene(positions), 0).tolist() == [1, 2, 3]
     positions[200:, 4] = np.nan
     assert quick(name)._usual(scene(positions, segment_mates=[np.array([4, 2])] * 6), 0).tolist() == [1, 2]
 
@@ -62,7 +62,7 @@ def test_rows_hold_now_and_before_and_what_was_not_seen_before_is_as_now():
     positions = np.arange(60.0).reshape(10, 2, 3)
     positions[3] = np.nan
     seen = scene(positions, rate=200.0)
-    rows = quick("polynomial", lags=2, lag_s=0.01).rows(seen, 0, np.array([1]), np.array([0, 5, 6, 7]))
+    rows = quick("polynomial", lags=2, lag_interval_s=0.01).rows(seen, 0, np.array([1]), np.array([0, 5, 6, 7]))
     now, before, earlier = rows[:, :3], rows[:, 3:6], rows[:, 6:]
     assert np.array_equal(now, positions[[0, 5, 6, 7], 1])
     assert np.array_equal(before, positions[[0, 5, 4, 5], 1])  # two frames are 0.01 s; frame 3 is missing

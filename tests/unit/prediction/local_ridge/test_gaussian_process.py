@@ -8,7 +8,9 @@ from markermend.prediction.local_ridge.gaussian_process import train
 from markermend.prediction.local_ridge.model import ridge_regression
 from support.fillings import predictor, scene
 
-OPTIONS = GaussianProcessOptions(points=100, lengths=(1.0,), amplitudes=(10.0,), blocks=4)
+OPTIONS = GaussianProcessOptions(
+    max_training_frames=100, length_scales=(1.0,), variance_ratios=(10.0,), validation_blocks=4
+)
 
 
 def training(curved, seed=5):
@@ -46,7 +48,9 @@ def test_it_equals_plain_kernel_regression_also_without_a_block():
 
 def test_without_the_radial_part_it_is_the_ridge():
     inputs, target, weights = training(1.0)
-    options = GaussianProcessOptions(points=100, lengths=(1.0,), amplitudes=(0.0,), blocks=4)
+    options = GaussianProcessOptions(
+        max_training_frames=100, length_scales=(1.0,), variance_ratios=(0.0,), validation_blocks=4
+    )
     process = train(inputs, target, weights, ridge=0.1, options=options)
     beta = ridge_regression(inputs, target, weights, 0.1)
     asked = inputs[:9] + 5.0
@@ -56,7 +60,9 @@ def test_without_the_radial_part_it_is_the_ridge():
 
 def test_it_follows_a_curve_and_chooses_what_errs_least():
     inputs, target, weights = training(1.0)
-    options = GaussianProcessOptions(points=100, lengths=(0.01, 1.0), amplitudes=(0.0, 100.0), blocks=4)
+    options = GaussianProcessOptions(
+        max_training_frames=100, length_scales=(0.01, 1.0), variance_ratios=(0.0, 100.0), validation_blocks=4
+    )
     kept = np.arange(120) % 3 != 0
     process = train(inputs[kept], target[kept], weights[kept], ridge=0.1, options=options)
     straight = np.concatenate([np.ones((40, 1)), inputs[~kept]], axis=1) @ ridge_regression(

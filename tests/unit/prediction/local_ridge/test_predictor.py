@@ -85,5 +85,5 @@ def test_markers_on_a_line_do_not_break_it():
     axis = body[:, 1] - body[:, 0]
     line = np.stack([body[:, 0] + share * axis for share in (0, 0.5, 1, 1.5)], axis=1)
     options = predictor("local_ridge").options
-    found = LocalRidge(replace(options, width_mm=0.0)).predict(scene(line), 2, 100, 140).positions
+    found = LocalRidge(replace(options, min_anchor_extent_mm=0.0)).predict(scene(line), 2, 100, 140).positions
     assert np.abs(found - line[99:141, 2]).max() < 1

@@ -46,7 +46,11 @@ def test_the_reconstruction_equals_the_plain_one_and_ignores_the_gap_columns():
 def test_a_rigid_body_is_recovered_by_all_its_components(strategy):
     positions = rigid_body(markers=8)
     options = replace(
-        predictor("weighted_pca").options, strategy=strategy, explained=1 - 1e-5, missing_weight=0.01, scale_mm=1000.0
+        predictor("weighted_pca").options,
+        strategy=strategy,
+        explained_singular_values=1 - 1e-5,
+        missing_weight=0.01,
+        weight_width_mm=1000.0,
     )
     gapped = positions.copy()
     gapped[120:160, 5] = np.nan

@@ -1,6 +1,7 @@
 """Networks: what they are fed, what they learn, that none depends on its batch, and that torch is asked for in words."""
 
 import json
+import shlex
 import subprocess
 import sys
 from dataclasses import replace
@@ -9,10 +10,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-import fill
-from markermend.command.stage import flag
-from markermend.options.prediction import NeuralNetworkOptions
-from markermend.planning import config as workflow_settings
+from markermend.options.filling import FillOptions
+from markermend.options.flags import write_flags
+from markermend.planning import config as planning_config
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network import predictor
 from markermend.prediction.neural_network.inputs import chosen, completed, features, stretches
@@ -20,11 +20,11 @@ from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene, Trainable
 from markermend.storage import change_file, mesh_file, stage_files
-from support.fillings import CONFIG, neighbours, restored, rigid_body, settings
+from support.fillings import fill_options, neighbours, predictor_options, restored, rigid_body
 from support.paths import PROJECT
 from support.treated import weights
 
-OPTIONS = NeuralNetworkOptions(**settings()["networks"])
+OPTIONS = predictor_options().neural_networks
 
 
 def network(name="network_linear", **changed):
@@ -128,7 +128,7 @@ def test_a_linear_map_is_learned_exactly():
     courses = rng.standard_normal((500, 4, 3)) * 100
     courses[:, 3] = courses[:, 0] * 0.5 - courses[:, 1] * 0.2 + courses[:, 2][:, ::-1] * 0.3 + 40
     seen = hidden(courses, (3, 200, 210))
-    one = network(epochs=600, centred=False, share=0.0, drop=1.0)
+    one = network(epochs=600, centred=False, min_joint_share=0.0, learning_rate_factor=1.0)
     found = one.predict(seen, 3, 200, 210).positions[1:-1]
     assert np.abs(found - courses[200:210, 3]).max() < 0.5
 
@@ -169,7 +169,7 @@ def test_a_gap_in_which_the_usual_inputs_are_missing_has_others(person):
 
 def test_too_little_to_learn_from_tells_nothing(person):
     positions = person.copy()
-    positions[OPTIONS.minimum_frames - 1 :, 3] = np.nan
+    positions[OPTIONS.min_training_frames - 1 :, 3] = np.nan
     one = network()
     seen = Scene(positions, 100.0, neighbours(person))
     one.train([(seen, 3)])
@@ -202,23 +202,23 @@ def test_recurrent_networks_look_beyond_the_gap(person):
 
 
 def test_trials_train_for_fewer_epochs():
-    full = members(["network_gru"], settings())[0]
-    brief = members(["network_gru"], settings(), most_frames=100)[0]
-    assert (full.options.epochs, brief.options.epochs) == (OPTIONS.epochs, OPTIONS.trial_epochs)
+    full = members(["network_gru"], predictor_options())[0]
+    brief = members(["network_gru"], predictor_options(), max_training_frames=100)[0]
+    assert (full.options.epochs, brief.options.epochs) == (OPTIONS.epochs, OPTIONS.pseudo_gap_epochs)
     assert replace(brief.options, epochs=full.options.epochs) == full.options
 
 
 def test_without_torch_networks_are_refused_before_a_run(monkeypatch):
     monkeypatch.setattr(predictor, "find_spec", lambda name: None)
-    config = {**CONFIG, "fill": {**CONFIG["fill"], "members": ["spline", "network_gru"]}}
+    config = {"fill": {"members": ["spline", "network_gru"]}}
     with pytest.raises(
         BadDataSet, match=r"fill.members: network_gru cannot be trained without torch: install it with pip"
     ):
-        workflow_settings.judge(config, deployed=False)
-    workflow_settings.judge(config, deployed=True)
-    workflow_settings.judge(CONFIG, deployed=False)
+        planning_config.check(config, deployed=False)
+    planning_config.check(config, deployed=True)
+    planning_config.check({}, deployed=False)
     with pytest.raises(ValueError, match="without torch"):
-        members(["network_gru"], settings())
+        members(["network_gru"], predictor_options())
 
 
 FILL = """
@@ -231,12 +231,11 @@ print("torch" in sys.modules)
 
 def stage(folder, names):
     """Run the fill stage; the changes that it wrote, and whether torch was imported."""
-    given = {**CONFIG, **CONFIG["fill"], "members": names, "networks": settings()["networks"], "decisions": []}
-    options = [f"{flag(name)}={workflow_settings.text(given[name])}" for name in fill.STAGE.options]
+    options = shlex.split(write_flags(fill_options(members=names)))
     files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
     files += ["--mesh", folder / "mesh.json", "--filled", folder / "07.parquet"]
     files += ["--changes", folder / "07_changes.parquet"]
-    command = [sys.executable, "-c", FILL, *map(str, files), *options]
+    command = [sys.executable, "-c", FILL, *map(str, files), *options, "--decisions=[]"]
     done = subprocess.run(command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
     return change_file.read(folder / "07_changes.parquet"), done.stdout.split()[-1] == "True"
 
@@ -251,7 +250,7 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
     body = {"recordings": ["walk"], "markers": names, "segments": [], "predictors": ranked, "neighbours": ranked}
     (tmp_path / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
     assert mesh_file.read(tmp_path / "mesh.json", "walk").markers == names
-    usual, torch = stage(tmp_path, CONFIG["fill"]["members"])
+    usual, torch = stage(tmp_path, FillOptions().members)
     assert [change.outcome for change in usual] == ["filled"] * 2 and not torch
     learned, torch = stage(tmp_path, ["network_linear"])
     assert len(learned) == 2 and torch

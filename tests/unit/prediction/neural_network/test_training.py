@@ -1,25 +1,26 @@
 """Training side by side against plain networks of torch.nn, each on its own with torch's optimiser."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import torch
 from torch import nn
 
+from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.neural_network.training import GATES, Lesson, evaluate, initial, train
 
 KINDS = ("linear", "tanh", "lstm", "gru", "bilstm")
-OPTIONS = SimpleNamespace(
-    units=4,
+OPTIONS = NeuralNetworkOptions(
+    dense_units=4,
     recurrent_units=5,
     epochs=15,
     learning_rate=0.05,
     momentum=0.8,
-    drop=0.9,
-    drop_every=6,
-    clip=0.3,
-    batch=8,
+    learning_rate_factor=0.9,
+    learning_rate_epochs=6,
+    max_gradient_norm=0.3,
+    batch_networks=8,
     seed=7,
 )
 
@@ -98,14 +99,14 @@ def trained_twin(kind, task, options):
     twin = Twin(kind, initial(kind, task.inputs[0].shape[1], 3, options))
     free = [part for part in twin.parameters() if part.requires_grad]
     optimiser = torch.optim.SGD(free, lr=options.learning_rate, momentum=options.momentum)
-    schedule = torch.optim.lr_scheduler.StepLR(optimiser, options.drop_every, options.drop)
+    schedule = torch.optim.lr_scheduler.StepLR(optimiser, options.learning_rate_epochs, options.learning_rate_factor)
     count = sum(map(len, task.inputs))
     for _ in range(options.epochs):
         optimiser.zero_grad()
         pairs = zip(task.inputs, task.targets, strict=True)
         loss = sum((twin(torch.from_numpy(x)) - torch.from_numpy(y)).square().sum() for x, y in pairs) / count / 2
         loss.backward()
-        nn.utils.clip_grad_norm_(free, options.clip)
+        nn.utils.clip_grad_norm_(free, options.max_gradient_norm)
         optimiser.step()
         schedule.step()
     return twin
@@ -143,7 +144,7 @@ def test_no_network_depends_on_its_batch(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_networks_learn(kind):
     task = lesson(4, lengths=(20, 20))
-    options = SimpleNamespace(**{**vars(OPTIONS), "epochs": 100, "learning_rate": 0.2, "drop": 1.0})
+    options = replace(OPTIONS, epochs=100, learning_rate=0.2, learning_rate_factor=1.0)
     errors = []
     for weights in (initial(kind, 6, 3, options), train(kind, [task], options)[0]):
         away = [evaluate(kind, weights, x) - y for x, y in zip(task.inputs, task.targets, strict=True)]
@@ -153,15 +154,15 @@ def test_networks_learn(kind):
 
 def test_the_gradient_of_each_network_is_clipped_on_its_own():
     """The first step is the learning rate times the gradient, which is as long as `clip` or as it was."""
-    options = SimpleNamespace(**{**vars(OPTIONS), "epochs": 1, "clip": 0.01})
+    options = replace(OPTIONS, epochs=1, max_gradient_norm=0.01)
     wild, calm = lesson(1, size=1000.0), lesson(1, size=1000.0)
     start = initial("tanh", 6, 3, options)
     near = [evaluate("tanh", start, x) + 1e-4 for x in calm.inputs]
     steps = []
     for weights in train("tanh", [wild, Lesson(calm.inputs, near)], options):
         steps.append(np.sqrt(sum(((a - b) ** 2).sum() for a, b in zip(weights, start, strict=True))))
-    assert steps[0] == pytest.approx(options.learning_rate * options.clip)
-    assert 0 < steps[1] < 0.5 * options.learning_rate * options.clip
+    assert steps[0] == pytest.approx(options.learning_rate * options.max_gradient_norm)
+    assert 0 < steps[1] < 0.5 * options.learning_rate * options.max_gradient_norm
 
 
 def test_weights_begin_as_the_sizes_say():
@@ -172,5 +173,5 @@ def test_weights_begin_as_the_sizes_say():
     assert [part.shape for part in weights] == [*shapes, *shapes, *dense]
     assert np.allclose(weights[1] @ weights[1].T, np.eye(units))
     assert weights[2][0].tolist() == [0.0] * units + [1.0] * units + [0.0] * 2 * units
-    feed_forward = initial("tanh", 30, 3, SimpleNamespace(**{**vars(OPTIONS), "units": 8}))
+    feed_forward = initial("tanh", 30, 3, replace(OPTIONS, dense_units=8))
     assert sum(part.size for part in feed_forward) == 275  # the paper's table 4

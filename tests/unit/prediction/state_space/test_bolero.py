@@ -158,7 +158,7 @@ def test_units_do_not_matter():
 def test_too_little_to_learn_from_tells_nothing():
     positions = rigid_body(frames=200)
     near = scene(positions).neighbours
-    least = predictor("bolero").options.minimum_frames
+    least = predictor("bolero").options.min_training_frames
     gapped = positions.copy()
     gapped[least // 2 : -(least // 2 - 1), 0] = np.nan
     found = predictor("bolero").predict(Scene(gapped, 100.0, near), 0, 60, 80)

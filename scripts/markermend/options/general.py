@@ -1,0 +1,75 @@
+"""Options of the whole run, and what the command of a stage is given about one recording."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from markermend.options.declaration import Distinct, Laboratory, NotEmpty
+
+Stages = Literal["labels", "frozen", "tails", "peaks", "noise", "steps", "slow"]
+"""The classes of artifacts that `detect` may list."""
+
+
+@dataclass(frozen=True)
+class GeneralOptions:
+    """The whole run."""
+
+    recordings: Annotated[str, NotEmpty, Laboratory] = "config/recordings.tsv"
+    """A folder (every recording in it or below) or a table of recordings.
+
+    Change it when you clean your own recordings; it may also be given on the command line."""
+
+    results: Annotated[str, NotEmpty, Laboratory] = "results"
+    """The folder for the results.
+
+    Change it when you clean your own recordings; it may also be given on the command line."""
+
+    detect: Annotated[tuple[Stages, ...], Distinct, Laboratory] = (
+        "labels",
+        "frozen",
+        "tails",
+        "peaks",
+        "noise",
+        "steps",
+        "slow",
+    )
+    """The classes of artifacts to look for; an empty list fills gaps only.
+
+    Change it when your laboratory does not want a class to be touched; `[]` fills gaps only."""
+
+    protect: Annotated[tuple[str, ...], Laboratory] = ()
+    """Markers that neither repair nor filling touches, as name patterns with `*` and `?`.
+
+    Change it when somebody cleaned markers by hand, or markers must stay as recorded."""
+
+    decisions: Annotated[Annotated[str, NotEmpty] | None, Laboratory] = "config/decisions.tsv"
+    """The table of a person's decisions on findings and gaps; `null` for none.
+
+    Change it when you keep the table elsewhere."""
+
+
+@dataclass(frozen=True)
+class RecordingOptions:
+    """What the table of recordings says about one recording."""
+
+    recording: str
+    """Name of the recording."""
+
+    subject: str
+    """Name of the subject."""
+
+    kind: Literal["auto", "dynamic", "static"]
+    """Kind of the recording: dynamic, static (never repaired or filled), or auto (judged by name and motion)."""
+
+    rate: float | None
+    """Frame rate in Hz, in place of the file's; `none` for the file's."""
+
+
+@dataclass(frozen=True)
+class DecisionOptions:
+    """What a person decided about one recording."""
+
+    decisions: tuple[Mapping[str, Any], ...]
+    """A person's decisions on the findings and gaps of the recording, as config/README.md describes them."""

@@ -1,0 +1,38 @@
+"""Options of the stage that reads recordings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from markermend.options.declaration import Laboratory, Millimetres, RegularExpression
+
+
+@dataclass(frozen=True)
+class IngestOptions:
+    """Read the recordings."""
+
+    unlabelled: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
+        r"\*\d*",
+        r"unnamed#\d+",
+        r"[CU]_\d+",
+        r"unlabell?ed\W*\d*",
+    )
+    """Regular expressions for the names of unlabelled trajectories, which are left out.
+
+    Change it when your capture program names unlabelled trajectories in another way."""
+
+    static_names: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
+        "static",
+        "calibration",
+        r"(^|[^a-z])cal\d*$",
+        "(^|[^a-z])t-?pose",
+    )
+    """Regular expressions that occur in the names of static recordings.
+
+    Change it when your static and calibration recordings have other names."""
+
+    static_motion_mm: Annotated[Millimetres, Laboratory] = 15
+    """A recording is static if nine markers in ten move by less than this.
+
+    Change it when a static recording is taken for a dynamic one, or the reverse."""

@@ -1,0 +1,55 @@
+"""Options of the stage that infers the body mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from markermend.options.declaration import CountOrNone, Laboratory, Millimetres, NotNegative, Planned, Seconds
+
+
+@dataclass(frozen=True)
+class MeshOptions:
+    """Infer the body mesh of each subject."""
+
+    files: Annotated[tuple[str, ...], Laboratory, Planned] = ()
+    """Mesh files that replace the inferred mesh, for subjects for whom the table of recordings names none.
+
+    Change it when the motion is too small to infer the body from: draw the mesh yourself."""
+
+    max_frames: CountOrNone = 2500
+    """Frames of a recording that are used, at most; they are evenly spaced."""
+
+    min_frames: CountOrNone = 60
+    """Frames on which a marker, or both markers of a pair, must be seen."""
+
+    reference_distance_mm: Millimetres = 300
+    """Distance between two markers that scales their dissimilarity (deviation * distance / this)."""
+
+    segment_cut_mm: Millimetres = 12
+    """Dissimilarity above which markers do not share a segment.
+
+    Change it when segments are too large (lower) or fall apart (higher)."""
+
+    max_edge_cost_mm: Millimetres = 200
+    """Largest cost of an edge within one subject or prop.
+
+    Change it when two subjects, or a subject and a prop, form one body (lower)."""
+
+    min_predictors: CountOrNone = 3
+    """Predictors of a marker, at least: its nearest markers are added to siblings and parent."""
+
+    max_neighbours: CountOrNone = 30
+    """Neighbours of a marker in the mesh, at most."""
+
+    min_excitation_s: Seconds = 10
+    """A shorter duration of motion gives a warning."""
+
+    min_excitation_mm: Millimetres = 30
+    """A smaller median deviation of the distances between markers gives a warning."""
+
+    max_markers_per_segment: NotNegative = 6
+    """More markers per segment than this give a warning."""
+
+    min_marker_overlap: NotNegative = 0.8
+    """Recordings that share at least this part of their markers are pooled (0 to 1)."""

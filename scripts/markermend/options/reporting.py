@@ -1,0 +1,54 @@
+"""Options of the reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from markermend.options.declaration import CountOrNone, Laboratory, NotNegative, Seconds
+
+
+@dataclass(frozen=True)
+class AttentionOptions:
+    """Points of the attention score, by which the report sorts recordings."""
+
+    changed_percent: NotNegative = 1
+    """Points for each per cent of the samples that changed."""
+
+    missing_percent: NotNegative = 1
+    """Points for each per cent of the samples that are still missing."""
+
+    error_mm: NotNegative = 0.1
+    """Points for each millimetre of the largest expected error."""
+
+    open: NotNegative = 1
+    """Points for each artifact that was found but not repaired."""
+
+    warning: NotNegative = 1
+    """Points for each warning."""
+
+
+@dataclass(frozen=True)
+class QcOptions:
+    """Judge each recording."""
+
+    plots: Annotated[CountOrNone, Laboratory] = 100
+    """Plots in each of the two tables of a page, at most; the worst come first.
+
+    Change it when pages of bad recordings are slow to open (lower)."""
+
+    attention: Annotated[AttentionOptions, Laboratory] = field(default_factory=AttentionOptions)
+    """Points of the attention score, by which the report sorts recordings.
+
+    Change it when the recordings that come first in the report are not those that worry you."""
+
+    context_s: Seconds = 0.5
+    """Time on either side of a finding that a plot shows."""
+
+    max_plot_frames: CountOrNone = 800
+    """Frames in a plot, at most; a longer stretch shows every second, third, ... frame."""
+
+
+@dataclass(frozen=True)
+class NoOptions:
+    """Nothing to set."""
