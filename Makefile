@@ -5,7 +5,7 @@ CORES ?= all
 # Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo test wheel lint lock clean
+.PHONY: demo test wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -27,6 +27,10 @@ lint: .venv/ready
 	$(BIN)/mypy
 	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
 	$(BIN)/codespell
+
+# What is made from the declared options: config/config.yaml, its schema, the tables of config/README.md.
+config: .venv/ready
+	PYTHONPATH=scripts $(BIN)/python -m markermend.planning.config_files
 
 # The newest versions of what pyproject.toml names; then bring envs/*.yaml in step.
 lock: .venv/ready
