@@ -8,32 +8,70 @@ import numpy as np
 
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.mesh import segment_summary, segment_tree, user_mesh
-from markermend.mesh.pair_statistics import PairStatistics, name, pair_statistics
-from markermend.mesh.user_mesh import Supplied
+from markermend.mesh.pair_statistics import PairStatistics, pair_statistics, recording_name
+from markermend.mesh.segment_summary import Description, Excitation, judge_excitation, named, rank_markers
+from markermend.mesh.segment_tree import Skeleton, infer_skeleton
+from markermend.mesh.user_mesh import UserMesh
+from markermend.mesh.user_skeleton import fit_to_recordings
 from markermend.options.mesh import MeshOptions
 
 
 def overlap(a: Sequence[str], b: Sequence[str]) -> float:
-    """Jaccard overlap of two marker sets, 0 to 1."""
+    """Compute the Jaccard overlap of two marker sets.
+
+    Parameters
+    ----------
+    a, b : sequence of str
+        Names of markers.
+
+    Returns
+    -------
+    float
+        Share of the markers of both that are in both, 0 to 1.
+    """
     return len(set(a) & set(b)) / max(len(set(a) | set(b)), 1)
 
 
 def group_recordings(recordings: Sequence[Recording], *, marker_overlap: float) -> list[list[Recording]]:
-    """Group recordings whose marker sets overlap by at least marker_overlap, directly or through others."""
+    """Group recordings by their marker sets.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        The recordings.
+    marker_overlap : float
+        Recordings whose marker sets overlap by at least this (0 to 1), directly or through others, form a group.
+
+    Returns
+    -------
+    list of list of Recording
+        The groups, each sorted by name.
+    """
     groups: list[list[Recording]] = []
-    for recording in sorted(recordings, key=name):
+    for recording in sorted(recordings, key=recording_name):
         near = [g for g in groups if any(overlap(recording.markers, other.markers) >= marker_overlap for other in g)]
         groups = [g for g in groups if not any(g is other for other in near)]
         groups.append([*(other for g in near for other in g), recording])
-    return [sorted(group, key=name) for group in groups]
+    return [sorted(group, key=recording_name) for group in groups]
 
 
-def infer_meshes(recordings: Sequence[Recording], *, supplied: Sequence[Supplied], options: MeshOptions) -> list[Mesh]:
-    """Infer one mesh for each group of recordings with like marker sets.
+def infer_meshes(recordings: Sequence[Recording], *, supplied: Sequence[UserMesh], options: MeshOptions) -> list[Mesh]:
+    """Infer one mesh for each group of recordings with similar marker sets.
 
-    A supplied mesh serves the recordings whose markers it overlaps by at least marker_overlap; where several do, the
-    one that overlaps most, then the first. The order of the recordings does not matter.
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        All recordings of a subject; their order does not matter.
+    supplied : sequence of UserMesh
+        Meshes of the user. One serves the recordings whose markers it overlaps by at least `min_marker_overlap`; where
+        several do, the one that overlaps most, then the first.
+    options : MeshOptions
+        How meshes are inferred.
+
+    Returns
+    -------
+    list of Mesh
+        The meshes, by the names of their recordings.
     """
     served: dict[int, list[Recording]] = {}
     others = []
@@ -50,61 +88,85 @@ def infer_meshes(recordings: Sequence[Recording], *, supplied: Sequence[Supplied
     return sorted(meshes, key=lambda mesh: mesh.recordings)
 
 
-def infer_mesh(
-    recordings: Sequence[Recording],
-    *,
-    options: MeshOptions,
-    supplied: Supplied | None = None,
-) -> Mesh:
+def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplied: UserMesh | None = None) -> Mesh:
     """Infer the functional body mesh of one subject and marker set from all its recordings.
 
-    recordings: mm, NaN = missing; static ones (facts["kind"]) count only where there is nothing else. supplied: segments that win over inferred ones; only their statistics come from the data.
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        The recordings, in mm; static ones (by the fact `kind`) count only where there are no others.
+    options : MeshOptions
+        How the mesh is inferred.
+    supplied : UserMesh, optional
+        Segments that replace the inferred ones; only their statistics come from the recordings.
 
-    Source: Skurowski & Pawlyta 2016, outlined in Skurowski & Pawlyta 2021, section 2.2.
+    Returns
+    -------
+    Mesh
+        Segments, predictors and neighbours of every marker, and what the recordings lack.
+
+    References
+    ----------
+    skurowski2021, section 2.2.
     """
-    every = sorted({marker for recording in recordings for marker in recording.markers})
+    markers = sorted({marker for recording in recordings for marker in recording.markers})
     moving = [recording for recording in recordings if recording.facts.get("kind") != "static"]
     statistics = pair_statistics(
-        moving or recordings, frames=options.max_frames, valid_frames=options.min_frames, markers=every
+        moving or recordings, frames=options.max_frames, valid_frames=options.min_frames, markers=markers
     )
     dissimilarity = statistics.dissimilarity(options.reference_distance_mm)
-    hanging = statistics.hanging(dissimilarity)
-    seen = np.flatnonzero(statistics.valid >= options.min_frames).tolist()
-    remarks: list[str] = []
-    if supplied is None:
-        block = np.ix_(seen, seen)
-        own = segment_tree.grow(
-            dissimilarity[block], hanging[block], cut_mm=options.segment_cut_mm, component_cost=options.max_edge_cost_mm
-        )
-        skeleton = own.renumbered(seen)
-    else:
-        skeleton, remarks = user_mesh.adopt(supplied, every, seen, hanging, component_cost=options.max_edge_cost_mm)
-    share, lacks = segment_summary.excitation(
-        statistics,
-        len(skeleton.members),
-        len(seen),
-        options.min_excitation_s,
-        options.min_excitation_mm,
-        options.max_markers_per_segment,
+    attachment = statistics.attachment_costs(dissimilarity)
+    skeleton, remarks = _skeleton(statistics, dissimilarity, attachment, options, supplied)
+    excitation = _excitation(statistics, skeleton, options)
+    description = Description(skeleton, statistics, dissimilarity, attachment, options.segment_cut_mm, excitation.share)
+    predictors, neighbours = rank_markers(
+        skeleton, dissimilarity, min_predictors=options.min_predictors, max_neighbours=options.max_neighbours
     )
-    predictors, near = segment_summary.rank(skeleton, dissimilarity, options.min_predictors, options.max_neighbours)
+    lacks = excitation.warnings if supplied is None else ()
     return Mesh(
-        recordings=tuple(sorted(name(recording) for recording in recordings)),
-        markers=tuple(every),
-        segments=segment_summary.describe(skeleton, statistics, dissimilarity, hanging, options.segment_cut_mm, share),
-        predictors=segment_summary.named(predictors, every),
-        neighbours=segment_summary.named(near, every),
-        warnings=(*unseen(statistics, options.min_frames), *remarks, *(lacks if supplied is None else ())),
-        absent={name(recording): lacking for recording in recordings if (lacking := absent(recording, every))},
+        recordings=tuple(sorted(recording_name(recording) for recording in recordings)),
+        markers=tuple(markers),
+        segments=description.segments(),
+        predictors=named(predictors, markers),
+        neighbours=named(neighbours, markers),
+        warnings=(*_seldom_seen(statistics, options.min_frames), *remarks, *lacks),
+        absent={recording_name(own): lacking for own in recordings if (lacking := _absent(own, markers))},
     )
 
 
-def unseen(statistics: PairStatistics, valid_frames: int) -> list[str]:
-    """Warn of the markers with too little data to tell what they move with."""
-    names = [statistics.markers[m] for m in np.flatnonzero(statistics.valid < valid_frames)]
-    return [f"seen on fewer than {valid_frames} frames: {', '.join(names)}"] if names else []
+def _skeleton(
+    statistics: PairStatistics,
+    dissimilarity: np.ndarray,
+    attachment: np.ndarray,
+    options: MeshOptions,
+    supplied: UserMesh | None,
+) -> tuple[Skeleton, list[str]]:
+    """The segments, inferred or supplied, of the markers with enough data; and how a supplied mesh differs."""
+    seen = np.flatnonzero(statistics.valid >= options.min_frames).tolist()
+    limit = options.max_edge_cost_mm
+    if supplied is not None:
+        return fit_to_recordings(supplied, statistics.markers, seen, attachment, max_cost_mm=limit)
+    block = np.ix_(seen, seen)
+    own = infer_skeleton(dissimilarity[block], attachment[block], cut_mm=options.segment_cut_mm, max_cost_mm=limit)
+    return own.renumbered(seen), []
 
 
-def absent(recording: Recording, markers: Sequence[str]) -> tuple[str, ...]:
+def _excitation(statistics: PairStatistics, skeleton: Skeleton, options: MeshOptions) -> Excitation:
+    """How much the subject moved, by what the options want."""
+    return judge_excitation(
+        statistics,
+        segments=len(skeleton.members),
+        markers=int(np.count_nonzero(statistics.valid >= options.min_frames)),
+        options=options,
+    )
+
+
+def _seldom_seen(statistics: PairStatistics, min_frames: int) -> list[str]:
+    """A warning that names the markers with too little data."""
+    names = [statistics.markers[m] for m in np.flatnonzero(statistics.valid < min_frames)]
+    return [f"seen on fewer than {min_frames} frames: {', '.join(names)}"] if names else []
+
+
+def _absent(recording: Recording, markers: Sequence[str]) -> tuple[str, ...]:
     """The markers that a recording does not hold."""
     return tuple(marker for marker in markers if marker not in recording.markers)

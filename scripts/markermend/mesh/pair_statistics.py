@@ -1,4 +1,4 @@
-"""How constant, near and coherent each pair of markers is: the numbers that a mesh is inferred from."""
+"""How constant, near and coherent each pair of markers is: the statistics from which a mesh is inferred."""
 
 from __future__ import annotations
 
@@ -20,9 +20,18 @@ DECIMALS = 6
 class PairStatistics:
     """Statistics of each pair of markers over all recordings of a subject.
 
-    markers: sorted names. valid: int (markers,), sampled frames on which each was seen. distance, deviation: float64
-    (markers, markers), mm, median and robust standard deviation of the distance. coherence: correlation of the
-    displacements, -1 to 1. NaN where a pair is unknown; the diagonal is 0, 0 and 1. seconds: total duration.
+    Attributes
+    ----------
+    markers : tuple of str
+        Names, sorted.
+    valid : ndarray of int, shape (markers,)
+        Number of sampled frames in which each marker was seen.
+    distance, deviation : ndarray, shape (markers, markers)
+        Median and robust standard deviation of the distance, mm; NaN where a pair is unknown, 0 on the diagonal.
+    coherence : ndarray, shape (markers, markers)
+        Correlation of the displacements, -1 to 1; NaN where a pair is unknown, 1 on the diagonal.
+    seconds : float
+        Duration of all recordings, s.
     """
 
     markers: tuple[str, ...]
@@ -33,16 +42,53 @@ class PairStatistics:
     seconds: float
 
     def dissimilarity(self, scale_mm: float) -> np.ndarray:
-        """Give A = deviation * distance / scale_mm, mm (markers, markers): small where near and constant."""
-        return np.round(self.deviation * self.distance / scale_mm, DECIMALS)
+        """Compute the dissimilarity A = deviation * distance / scale_mm of each pair.
 
-    def hanging(self, dissimilarity: np.ndarray) -> np.ndarray:
-        """Give the cost A * (2 - coherence) of hanging each marker (row) on each other (column), mm; NaN = unknown."""
-        return dissimilarity * (2.0 - np.nan_to_num(self.coherence))
+        Parameters
+        ----------
+        scale_mm : float
+            Distance at which the dissimilarity equals the deviation, mm.
+
+        Returns
+        -------
+        ndarray, shape (markers, markers)
+            Dissimilarity, mm: small for markers at a short and constant distance; NaN where a pair is unknown.
+        """
+        dissimilarity: np.ndarray = np.round(self.deviation * self.distance / scale_mm, DECIMALS)
+        return dissimilarity
+
+    def attachment_costs(self, dissimilarity: np.ndarray) -> np.ndarray:
+        """Compute the cost A * (2 - coherence) of attaching each marker to each other.
+
+        Parameters
+        ----------
+        dissimilarity : ndarray, shape (markers, markers)
+            Result of `dissimilarity`, mm.
+
+        Returns
+        -------
+        ndarray, shape (markers, markers)
+            Cost of attaching the marker of the row to that of the column, mm; NaN where a pair is unknown.
+        """
+        costs: np.ndarray = dissimilarity * (2.0 - np.nan_to_num(self.coherence))
+        return costs
 
 
 def thin(recording: Recording, *, frames: int) -> Recording:
-    """Keep at most `frames` evenly spaced frames; the rate falls accordingly, so that the duration stays."""
+    """Keep evenly spaced frames of a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording; it is not modified.
+    frames : int
+        Most frames to keep.
+
+    Returns
+    -------
+    Recording
+        At most `frames` frames at a rate that falls accordingly, so that the duration stays.
+    """
     if recording.frames <= frames:
         return recording
     rows = (np.arange(frames) * recording.frames) // frames
@@ -50,10 +96,19 @@ def thin(recording: Recording, *, frames: int) -> Recording:
 
 
 def distance_statistics(positions: np.ndarray, *, valid_frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """Median and robust standard deviation (P95 - P5) / 3.29 of the distance of each pair of markers.
+    """Compute the median and the robust standard deviation (P95 - P5) / 3.29 of the distance of each pair of markers.
 
-    positions: (frames, markers, 3), mm, NaN = missing. Returns two arrays (markers, markers), mm, NaN where a pair was
-    jointly seen on fewer than valid_frames frames. Percentiles interpolate linearly.
+    Parameters
+    ----------
+    positions : ndarray, shape (frames, markers, 3)
+        Positions, mm; NaN = missing.
+    valid_frames : int
+        Fewest frames in which both markers must be seen.
+
+    Returns
+    -------
+    median, deviation : ndarray, shape (markers, markers)
+        Both in mm, NaN where a pair was seen together in too few frames. Percentiles are interpolated linearly.
     """
     frames, markers, _ = positions.shape
     median, deviation = np.full((2, markers, markers), np.nan)
@@ -71,21 +126,47 @@ def distance_statistics(positions: np.ndarray, *, valid_frames: int) -> tuple[np
 
 
 def percentile(ordered: np.ndarray, count: np.ndarray, share: float) -> np.ndarray:
-    """Percentile of the first `count` values of each row of `ordered` (ascending), interpolated linearly."""
+    """Compute a percentile of the first values of each row, interpolated linearly.
+
+    Parameters
+    ----------
+    ordered : ndarray, shape (rows, n)
+        Values, ascending in each row.
+    count : ndarray of int, shape (rows,)
+        Number of values that count in each row.
+    share : float
+        The percentile, 0 to 1.
+
+    Returns
+    -------
+    ndarray, shape (rows,)
+        The percentile of each row.
+    """
     position = share * (count - 1)
     lower = np.floor(position).astype(int)
     upper = np.minimum(lower + 1, count - 1)
     row = np.arange(len(ordered))
     below = ordered[row, lower]
-    return below + (position - lower) * (ordered[row, upper] - below)
+    interpolated: np.ndarray = below + (position - lower) * (ordered[row, upper] - below)
+    return interpolated
 
 
 def displacement_moments(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Joint covariance sums of the frame-to-frame displacements of each pair of markers, all axes together.
+    """Sum the products of the frame-to-frame displacements of each pair of markers, over all axes.
 
-    positions: (frames, markers, 3), mm, NaN = missing. Returns two arrays (markers, markers), mm^2: sums of products
-    about the joint mean displacement, and sums of squares of the row's marker over the frames seen jointly with the
-    column's. Means are taken per axis, which makes the sums independent of the laboratory axes.
+    Means are taken per axis, which makes the sums independent of the laboratory axes.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (frames, markers, 3)
+        Positions, mm; NaN = missing.
+
+    Returns
+    -------
+    products : ndarray, shape (markers, markers)
+        Sums of products about the joint mean displacement, mm^2.
+    squares : ndarray, shape (markers, markers)
+        Sums of squares of the row's marker over the frames in which the column's is seen, too, mm^2.
     """
     steps = np.diff(positions, axis=0)
     seen = (~np.isnan(steps).any(axis=2)).astype(float)
@@ -97,41 +178,81 @@ def displacement_moments(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return products, squares
 
 
+class _Pool:
+    """Sums over recordings, matrices (markers, markers) each, from which the statistics of pairs follow."""
+
+    def __init__(self, markers: Sequence[str]) -> None:
+        self.markers = tuple(markers)
+        self.valid = np.zeros(len(markers), int)
+        self.known, self.distance, self.variance, self.products, self.squares = np.zeros((5, *[len(markers)] * 2))
+        self._place = {marker: m for m, marker in enumerate(markers)}
+
+    def add(self, sample: Recording, valid_frames: int) -> None:
+        """Add a recording, each of whose pairs counts from valid_frames joint frames on."""
+        rows = np.array([self._place[marker] for marker in sample.markers], int)
+        block = np.ix_(rows, rows)
+        self.valid[rows] += (~sample.missing).sum(axis=0)
+        median, deviation = distance_statistics(sample.positions, valid_frames=valid_frames)
+        self.known[block] += ~np.isnan(median)
+        self.distance[block] += np.nan_to_num(median)
+        self.variance[block] += np.nan_to_num(np.square(deviation))
+        products, squares = displacement_moments(sample.positions)
+        self.products[block] += products
+        self.squares[block] += squares
+
+    def statistics(self, seconds: float) -> PairStatistics:
+        """Means over the recordings that know a pair."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            distance, deviation = self.distance / self.known, np.sqrt(self.variance / self.known)
+            scale = np.sqrt(self.squares * self.squares.T)
+            coherence = np.where(scale > 0, np.clip(self.products / scale, -1.0, 1.0), np.nan)
+        for matrix, value in ((distance, 0.0), (deviation, 0.0), (coherence, 1.0)):
+            np.fill_diagonal(matrix, value)
+        coherence[np.isnan(distance)] = np.nan
+        return PairStatistics(self.markers, self.valid, distance, deviation, np.round(coherence, DECIMALS), seconds)
+
+
 def pair_statistics(
     recordings: Sequence[Recording], *, frames: int, valid_frames: int, markers: Sequence[str]
 ) -> PairStatistics:
-    """Pool the statistics of all pairs of `markers` over recordings, each of which holds some of them.
+    """Pool the statistics of all pairs of markers over recordings.
 
-    Each recording is thinned to `frames`; a pair is known in it from valid_frames joint frames on. Deviations are
-    pooled as root mean square, distances as mean over the recordings that know the pair, displacements as one sample.
+    Deviations are pooled as root mean square, distances as mean over the recordings that know the pair, displacements
+    as one sample. The order of the recordings does not matter.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        Recordings, each of which holds some of the markers.
+    frames : int
+        Each recording is thinned to this number of frames.
+    valid_frames : int
+        Fewest joint frames from which a pair is known in a recording.
+    markers : sequence of str
+        Names of all markers, sorted.
+
+    Returns
+    -------
+    PairStatistics
+        The statistics; NaN where no recording knows a pair.
     """
-    place = {marker: m for m, marker in enumerate(markers)}
-    shape = (len(markers), len(markers))
-    known, distance, variance, products, squares = np.zeros((5, *shape))
-    valid = np.zeros(len(markers), int)
-    for recording in sorted(recordings, key=name):
-        sample = thin(recording, frames=frames)
-        rows = np.array([place[marker] for marker in sample.markers], int)
-        block = np.ix_(rows, rows)
-        valid[rows] += (~sample.missing).sum(axis=0)
-        median, deviation = distance_statistics(sample.positions, valid_frames=valid_frames)
-        known[block] += ~np.isnan(median)
-        distance[block] += np.nan_to_num(median)
-        variance[block] += np.nan_to_num(np.square(deviation))
-        moments = displacement_moments(sample.positions)
-        products[block] += moments[0]
-        squares[block] += moments[1]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        distance, deviation = distance / known, np.sqrt(variance / known)
-        scale = np.sqrt(squares * squares.T)
-        coherence = np.where(scale > 0, np.clip(products / scale, -1.0, 1.0), np.nan)
-    for matrix, value in ((distance, 0.0), (deviation, 0.0), (coherence, 1.0)):
-        np.fill_diagonal(matrix, value)
-    coherence[np.isnan(distance)] = np.nan
-    seconds = sum(recording.frames / recording.rate for recording in recordings)
-    return PairStatistics(tuple(markers), valid, distance, deviation, np.round(coherence, DECIMALS), seconds)
+    pool = _Pool(markers)
+    for recording in sorted(recordings, key=recording_name):
+        pool.add(thin(recording, frames=frames), valid_frames)
+    return pool.statistics(sum(recording.frames / recording.rate for recording in recordings))
 
 
-def name(recording: Recording) -> str:
-    """The recording's name, empty if it has none."""
-    return recording.facts.get("recording", "")
+def recording_name(recording: Recording) -> str:
+    """Name a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+
+    Returns
+    -------
+    str
+        Its name, empty if it has none.
+    """
+    return str(recording.facts.get("recording", ""))

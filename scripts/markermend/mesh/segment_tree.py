@@ -1,4 +1,4 @@
-"""Segments of markers and how they hang on each other: clustering, the cost of an edge, the spanning tree, its root."""
+"""Segments of markers in a tree: clustering, the cost of an edge, the spanning tree, and its root."""
 
 from __future__ import annotations
 
@@ -18,8 +18,16 @@ UNRELATED = 1e9
 class Skeleton:
     """Segments in a tree, markers as indices.
 
-    members: markers of each segment. parent: segment that each hangs on, None for a root. parent_marker: the marker
-    that each hangs on; for a root a marker of a child, None where it has none. names: those given by a user.
+    Attributes
+    ----------
+    members : tuple of tuple of int
+        The markers of each segment.
+    parent : tuple of int or None
+        The segment to which each is attached, None for a root.
+    parent_marker : tuple of int or None
+        The marker to which each is attached; for a root a marker of a child, None where it has none.
+    names : tuple of str or None
+        The names that a user gave.
     """
 
     members: tuple[tuple[int, ...], ...]
@@ -27,12 +35,23 @@ class Skeleton:
     parent_marker: tuple[int | None, ...]
     names: tuple[str | None, ...]
 
-    def renumbered(self, markers: list[int]) -> Skeleton:
-        """Give the skeleton in which marker m is called markers[m]."""
+    def renumbered(self, markers: Sequence[int]) -> Skeleton:
+        """Rename the markers.
+
+        Parameters
+        ----------
+        markers : sequence of int
+            The new index of each marker.
+
+        Returns
+        -------
+        Skeleton
+            The skeleton in which marker m is markers[m].
+        """
         return Skeleton(
             members=tuple(tuple(markers[m] for m in part) for part in self.members),
             parent=self.parent,
-            parent_marker=tuple(None if hook is None else markers[hook] for hook in self.parent_marker),
+            parent_marker=tuple(None if marker is None else markers[marker] for marker in self.parent_marker),
             names=self.names,
         )
 
@@ -52,11 +71,20 @@ class Skeleton:
         return tuple(rank[root] for root in roots)
 
 
-def cluster(dissimilarity: np.ndarray, *, cut_mm: float) -> list[tuple[int, ...]]:
-    """Group markers by average linkage, cut at cut_mm; single markers stay on their own.
+def cluster_markers(dissimilarity: np.ndarray, *, cut_mm: float) -> list[tuple[int, ...]]:
+    """Group markers into rigid segments by average linkage.
 
-    dissimilarity: (markers, markers), mm, NaN = unknown: there the shortest chain of known pairs stands in. Returns
-    the marker indices of each segment, ordered by their first.
+    Parameters
+    ----------
+    dissimilarity : ndarray, shape (markers, markers)
+        Dissimilarity of each pair, mm; where it is unknown (NaN), that of the shortest chain of known pairs stands in.
+    cut_mm : float
+        Dissimilarity at which the dendrogram is cut, mm.
+
+    Returns
+    -------
+    list of tuple of int
+        The markers of each segment, ordered by their first; single markers are segments.
     """
     markers = len(dissimilarity)
     if markers < 2:
@@ -72,15 +100,27 @@ def cluster(dissimilarity: np.ndarray, *, cut_mm: float) -> list[tuple[int, ...]
     return [tuple(group) for group in groups.values()]
 
 
-def edge_costs(hanging: np.ndarray, members: Sequence[tuple[int, ...]]) -> tuple[np.ndarray, np.ndarray]:
-    """Cost of hanging each segment (row) on its best marker of each other segment (column), and that marker.
+def edge_costs(attachment: np.ndarray, members: Sequence[tuple[int, ...]]) -> tuple[np.ndarray, np.ndarray]:
+    """Compute the cost of attaching each segment to the best marker of each other segment.
 
-    hanging: (markers, markers), mm, cost of hanging marker (row) on marker (column), NaN = unknown. The cost of a
-    segment is the mean over its markers with known cost; infinite where none is, and on the diagonal.
+    Parameters
+    ----------
+    attachment : ndarray, shape (markers, markers)
+        Cost of attaching the marker of the row to that of the column, mm; NaN = unknown.
+    members : sequence of tuple of int
+        The markers of each segment.
+
+    Returns
+    -------
+    costs : ndarray, shape (segments, segments)
+        Cost of attaching the segment of the row to that of the column, mm: the mean over its markers with known cost;
+        infinite where none is known, and on the diagonal.
+    markers : ndarray of int, shape (segments, segments)
+        The marker of the column's segment at which that cost arises.
     """
     segments = len(members)
-    rows = np.array([(np.nan_to_num(hanging[list(part)]).sum(axis=0)) for part in members])
-    count = np.array([(~np.isnan(hanging[list(part)])).sum(axis=0) for part in members])
+    rows = np.array([(np.nan_to_num(attachment[list(part)]).sum(axis=0)) for part in members])
+    count = np.array([(~np.isnan(attachment[list(part)])).sum(axis=0) for part in members])
     mean = np.where(count > 0, rows / np.maximum(count, 1), np.inf)
     costs = np.full((segments, segments), np.inf)
     markers = np.zeros((segments, segments), int)
@@ -92,23 +132,67 @@ def edge_costs(hanging: np.ndarray, members: Sequence[tuple[int, ...]]) -> tuple
     return costs, markers
 
 
-def spanning_tree(costs: np.ndarray, *, component_cost: float) -> csr_array:
-    """Minimum spanning tree over min(cost a->b, cost b->a), without edges above component_cost.
+def cheapest_marker(attachment: np.ndarray, part: Sequence[int], choice: Sequence[int]) -> int | None:
+    """Find the marker to which a segment is attached at the least cost.
 
-    Returns a symmetric sparse bool matrix (segments, segments).
+    Parameters
+    ----------
+    attachment : ndarray, shape (markers, markers)
+        Cost of attaching the marker of the row to that of the column, mm; NaN = unknown.
+    part : sequence of int
+        The markers of the segment.
+    choice : sequence of int
+        The markers to choose from.
+
+    Returns
+    -------
+    int or None
+        A marker of `choice`: the first where no cost is known, None where there is no choice.
+    """
+    return int(edge_costs(attachment, [tuple(part), tuple(choice)])[1][0, 1]) if choice else None
+
+
+def spanning_tree(costs: np.ndarray, *, max_cost_mm: float) -> csr_array:
+    """Find the minimum spanning tree of the segments.
+
+    Parameters
+    ----------
+    costs : ndarray, shape (segments, segments)
+        Cost of attaching the segment of the row to that of the column, mm; the smaller of both directions counts.
+    max_cost_mm : float
+        Largest cost of an edge, mm.
+
+    Returns
+    -------
+    csr_array of bool, shape (segments, segments)
+        The edges, symmetric; one tree for each component.
     """
     either = np.minimum(costs, costs.T)
-    a, b = np.nonzero(np.triu(either <= component_cost, k=1))
+    a, b = np.nonzero(np.triu(either <= max_cost_mm, k=1))
     edges = csr_array((either[a, b] + 1.0, (a, b)), shape=costs.shape)  # + 1: an edge of cost 0 is still an edge
     tree = csgraph.minimum_spanning_tree(edges)
     return csr_array(tree + tree.T, dtype=bool)
 
 
-def root_and_order(tree: csr_array, sizes: list[int]) -> tuple[list[int], list[int | None]]:
-    """Order of segments, parents first, and the parent of each (by its old index), None for the root of a component.
+def root_and_order(tree: csr_array, sizes: Sequence[int]) -> tuple[list[int], list[int | None]]:
+    """Choose the root of each component and order its segments, parents first.
 
-    The root is the segment of least hop eccentricity, ties to more markers, then to the lower index. Components come
-    by number of markers, the largest first.
+    The root is the segment of least hop eccentricity, of these the one with most markers, then the first. Components
+    come by number of markers, the largest first.
+
+    Parameters
+    ----------
+    tree : csr_array of bool, shape (segments, segments)
+        The edges.
+    sizes : sequence of int
+        Number of markers of each segment.
+
+    Returns
+    -------
+    order : list of int
+        The segments, parents before their children.
+    parents : list of int or None
+        The parent of each segment (by its old index), None for a root.
     """
     count, labels = csgraph.connected_components(tree, directed=False)
     hops = csgraph.shortest_path(tree, directed=False, unweighted=True)
@@ -125,13 +209,34 @@ def root_and_order(tree: csr_array, sizes: list[int]) -> tuple[list[int], list[i
     return order, parents
 
 
-def grow(dissimilarity: np.ndarray, hanging: np.ndarray, *, cut_mm: float, component_cost: float) -> Skeleton:
-    """Infer segments and their tree from the pair statistics (markers, markers), mm, NaN = unknown."""
-    members = cluster(dissimilarity, cut_mm=cut_mm)
+def infer_skeleton(dissimilarity: np.ndarray, attachment: np.ndarray, *, cut_mm: float, max_cost_mm: float) -> Skeleton:
+    """Infer segments and their tree.
+
+    Parameters
+    ----------
+    dissimilarity : ndarray, shape (markers, markers)
+        Dissimilarity of each pair, mm; NaN = unknown.
+    attachment : ndarray, shape (markers, markers)
+        Cost of attaching the marker of the row to that of the column, mm; NaN = unknown.
+    cut_mm : float
+        Dissimilarity at which markers no longer share a segment, mm.
+    max_cost_mm : float
+        Largest cost of an edge within a component, mm.
+
+    Returns
+    -------
+    Skeleton
+        The segments, parents before their children.
+
+    References
+    ----------
+    skurowski2021, section 2.2.
+    """
+    members = cluster_markers(dissimilarity, cut_mm=cut_mm)
     if not members:
         return Skeleton((), (), (), ())
-    costs, markers = edge_costs(hanging, members)
-    tree = spanning_tree(costs, component_cost=component_cost)
+    costs, markers = edge_costs(attachment, members)
+    tree = spanning_tree(costs, max_cost_mm=max_cost_mm)
     order, parents = root_and_order(tree, [len(part) for part in members])
     place = {s: i for i, s in enumerate(order)}
     parent_markers: list[int | None] = []

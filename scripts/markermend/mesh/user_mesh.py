@@ -1,24 +1,30 @@
-"""A mesh that the user supplies: its file, what is wrong with it, and how it meets the markers of the recordings."""
+"""A mesh that the user supplies: its file, and what is wrong with it."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from markermend.core.recording import BadRecording
-from markermend.mesh.segment_tree import Skeleton, edge_costs
 
 
 @dataclass(frozen=True)
-class Supplied:
-    """Segments as a user wrote them: unique names and markers, parents by index (None for a root), no cycles.
+class UserMesh:
+    """Segments as a user wrote them: unique names and markers, and no segment above itself.
 
-    parent_markers: the marker that each segment hangs on, one of its parent; for a root one of any other, or None.
+    Attributes
+    ----------
+    names : tuple of str
+        Name of each segment.
+    members : tuple of tuple of str
+        Names of the markers of each segment.
+    parents : tuple of int or None
+        Index of the parent of each segment, None for a root.
+    parent_markers : tuple of str or None
+        The marker to which each segment is attached, one of its parent; for a root any other or None.
     """
 
     names: tuple[str, ...]
@@ -32,8 +38,24 @@ class Supplied:
         return tuple(marker for part in self.members for marker in part)
 
 
-def read(path: Path) -> list[Supplied]:
-    """Read the meshes of a user's file: one entry, or a whole mesh.json; raises BadRecording where it is malformed."""
+def read(path: Path) -> list[UserMesh]:
+    """Read the meshes of a user's file.
+
+    Parameters
+    ----------
+    path : Path
+        A JSON file with one mesh, or a whole mesh.json.
+
+    Returns
+    -------
+    list of UserMesh
+        The meshes.
+
+    Raises
+    ------
+    BadRecording
+        Where the file is malformed, with the place.
+    """
     try:
         value = json.loads(path.read_text(encoding="utf-8-sig"))
     except (ValueError, OSError) as error:
@@ -44,41 +66,51 @@ def read(path: Path) -> list[Supplied]:
     return [parse(entry, path.name) for entry in entries]
 
 
-def parse(entry: dict[str, Any], where: str) -> Supplied:
-    """Check one mesh: segments with name, markers, parent (index or name, null for a root) and parent_marker."""
+def parse(entry: Mapping[str, Any], file: str) -> UserMesh:
+    """Check one mesh.
 
-    def bad(problem: str) -> BadRecording:
-        return BadRecording(f"mesh file {where}: {problem}")
+    Parameters
+    ----------
+    entry : mapping of str
+        Its key `segments` lists objects with the keys name, markers, parent (index or name, null for a root) and
+        parent_marker.
+    file : str
+        Name of the file, for messages.
 
+    Returns
+    -------
+    UserMesh
+        The mesh.
+
+    Raises
+    ------
+    BadRecording
+        Where the entry is malformed, with the place.
+    """
     segments = entry.get("segments")
     if not isinstance(segments, list) or not segments or not all(isinstance(part, dict) for part in segments):
-        raise bad("'segments' must be a list of one or more objects")
-    for s, part in enumerate(segments):
-        if problem := flaw(part):
-            raise bad(f"segment {part.get('name', s)!r}: {problem}")
+        raise BadRecording(f"mesh file {file}: 'segments' must be a list of one or more objects")
+    problem = _segment_problem(segments) or _repeated_name(segments)
+    if problem is not None:
+        raise BadRecording(f"mesh file {file}: {problem}")
     names = [part["name"] for part in segments]
-    everywhere = [marker for part in segments for marker in part["markers"]]
-    for what, values in (("segment", names), ("marker", everywhere)):
-        if twice := sorted({value for value in values if values.count(value) > 1}):
-            raise bad(f"{what} {twice[0]!r} stands there twice: name it once")
-    parents: list[int | None] = []
-    for part in segments:
-        parent = names.index(part["parent"]) if part["parent"] in names else part["parent"]
-        if parent is not None and parent not in range(len(names)):
-            raise bad(
-                f"segment {part['name']!r}: parent {parent!r} is no segment: give an index from 0, a name, or null"
-            )
-        hook = part["parent_marker"]
-        if hook not in ([*everywhere, None] if parent is None else segments[parent]["markers"]):
-            raise bad(f"segment {part['name']!r}: parent_marker {hook!r} is no marker of its parent segment")
-        parents.append(parent)
-    if (lost := circular(parents)) is not None:
-        raise bad(f"segment {names[lost]!r}: its parents run in a circle: one segment of each body needs parent null")
+    parents = [names.index(part["parent"]) if part["parent"] in names else part["parent"] for part in segments]
+    problem = _parent_problem(segments, parents)
+    if problem is not None:
+        raise BadRecording(f"mesh file {file}: {problem}")
     members = tuple(tuple(part["markers"]) for part in segments)
-    return Supplied(tuple(names), members, tuple(parents), tuple(part["parent_marker"] for part in segments))
+    return UserMesh(tuple(names), members, tuple(parents), tuple(part["parent_marker"] for part in segments))
 
 
-def flaw(part: dict[str, Any]) -> str | None:
+def _segment_problem(segments: Sequence[Mapping[str, Any]]) -> str | None:
+    """What is wrong with the first segment that is malformed by itself, None if none is."""
+    for s, part in enumerate(segments):
+        if problem := _malformed(part):
+            return f"segment {part.get('name', s)!r}: {problem}"
+    return None
+
+
+def _malformed(part: Mapping[str, Any]) -> str | None:
     """What is wrong with one segment by itself, None if nothing is."""
     for key in ("name", "markers", "parent", "parent_marker"):
         if key not in part:
@@ -93,8 +125,46 @@ def flaw(part: dict[str, Any]) -> str | None:
     return None
 
 
-def circular(parents: Sequence[int | None]) -> int | None:
-    """The first segment whose chain of parents never ends, None if all end at a root."""
+def _repeated_name(segments: Sequence[Mapping[str, Any]]) -> str | None:
+    """The first segment or marker that is named twice."""
+    names = [part["name"] for part in segments]
+    for what, values in (("segment", names), ("marker", _all_markers(segments))):
+        if repeated := sorted({value for value in values if values.count(value) > 1}):
+            return f"{what} {repeated[0]!r} is named twice: name it once"
+    return None
+
+
+def _parent_problem(segments: Sequence[Mapping[str, Any]], parents: Sequence[Any]) -> str | None:
+    """What is wrong with the parents of the segments (by index, or as written where there is no such segment)."""
+    for part, parent in zip(segments, parents, strict=True):
+        if parent is not None and parent not in range(len(segments)):
+            return f"segment {part['name']!r}: parent {parent!r} is no segment: give an index from 0, a name, or null"
+        marker = part["parent_marker"]
+        if marker not in ([*_all_markers(segments), None] if parent is None else segments[parent]["markers"]):
+            return f"segment {part['name']!r}: parent_marker {marker!r} is no marker of its parent segment"
+    if (s := first_in_cycle(parents)) is not None:
+        return f"segment {segments[s]['name']!r}: its parents form a cycle: one segment of each body needs parent null"
+    return None
+
+
+def _all_markers(segments: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The markers of all segments."""
+    return [marker for part in segments for marker in part["markers"]]
+
+
+def first_in_cycle(parents: Sequence[int | None]) -> int | None:
+    """Find a segment that no root is above.
+
+    Parameters
+    ----------
+    parents : sequence of int or None
+        Index of the parent of each segment, None for a root.
+
+    Returns
+    -------
+    int or None
+        The first segment whose chain of parents never ends, None if all end at a root.
+    """
     for s in range(len(parents)):
         above, steps = parents[s], 0
         while above is not None and steps <= len(parents):
@@ -102,58 +172,3 @@ def circular(parents: Sequence[int | None]) -> int | None:
         if above is not None:
             return s
     return None
-
-
-def adopt(
-    supplied: Supplied, markers: Sequence[str], seen: Sequence[int], hanging: np.ndarray, *, component_cost: float
-) -> tuple[Skeleton, list[str]]:
-    """Fit a supplied mesh to the markers of the recordings.
-
-    markers: names in the recordings; seen: indices of those with enough data; hanging: (markers, markers), mm, cost of
-    hanging one on another, NaN = unknown. Supplied markers that no recording holds are left out; segments that so
-    become empty pass their children to their parent. Seen markers that the mesh does not name become segments of one
-    marker, hung on the named marker of least cost if that is at most component_cost. Returns what was done as remarks.
-    """
-    place = {marker: m for m, marker in enumerate(markers)}
-    remarks = []
-    if strange := [marker for marker in supplied.markers if marker not in place]:
-        remarks.append(f"named in the mesh file, held by no recording: {', '.join(sorted(strange))}")
-    members = [tuple(sorted(place[marker] for marker in part if marker in place)) for part in supplied.members]
-    kept = [s for s, part in enumerate(members) if part]
-    parents: list[int | None] = []
-    for s in kept:
-        above = supplied.parents[s]
-        while above is not None and not members[above]:
-            above = supplied.parents[above]
-        parents.append(None if above is None else kept.index(above))
-    members = [members[s] for s in kept]
-    names: list[str | None] = [supplied.names[s] for s in kept]
-    hooks: list[int | None] = [place.get(supplied.parent_markers[s] or "") for s in kept]
-    for i, part in enumerate(members):
-        above = parents[i]
-        linked = [above] if above is not None else [b for b, parent in enumerate(parents) if parent == i]
-        choice = [m for b in linked for m in members[b]]
-        if hooks[i] not in choice:
-            hooks[i] = least(hanging, part, choice)
-    skeleton = Skeleton(tuple(members), tuple(parents), tuple(hooks), tuple(names))
-    if loose := [m for m in seen if not any(m in part for part in members)]:
-        remarks.append(f"not named in the mesh file, hung on the nearest: {', '.join(markers[m] for m in loose)}")
-    return hang_loose(skeleton, loose, hanging, component_cost), remarks
-
-
-def hang_loose(skeleton: Skeleton, loose: Sequence[int], hanging: np.ndarray, component_cost: float) -> Skeleton:
-    """Add each loose marker as a segment of its own, on the marker of least cost unless that exceeds component_cost."""
-    owner = {m: i for i, part in enumerate(skeleton.members) for m in part}
-    hooks = [least(hanging, (m,), tuple(owner)) for m in loose]
-    hooks = [None if h is None or not hanging[m, h] <= component_cost else h for m, h in zip(loose, hooks, strict=True)]
-    return Skeleton(
-        members=(*skeleton.members, *((m,) for m in loose)),
-        parent=(*skeleton.parent, *(None if hook is None else owner[hook] for hook in hooks)),
-        parent_marker=(*skeleton.parent_marker, *hooks),
-        names=(*skeleton.names, *(None for _ in loose)),
-    )
-
-
-def least(hanging: np.ndarray, part: Sequence[int], choice: Sequence[int]) -> int | None:
-    """The marker of `choice` on which hanging `part` costs least: the first where no cost is known, None of none."""
-    return int(edge_costs(hanging, [tuple(part), tuple(choice)])[1][0, 1]) if choice else None

@@ -1,3 +1,5 @@
+"""Inferred meshes: exact on bodies with known segments, robust to gaps and artifacts, independent of order."""
+
 from dataclasses import replace
 
 import numpy as np
@@ -57,10 +59,10 @@ def test_the_residual_is_the_deviation_of_a_marker_per_axis(chain):
     assert [s.residual_mm for s in mesh.segments] == pytest.approx([2.0] * 5, rel=0.1)
 
 
-def test_children_hang_on_the_marker_at_their_joint(chain_mesh):
-    hooks = {s.markers[0][0]: s.parent_marker for s in chain_mesh.segments}
-    assert (hooks["3"], hooks["4"]) == ("2d", "3d")
-    assert hooks["2"] in chain_mesh.segments[1].markers + chain_mesh.segments[2].markers
+def test_children_are_attached_to_the_marker_at_their_joint(chain_mesh):
+    hosts = {s.markers[0][0]: s.parent_marker for s in chain_mesh.segments}
+    assert (hosts["3"], hosts["4"]) == ("2d", "3d")
+    assert hosts["2"] in chain_mesh.segments[1].markers + chain_mesh.segments[2].markers
 
 
 def test_predictors_are_siblings_then_the_parent_marker(chain, chain_mesh):
@@ -181,7 +183,7 @@ def test_identical_trajectories_are_one_segment(chain):
     assert [s.markers for s in same.segments] == [("a", "b", "c", "d")]
 
 
-def test_markers_never_seen_together_are_strangers():
+def test_markers_never_seen_together_are_unrelated():
     positions = subject(1)[1][:, :2].copy()
     positions[:700, 0] = positions[700:, 1] = np.nan
     mesh = infer_mesh([recording("ab", positions)], options=OPTIONS)

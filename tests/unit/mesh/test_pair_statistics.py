@@ -1,3 +1,7 @@
+"""Statistics of marker pairs: against naive twins, pooled over recordings, independent of the axes."""
+
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -93,7 +97,7 @@ def test_frozen_markers_have_no_coherence_and_pairs_never_seen_together_are_unkn
     assert np.isnan(found.coherence[0, 1])
     assert found.deviation[0, 1] == 0
     assert np.isnan(found.distance[1, 2])
-    assert np.isnan(found.hanging(found.dissimilarity(300.0))[1, 2])
+    assert np.isnan(found.attachment_costs(found.dissimilarity(300.0))[1, 2])
 
 
 def test_cost_and_dissimilarity_are_those_defined(gappy):
@@ -104,7 +108,7 @@ def test_cost_and_dissimilarity_are_those_defined(gappy):
     median, deviation = np.nan_to_num(naive_distances(positions, 60))
     near = found.dissimilarity(250.0)
     np.testing.assert_allclose(near, deviation * median / 250.0, atol=1e-6)
-    np.testing.assert_allclose(found.hanging(near), near * (2 - naive_coherence(positions)), atol=1e-4)
+    np.testing.assert_allclose(found.attachment_costs(near), near * (2 - naive_coherence(positions)), atol=1e-4)
 
 
 @pytest.mark.parametrize(("frames", "kept"), [(100, 100), (101, 101), (7, 7), (1000, 1000), (2500, 1000)])
@@ -127,3 +131,17 @@ def test_half_of_the_percentile_range_counts_artifacts_little():
     assert clean == pytest.approx(2, rel=0.1)
     assert spoilt == pytest.approx(2, rel=0.25)
     assert np.std(positions[:, 1, 0]) > 50
+
+
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 1.0])
+def test_percentiles_equal_those_of_numpy(share):
+    rng = np.random.default_rng(9)
+    rows = [np.sort(rng.normal(0, 1, n)) for n in (1, 2, 7, 20)]
+    ordered = np.array([np.pad(row, (0, 20 - len(row)), constant_values=np.nan) for row in rows])
+    found = pair_statistics.percentile(ordered, np.array([len(row) for row in rows]), share)
+    assert found == pytest.approx([np.percentile(row, 100 * share) for row in rows])
+
+
+def test_a_recording_without_a_name_has_an_empty_one():
+    assert pair_statistics.recording_name(recording("a", np.zeros((5, 1, 3)), name="walk")) == "walk"
+    assert pair_statistics.recording_name(replace(recording("a", np.zeros((5, 1, 3))), facts={})) == ""

@@ -52,7 +52,7 @@ def test_it_serves_only_recordings_with_its_markers(body, own):
     assert infer_meshes([mine], supplied=[partial, own], options=OPTIONS)[0].segments[0].name == "upper"
 
 
-def test_markers_that_the_mesh_does_not_name_hang_on_the_nearest(body):
+def test_markers_that_the_mesh_does_not_name_are_attached_to_the_nearest(body):
     names, positions = body
     own = user_mesh.parse({"segments": [UPPER, LOWER]}, "own.json")
     far = np.random.default_rng(1).normal(0, 3000, (len(positions), 1, 3))
@@ -66,7 +66,7 @@ def test_markers_that_the_mesh_does_not_name_hang_on_the_nearest(body):
     assert (extra[("beside",)].component, extra[("far",)].component) == (0, 1)
     assert mesh.predictors["beside"][0] == names[-1]
     assert len(mesh.predictors["beside"]) == OPTIONS.min_predictors
-    assert mesh.warnings == ("not named in the mesh file, hung on the nearest: beside, far",)
+    assert mesh.warnings == ("not named in the mesh file, attached to the nearest marker: beside, far",)
 
 
 def test_markers_and_segments_that_no_recording_holds_are_left_out(body):
@@ -79,7 +79,7 @@ def test_markers_and_segments_that_no_recording_holds_are_left_out(body):
     assert mesh.warnings == ("named in the mesh file, held by no recording: x, y, z",)
 
 
-def test_it_holds_where_there_are_too_few_frames_to_infer(body, own):
+def test_it_is_used_where_there_are_too_few_frames_to_infer(body, own):
     names, positions = body
     mesh = infer_mesh([recording(names, positions[:10])], supplied=own, options=OPTIONS)
     assert [list(s.markers) for s in mesh.segments] == [UPPER["markers"], LOWER["markers"]]
@@ -104,16 +104,16 @@ def test_an_inferred_mesh_can_be_supplied_again(body, tmp_path):
         ([{**UPPER, "name": 3}], "'name' must be a text"),
         ([{**UPPER, "markers": []}], "segment 'upper': 'markers' must be a list"),
         ([{**UPPER, "markers": "0a"}], "segment 'upper': 'markers' must be a list"),
-        ([UPPER, {**LOWER, "name": "upper"}], "segment 'upper' stands there twice"),
-        ([UPPER, {**LOWER, "markers": ["0a"]}], "marker '0a' stands there twice"),
+        ([UPPER, {**LOWER, "name": "upper"}], "segment 'upper' is named twice"),
+        ([UPPER, {**LOWER, "markers": ["0a"]}], "marker '0a' is named twice"),
         ([UPPER, {**LOWER, "parent": 2}], "parent 2 is no segment"),
         ([UPPER, {**LOWER, "parent": -1}], "parent -1 is no segment"),
         ([UPPER, {**LOWER, "parent": "trunk"}], "parent 'trunk' is no segment"),
         ([UPPER, {**LOWER, "parent": True}], "'parent' must be the index or name"),
         ([UPPER, {**LOWER, "parent_marker": "2a"}], "parent_marker '2a' is no marker of its parent"),
         ([UPPER, {**LOWER, "parent_marker": None}], "parent_marker None is no marker of its parent"),
-        ([{**UPPER, "parent": 1, "parent_marker": "1c"}, LOWER], "segment 'upper': its parents run in a circle"),
-        ([{**UPPER, "parent": 0, "parent_marker": "0a"}], "segment 'upper': its parents run in a circle"),
+        ([{**UPPER, "parent": 1, "parent_marker": "1c"}, LOWER], "segment 'upper': its parents form a cycle"),
+        ([{**UPPER, "parent": 0, "parent_marker": "0a"}], "segment 'upper': its parents form a cycle"),
     ],
 )
 def test_a_malformed_mesh_is_refused_with_the_place(segments, reason, tmp_path):
