@@ -9,22 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
+from markermend.filling.averaging import Averaging
 from markermend.filling.candidates import Candidates, predict_candidates
 from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
-from markermend.filling.member_weights import (
-    MemberWeights,
-    deviation_scale,
-    expected_errors,
-    inverse_power_weights,
-    squared_errors,
-    typical_errors,
-)
-from markermend.filling.model_averaging import mixture_deviation, weighted_mean
+from markermend.filling.member_weights import MemberWeights, deviation_scale, squared_errors
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
 from markermend.prediction.scene import Predictor, Scene, Trainable
@@ -47,15 +39,6 @@ class Filling:
     positions: np.ndarray
     deviation: np.ndarray
     weights: dict[str, float]
-
-
-@dataclass(frozen=True)
-class _Average:
-    """Weighted mean (n, 3), mm, its stated standard deviation (n,) per axis, mm, and the members' mean weights."""
-
-    positions: np.ndarray
-    deviation: np.ndarray
-    weights: np.ndarray
 
 
 class Ensemble:
@@ -83,7 +66,7 @@ class Ensemble:
             raise ValueError("trial members differ from the members")
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
-        self._distance_options = options.distances
+        self._averaging = Averaging(options)
 
     def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
         """Find the kind of a gap; the result of `evaluate` for one gap holds for all gaps of its kind.
@@ -144,16 +127,16 @@ class Ensemble:
         errors = squared_errors(
             [trial.truth for trial in trials], [each.positions for each in candidates], len(self.members)
         )
-        missed = self._cross_validate(self._distances(hidden, gap.marker), trials, candidates, errors)
+        missed = self._cross_validate(self._averaging.distance_model(hidden, gap.marker), trials, candidates, errors)
         ratios = np.array([_mean_square(each) for each in missed])
-        # Without their own factor: each pseudo-gap is judged by the factor of the others.
+        # Each pseudo-gap is judged by the factor of the others.
         scaled = [
             each / deviation_scale(np.delete(ratios, k), options.stated_error_weight) for k, each in enumerate(missed)
         ]
         # Where pseudo-gaps are shorter than the gap, errors are taken to grow as a random walk does.
         growth = math.sqrt(gap.length / trials[0].gap.length) if trials else 1.0
         scale = growth * deviation_scale(ratios, options.stated_error_weight)
-        return replace(self._weights(errors), deviation_scale=scale, standardized_errors=tuple(scaled))
+        return replace(self._averaging.weigh(errors), deviation_scale=scale, standardized_errors=tuple(scaled))
 
     def fill(self, scene: Scene, gap: Gap, weights: MemberWeights) -> Filling:
         """Fill one gap.
@@ -175,11 +158,12 @@ class Ensemble:
         hidden = scene.without(gap.marker, gap.start, gap.stop)
         candidates = self._candidates(self.members, hidden, gap)
         observed = hidden.positions[gap.start : gap.stop]
-        average = self._average(candidates, weights, self._distances(hidden, gap.marker), observed)
+        distances = self._averaging.distance_model(hidden, gap.marker)
+        average = self._averaging.average(candidates, weights, distances, observed)
         unknown = np.isnan(average.positions).any(axis=1)
         deviation = np.where(unknown, np.nan, average.deviation * weights.deviation_scale)
         if scene.inherited_std is not None:
-            inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self._distance_options.references)
+            inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self.options.distances.references)
             deviation = np.hypot(deviation, inherited)
         shares = zip(self.members, average.weights, strict=True)
         return Filling(
@@ -193,23 +177,6 @@ class Ensemble:
             members, scene, gap, max_duration_s=options.max_gap_s_of_member, fallback=options.fallback_members
         )
 
-    def _weights(self, errors: np.ndarray) -> MemberWeights:
-        """Weigh the members by their errors on pseudo-gaps, the result of squared_errors."""
-        options, typical = self.options, typical_errors(errors)
-        if options.weights in ("pma", "equal"):
-            return MemberWeights(typical, np.ones(len(typical)))
-        weights = inverse_power_weights(
-            typical, power=options.error_power, max_ratio=options.max_error_ratio, min_error_mm=options.min_error_mm
-        )
-        return MemberWeights(typical, weights)
-
-    def _distances(self, scene: Scene, marker: int) -> DistanceModel | None:
-        """Distances of the marker to its references; None where neither the weights nor a constraint use them."""
-        if self.options.weights not in ("pma", "both") and not self._distance_options.spacing_rounds:
-            return None
-        learn = partial(DistanceModel.estimate, scene, marker, self._distance_options)
-        return scene.cached((self, "distances", marker), learn)
-
     def _cross_validate(
         self,
         distances: DistanceModel | None,
@@ -220,25 +187,11 @@ class Ensemble:
         """Errors on each pseudo-gap in stated standard deviations, with weights from the other pseudo-gaps alone."""
         missed = []
         for k, (trial, own) in enumerate(zip(trials, candidates, strict=True)):
-            others = self._weights(np.delete(errors, k, axis=0))
+            others = self._averaging.weigh(np.delete(errors, k, axis=0))
             observed = trial.scene.positions[trial.gap.start : trial.gap.stop]
-            average = self._average(own, others, distances, observed)
+            average = self._averaging.average(own, others, distances, observed)
             missed.append(np.linalg.norm(average.positions - trial.truth, axis=1) / average.deviation)
         return missed
-
-    def _average(
-        self, candidates: Candidates, members: MemberWeights, distances: DistanceModel | None, observed: np.ndarray
-    ) -> _Average:
-        """Average the candidates; observed: positions (n, markers, 3), mm, of all markers during the gap."""
-        weights = np.broadcast_to(members.weights[:, None], candidates.errors.shape)
-        if distances is not None and self.options.weights in ("pma", "both"):
-            weights = weights * distances.likelihood(candidates.positions, observed)
-        mean, weights = weighted_mean(candidates.positions, weights)
-        errors = expected_errors(candidates.errors, members.typical_errors, weights)
-        errors = np.maximum(errors, self.options.min_error_mm)
-        deviation = mixture_deviation(candidates.positions, mean, errors, weights)
-        placed = mean if distances is None else distances.constrain(mean, observed)
-        return _Average(placed, deviation, weights.mean(axis=1))
 
 
 def _mean_square(missed: np.ndarray) -> float:
