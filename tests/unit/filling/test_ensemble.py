@@ -5,14 +5,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.ensemble import Ensemble
 from markermend.filling.gap import Gap
-from markermend.filling.member_weights import expected_errors, inverse_power_weights, squared_errors, typical_errors
+from markermend.filling.member_weights import inverse_power_weights, squared_errors, typical_errors
 from markermend.filling.pseudo_gaps import pseudo_gaps
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.scene import Prediction
 from support.fillings import ensemble, ensemble_options, predictor, rigid_body, scene
+from support.naive.filling import weighted_average
 
 
 @dataclass
@@ -33,30 +33,6 @@ class Noisy:
         positions[rng.random(n) < self.misses] = np.nan
         error = self.size * rng.uniform(0.5, 1.5, n) if self.states else np.full(n, np.nan)
         return Prediction(positions, error)
-
-
-def naive_average(positions, errors, typical, weights, least):
-    """Weighted mean and its standard deviation, one frame and one member at a time."""
-    members, frames, _ = positions.shape
-    complete = [k for k in range(members) if not np.isnan(positions[k]).any()]
-    mean, deviation, used = np.full((frames, 3), np.nan), np.full(frames, np.nan), np.zeros((members, frames))
-    for n in range(frames):
-        there = complete or [k for k in range(members) if not np.isnan(positions[k, n]).any()]
-        total = sum(weights[k] for k in there)
-        for k in there:
-            used[k, n] = weights[k] / total if total > 0 else 1 / len(there)
-    completed = expected_errors(errors, typical, used)
-    for n in range(frames):
-        there = [k for k in range(members) if used[k, n] > 0]
-        if there:
-            mean[n] = sum(used[k, n] * positions[k, n] for k in there)
-            variance = 0.0
-            for k in there:
-                own = max(completed[k, n], least)
-                apart = sum((positions[k, n, axis] - mean[n, axis]) ** 2 for axis in range(3)) / 3
-                variance += used[k, n] * (own**2 + apart)
-            deviation[n] = np.sqrt(variance)
-    return mean, deviation, used.mean(axis=1)
 
 
 def naive_evaluation(own, seen, gap):
@@ -86,7 +62,9 @@ def naive_evaluation(own, seen, gap):
     missed, squares = [], []
     for k, trial in enumerate(trials):
         others = [other for other in range(len(trials)) if other != k]
-        mean, deviation, _ = naive_average(positions[k], errors[k], *weigh(others), options.min_error_mm)
+        typical, weights = weigh(others)
+        frames = np.repeat(weights[:, None], trial.gap.length, axis=1)
+        mean, deviation, _ = weighted_average(positions[k], errors[k], typical, frames, options.min_error_mm)
         missed.append([np.linalg.norm(mean[n] - trial.truth[n]) / deviation[n] for n in range(len(mean))])
         squares.append(np.mean([value**2 for value in missed[k]]) / 3)
 
@@ -126,11 +104,11 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
 
     filled = own.fill(seen, gap, found)
     predicted = [member.predict(seen, 2, gap.start, gap.stop) for member in members]
-    mean, deviation, shares = naive_average(
+    mean, deviation, shares = weighted_average(
         np.stack([each.positions[1:-1] for each in predicted]),
         np.stack([each.error[1:-1] for each in predicted]),
         typical,
-        weights,
+        np.repeat(weights[:, None], gap.length, axis=1),
         own.options.min_error_mm,
     )
     assert np.allclose(filled.positions, mean)
@@ -153,25 +131,6 @@ def test_the_deviation_inherits_that_of_filled_neighbours():
     for n in range(30):
         common = sum(inherited[120 + n, other] for other in nearest) / len(nearest)
         assert found.deviation[n] == pytest.approx(np.sqrt(plain.deviation[n] ** 2 + common**2))
-
-
-@pytest.mark.parametrize(
-    ("weights", "rounds", "used"), [("error", 0, False), ("equal", 0, False), ("error", 1, True), ("both", 0, True)]
-)
-def test_distances_are_modelled_only_where_they_are_used(weights, rounds, used, monkeypatch):
-    asked = []
-    estimate = DistanceModel.estimate
-
-    def watched(*args):
-        asked.append(args)
-        return estimate(*args)
-
-    monkeypatch.setattr(DistanceModel, "estimate", watched)
-    distances = DistanceOptions(spacing_rounds=rounds)
-    own = ensemble(["local_ridge", "spline"], weights=weights, distances=distances)
-    seen, gap = scene(rigid_body()), Gap(2, 120, 150)
-    own.fill(seen, gap, own.evaluate(seen, gap))
-    assert bool(asked) == used
 
 
 def test_the_better_member_gets_the_weight(walker):
@@ -198,12 +157,12 @@ def test_every_kind_of_weights_fills_well(walker, weights):
 
 
 def test_the_error_on_a_pseudo_gap_is_judged_without_itself(walker):
-    seen, own = scene(walker.recording.positions), ensemble(["local_ridge", "spline"], prior=2)
+    seen, own = scene(walker.recording.positions), ensemble(["local_ridge", "spline"], stated_error_weight=2)
     weights = own.evaluate(seen, Gap(9, 500, 520))
     assert len(weights.standardized_errors) == own.options.pseudo_gaps
     assert all(len(part) == 20 for part in weights.standardized_errors)
     # A single pseudo-gap is judged by the prior alone.
-    alone = ensemble(["local_ridge"], prior=2, pseudo_gaps=1).evaluate(seen, Gap(9, 500, 520))
+    alone = ensemble(["local_ridge"], stated_error_weight=2, pseudo_gaps=1).evaluate(seen, Gap(9, 500, 520))
     (square,) = [(part**2).mean() / 3 for part in alone.standardized_errors]
     assert alone.deviation_scale == pytest.approx(np.sqrt((2 + square) / 3))
 

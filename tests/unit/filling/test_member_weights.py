@@ -10,6 +10,7 @@ from markermend.filling.member_weights import (
     squared_errors,
     typical_errors,
 )
+from support.naive.filling import expected_error
 
 NAN = np.nan
 
@@ -36,29 +37,6 @@ def naive_weights(typical, power, max_ratio, least):
         else:
             weights.append((min(known) / max(error, least)) ** power)
     return weights
-
-
-def naive_expected_error(stated, typical, weights, member, n):
-    """The error of one member in one frame."""
-    if not np.isnan(stated[member, n]):
-        return stated[member, n]
-    usual = typical / np.sqrt(3)
-    both = [
-        k for k in range(len(stated)) if not np.isnan(stated[k, n]) and not np.isnan(usual[k]) and weights[k, n] > 0
-    ]
-    total = sum(weights[k, n] for k in both)
-    ratio = 1.0
-    if both:
-        ratio = sum(weights[k, n] * stated[k, n] for k in both) / sum(weights[k, n] * usual[k] for k in both)
-        assert total > 0
-    if not np.isnan(usual[member]):
-        return usual[member] * ratio
-    others = [
-        naive_expected_error(stated, typical, weights, k, n)
-        for k in range(len(stated))
-        if typical[k] == typical[k] or stated[k, n] == stated[k, n]
-    ]
-    return max(others, default=np.nan)
 
 
 @pytest.fixture(params=range(4))
@@ -88,7 +66,7 @@ def test_expected_errors_equal_the_naive_twin(rng):
     found = expected_errors(stated, typical, weights)
     for member in range(5):
         for n in range(8):
-            expected = naive_expected_error(stated, typical, weights, member, n)
+            expected = expected_error(stated, typical, weights, member, n)
             assert found[member, n] == pytest.approx(expected, nan_ok=True)
 
 
