@@ -4,10 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from markermend.core.decisions import Decision
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
 from markermend.prediction.interpolation import Interpolation
 from markermend.prediction.local_ridge.predictor import LocalRidge
+from markermend.prediction.scene import Prediction
 from markermend.repair.repair import repair
 from support import bodies
 from support.treated import treated
@@ -38,6 +40,7 @@ SEPARATION = SeparationOptions(
     roughness_mm=(0.1, 1),
     likelihood_power=0.3,
 )
+RADIUS = RepairRadiusOptions(inner=1.8, outer=2.8)
 MARKER, START, STOP = "2b", 600, 640
 PREDICTORS = [Interpolation("spline", knots=10), Interpolation("linear", knots=10), LocalRidge(RIDGE)]
 
@@ -64,7 +67,7 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         max_altered_share=0.3,
         hidden_stretches=5,
         separation=SEPARATION,
-        radius=RepairRadiusOptions(inner=1.8, outer=2.8),
+        radius=RADIUS,
     )
     return treated(
         repair(
@@ -87,3 +90,20 @@ def distorted(clean, offsets, start=START, stop=STOP, marker=MARKER):
 def error(clean, result, start=START, stop=STOP, marker=MARKER):
     m = clean.markers.index(marker)
     return np.linalg.norm(result.positions[start:stop, m] - clean.positions[start:stop, m], axis=1)
+
+
+def decide(verb, value="", note="", marker=MARKER, start=START, stop=STOP):
+    return Decision(marker, start, stop, verb, value, note)
+
+
+class Vague:
+    """A predictor that is off by some mm along x and states a standard deviation."""
+
+    continuous = True
+
+    def __init__(self, recording, name="vague", off=12.0, deviation=10.0):
+        self.positions, self.name, self.off, self.deviation = recording.positions, name, off, deviation
+
+    def predict(self, scene, marker, start, stop):
+        positions = self.positions[start - 1 : stop + 1, marker] + [self.off, 0, 0]
+        return Prediction(positions, np.full(stop - start + 2, self.deviation))

@@ -12,7 +12,7 @@ from support.paths import PROJECT
 LIBRARY = PROJECT / "scripts" / "markermend"
 UNFINISHED: set[str] = {
     "command", "detection", "options", "planning",
-    "prediction", "repair",
+    "prediction",
 }  # fmt: skip
 """Packages whose docstrings are still to be converted; the list only shrinks."""
 PACKAGES = sorted(path.name for path in LIBRARY.iterdir() if path.is_dir() and path.name != "__pycache__")

@@ -1,4 +1,4 @@
-"""Decisions against findings: what is left to be repaired once a person has had a say, and what is not and why."""
+"""Apply a person's decisions to the findings: which of them remain to be repaired, and why the others are left."""
 
 from __future__ import annotations
 
@@ -20,8 +20,14 @@ from markermend.repair.label_exchanges import concerned
 class Judgement:
     """What the decisions leave to be repaired.
 
-    recording: without the samples that were declared missing. found: findings by detector, each to be repaired as a
-    whole. left: stretches that are not.
+    Attributes
+    ----------
+    recording : Recording
+        The recording without the samples that were declared missing.
+    found : dict of str to list of Event
+        Findings by detector, each to be repaired as a whole.
+    left : list of Change
+        Stretches that are not repaired, and why.
     """
 
     recording: Recording
@@ -30,60 +36,75 @@ class Judgement:
 
 
 def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions: Iterable[Decision]) -> Judgement:
-    """Apply the decisions to the findings of each detector, and take away what was declared missing.
+    """Apply the decisions to the findings, and take away what was declared missing.
 
-    Rejected findings are dropped whole, and so are those on which a person set a class; findings that reach into
-    protected samples end there. A decision on one marker of a label exchange is about all of them.
+    Parameters
+    ----------
+    recording : Recording
+        The recording as ingested; it is not modified.
+    found : mapping of str to sequence of Event
+        The findings by detector.
+    decisions : iterable of Decision
+        The decisions of persons and of the setting `protect`.
+
+    Returns
+    -------
+    Judgement
+        What remains. Findings that a person rejected are dropped as a whole, and so are those on which a person set a class;
+        findings that reach into protected samples end there. A decision on one marker of a label exchange is about all of
+        them.
     """
     decisions = [d for d in decisions if d.partner is None or d.partner in recording.markers]
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
-    away = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
-    remaining = replace(recording, positions=np.where(away[..., None], np.nan, recording.positions))
-    judged = Judgement(remaining, {stage: [] for stage in CLASSES}, _declared(recording, away, decisions))
+    declared = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
+    remaining = replace(recording, positions=np.where(declared[..., None], np.nan, recording.positions))
+    judged = Judgement(remaining, {stage: [] for stage in CLASSES}, _declared_missing(recording, declared, decisions))
+    admission = _Admission(judged, [d for d in decisions if d.verb == "protect"], protected, declared)
     exchanges = found.get("labels", ())
     for stage, event in ((stage, event) for stage, events in found.items() for event in events):
         markers = concerned(event, exchanges)
         against = _against(decisions, stage, event, markers)
         if against.left:
-            judged.left.append(_entry(stage, event, event.start, event.stop, against))
+            judged.left.append(_left(stage, event, event.start, event.stop, against))
         else:
-            _admit(judged, stage, event, markers, protected, away, decisions)
-    for stage, events in _set(remaining, decisions).items():
+            admission.admit(stage, event, markers)
+    for stage, events in _found_by_persons(remaining, decisions).items():
         for event in events:
-            _admit(judged, stage, event, names(event), protected, away, decisions)
+            admission.admit(stage, event, names(event))
     return judged
 
 
-def _admit(
-    judged: Judgement,
-    stage: str,
-    event: Event,
-    markers: Sequence[str],
-    protected: np.ndarray,
-    away: np.ndarray,
-    decisions: Iterable[Decision],
-) -> None:
-    """Keep a finding on markers where it may be repaired, and note where not. protected, away: bool (frames, markers)."""
-    columns = [judged.recording.markers.index(name) for name in markers]
-    span = slice(event.start, event.stop)
-    shut = np.asarray(protected[span, columns].any(axis=1))
-    # A label swap takes missing samples along; any other finding ends where samples were taken away.
-    free = ~shut if event.partner else ~shut & ~away[span, columns[0]]
-    for start, stop in runs(free):
-        if judged.recording.missing[event.start + start : event.start + stop, columns].all():
-            continue
-        judged.found[stage].append(replace(event, start=event.start + start, stop=event.start + stop))
-    for start, stop in runs(shut):
-        place = event.start + start, event.start + stop
-        ruling = rule((d for d in decisions if d.verb == "protect"), (), markers, *place)
-        judged.left.append(_entry(stage, event, *place, ruling))
+@dataclass(frozen=True)
+class _Admission:
+    """Where findings may be repaired; `protected` and `declared` missing are bool (frames, markers)."""
+
+    judged: Judgement
+    protections: Sequence[Decision]
+    protected: np.ndarray
+    declared: np.ndarray
+
+    def admit(self, stage: str, event: Event, markers: Sequence[str]) -> None:
+        """Keep a finding on markers where it may be repaired, and record where it may not."""
+        missing = self.judged.recording.missing
+        columns = [self.judged.recording.markers.index(name) for name in markers]
+        span = slice(event.start, event.stop)
+        protected = np.asarray(self.protected[span, columns].any(axis=1))
+        # An exchange of labels takes missing samples along; any other finding ends where samples were taken away.
+        free = ~protected if event.partner else ~protected & ~self.declared[span, columns[0]]
+        for start, stop in runs(free):
+            if not missing[event.start + start : event.start + stop, columns].all():
+                part = replace(event, start=event.start + start, stop=event.start + stop)
+                self.judged.found[stage].append(part)
+        for start, stop in runs(protected):
+            place = event.start + start, event.start + stop
+            self.judged.left.append(_left(stage, event, *place, rule(self.protections, (), markers, *place)))
 
 
 def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: Sequence[str]) -> Ruling:
-    """Why a finding on markers is dropped: rejected, left, or in the place of what a person says is of another class."""
-    rest = [decision for decision in decisions if decision.verb != "protect"]
-    ruling = rule(rest, [kind_of(stage, event)], markers, event.start, event.stop)
-    classes = [d for d in rest if d.verb == "class" and _replaces(d, markers, event)]
+    """Why a finding on markers is dropped: rejected, left, or replaced by what a person says is of another class."""
+    others = [decision for decision in decisions if decision.verb != "protect"]
+    ruling = rule(others, [kind_of(stage, event)], markers, event.start, event.stop)
+    classes = [d for d in others if d.verb == "class" and _replaces(d, markers, event)]
     return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=texts_of(classes))
 
 
@@ -93,46 +114,33 @@ def _replaces(decision: Decision, markers: Sequence[str], event: Event) -> bool:
     return any(one.on(markers, event.start, event.stop) for one in both)
 
 
-def _set(recording: Recording, decisions: Iterable[Decision]) -> dict[str, list[Event]]:
-    """The findings that a person made, by detector, where anything was measured."""
+def _found_by_persons(recording: Recording, decisions: Iterable[Decision]) -> dict[str, list[Event]]:
+    """The findings that persons made, by detector, where anything was measured."""
     made: dict[str, list[Event]] = {}
-    for decision in decisions:
-        if decision.verb != "class":
-            continue
+    for decision in (decision for decision in decisions if decision.verb == "class"):
         start, stop = max(decision.start, 0), min(decision.stop, recording.frames)
         for marker in filter(decision.matches, recording.markers):
             event = Event(marker, start, stop, 1.0, partner=decision.partner)
             both = [event] if event.partner is None else [event, replace(event, marker=event.partner, partner=marker)]
-            concerned = [recording.markers.index(name) for name in names(event)]
-            if start < stop and not recording.missing[start:stop, concerned].all():
+            columns = [recording.markers.index(name) for name in names(event)]
+            if start < stop and not recording.missing[start:stop, columns].all():
                 (kind,) = decision.kinds
                 made.setdefault(BY_NAME[kind].stage, []).extend(both)
     return {stage: tidy(events) for stage, events in made.items()}
 
 
-def _declared(recording: Recording, away: np.ndarray, decisions: Iterable[Decision]) -> list[Change]:
-    """What was taken away because a person declared it missing, each sample once."""
-    left, pending = [], away.copy()
-    for decision in decisions:
-        if decision.verb != "missing":
-            continue
+def _declared_missing(recording: Recording, declared: np.ndarray, decisions: Iterable[Decision]) -> list[Change]:
+    """The records of what persons declared missing, each sample once; declared: bool (frames, markers)."""
+    records, pending = [], declared.copy()
+    for decision in (decision for decision in decisions if decision.verb == "missing"):
         for m in (m for m, marker in enumerate(recording.markers) if decision.matches(marker)):
             own = pending[:, m] & _mask(recording, [decision])[:, m]
             pending[own, m] = False
+            bare = Change(recording.markers[m], 0, 0, (DECLARED_MISSING,), Outcome.BLANKED, reason=decision.reason)
             for start, stop in runs(own):
-                left.append(
-                    Change(
-                        recording.markers[m],
-                        start,
-                        stop,
-                        (DECLARED_MISSING,),
-                        Outcome.BLANKED,
-                        samples=stop - start,
-                        decisions=(decision.text,),
-                        reason=decision.reason,
-                    )
-                )
-    return left
+                own_text = (decision.text,)
+                records.append(replace(bare, start=start, stop=stop, samples=stop - start, decisions=own_text))
+    return records
 
 
 def _mask(recording: Recording, decisions: Iterable[Decision]) -> np.ndarray:
@@ -145,8 +153,8 @@ def _mask(recording: Recording, decisions: Iterable[Decision]) -> np.ndarray:
     return covered
 
 
-def _entry(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> Change:
-    """A finding, or a part of one, that is left as it is."""
+def _left(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> Change:
+    """The record of a finding, or of a part of one, that is left as it is."""
     return Change(
         event.marker,
         start,

@@ -64,12 +64,14 @@ def repair(
         The recording as ingested; it is not modified.
     found : mapping of str to sequence of Event
         The findings by detector.
-    neighbours, relatives : sequence of ndarray of int
-        For each marker the indices of its neighbours, ranked by the mesh, and of its segment mates.
+    neighbours : sequence of ndarray of int
+        For each marker the indices of its neighbours, ranked by the mesh.
     predictors : mapping of str to Predictor
         The predictors by name: those that the methods of the options and the decisions mention.
     options : RepairOptions
         The methods of each class and the limits.
+    relatives : sequence of ndarray of int, optional
+        For each marker the indices of its segment mates.
     decisions : sequence of Decision
         What a person decided about the recording; no limit holds against a decision.
 

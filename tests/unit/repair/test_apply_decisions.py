@@ -1,4 +1,4 @@
-"""Decisions against findings, with a plain twin that asks sample by sample."""
+"""Decisions against findings, with a plain twin that asks sample by sample, and what they come to in a repair."""
 
 import numpy as np
 import pytest
@@ -8,9 +8,12 @@ from hypothesis import strategies as st
 from markermend.core.artifacts import BY_NAME, CLASSES
 from markermend.core.decisions import EVER, Decision
 from markermend.core.events import Event
-from markermend.core.recording import Recording, changed
+from markermend.core.recording import MISSING, ORIGINS, Recording, changed
 from markermend.repair.apply_decisions import judge
+from support.repairs import MARKER, START, STOP, body, decide, distorted, error, mend
 
+SLOW = {"slow": [Event(MARKER, START, STOP, 4.0)]}
+SWAP = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
 MARKERS, FRAMES = ("A1", "A2", "B"), 30
 KINDS = tuple(kind for kind in BY_NAME if kind != "swap")
 
@@ -131,3 +134,102 @@ def test_a_piece_of_a_finding_in_which_nothing_was_measured_is_no_finding():
     shut = [Decision("A1", 6, 10, "protect"), Decision("A1", 14, 16, "protect")]
     judged = judge(before, {"peaks": [Event("A1", 4, 20, 2.0)]}, shut)
     assert [(event.start, event.stop) for event in judged.found["peaks"]] == [(4, 6), (16, 20)]
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return body()
+
+
+@pytest.fixture(scope="module")
+def drifting(clean):
+    return distorted(clean, 20.0)
+
+
+def test_what_a_person_rejects_stays_as_measured(drifting):
+    result = mend(drifting, SLOW, decisions=[decide("reject", "slow", "he hops")])
+    assert not changed(drifting, result).any() and result.repairs == []
+    (left,) = result.repairs_left
+    assert (left.reason.text, left.outcome) == ("a person decided: reject slow (he hops)", "left")
+    assert left.decisions == ("reject slow (he hops)",)
+    assert mend(drifting, SLOW, decisions=[decide("reject", "peak")]).repairs
+
+
+def test_a_rejected_swap_stays_on_both_markers(clean):
+    result = mend(clean, {"labels": SWAP}, decisions=[decide("reject", "swap", marker="3a")])
+    assert not changed(clean, result).any()
+    assert [left.marker for left in result.repairs_left] == ["2b", "3a"]
+
+
+def test_protected_frames_stay_and_what_is_around_them_is_repaired(clean, drifting):
+    protect = decide("protect", start=610, stop=615)
+    result = mend(drifting, SLOW, decisions=[protect, decide("accept")])
+    m = clean.markers.index(MARKER)
+    assert np.array_equal(result.positions[610:615, m], drifting.positions[610:615, m])
+    assert [(r.start, r.stop) for r in result.repairs] == [(START, 610), (615, STOP)]
+    (left,) = result.repairs_left
+    assert (left.start, left.stop, left.reason.text) == (610, 615, "a person decided: protect")
+
+
+def test_a_class_that_a_person_sets_replaces_what_was_found(clean):
+    recording = distorted(clean, np.array([9.0, -4.0, 2.0]))
+    found = {"noise": [Event(MARKER, START - 3, START + 9, 2.0)], "slow": [Event(MARKER, STOP - 5, STOP + 2, 3.0)]}
+    result = mend(recording, found, decisions=[decide("class", "step")])
+    (repair,) = result.repairs
+    assert (repair.kind, repair.method, repair.start, repair.stop) == (
+        "step",
+        "separate_step",
+        START,
+        STOP,
+    )
+    assert error(clean, result).max() < 0.3
+    assert {left.reason.text for left in result.repairs_left} == {"a person decided: class step"}
+
+
+def test_an_artifact_that_no_detector_saw(clean, drifting):
+    result = mend(drifting, {}, decisions=[decide("class", "slow")])
+    assert error(clean, result).max() < 1
+    m = clean.markers.index(MARKER)
+    assert (result.origin[START:STOP, m] == ORIGINS.index("slow")).all()
+
+
+def test_a_swap_that_no_detector_saw(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    recording = distorted(clean, 0.0)
+    recording.positions[:] = positions
+    result = mend(recording, {}, decisions=[decide("class", "swap:3a")])
+    assert np.array_equal(result.positions, clean.positions)
+    assert [repair.decisions for repair in result.repairs] == [("class swap:3a",)] * 2
+
+
+def test_leave_leaves(drifting):
+    assert not changed(drifting, mend(drifting, SLOW, decisions=[decide("method", "leave")])).any()
+
+
+def test_what_a_person_declares_missing_is_taken_away_and_not_believed(clean, drifting):
+    result = mend(drifting, {}, decisions=[decide("missing")])
+    m = clean.markers.index(MARKER)
+    assert (result.origin[START:STOP, m] == MISSING).all()
+    assert np.count_nonzero(changed(drifting, result)) == STOP - START
+    (left,) = result.repairs_left
+    assert (left.kind, left.outcome, left.decisions) == ("missing", "blanked", ("missing",))
+
+
+def test_static_recordings_and_protected_markers_are_stronger(clean, drifting):
+    everything = [
+        decide("accept"),
+        decide("missing", start=700, stop=710),
+        decide("class", "noise", start=800, stop=820),
+    ]
+    assert not changed(drifting, mend(drifting, SLOW, decisions=everything, protect=["2*"])).any()
+    static = type(drifting)(drifting.markers, drifting.positions, drifting.rate, facts={"kind": "static"})
+    assert not changed(static, mend(static, SLOW, decisions=everything)).any()
+
+
+def test_decisions_on_other_markers_change_nothing(drifting):
+    plain = mend(drifting, SLOW)
+    others = [Decision("0a", -EVER, EVER, verb) for verb in ("accept", "reject", "protect")]
+    result = mend(drifting, SLOW, decisions=[*others, Decision("?zzz", 0, 9, "missing")])
+    assert np.array_equal(plain.positions, result.positions) and plain.changes == result.changes

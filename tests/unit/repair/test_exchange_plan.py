@@ -1,0 +1,85 @@
+"""Exchanges of labels: carried out bit for bit where the markers are better with them, and left where not."""
+
+import numpy as np
+import pytest
+
+from markermend.core.decisions import Decision
+from markermend.core.events import Event
+from markermend.core.recording import MISSING, ORIGINS
+from support import bodies
+from support.repairs import START, STOP, body, error, mend
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return body()
+
+
+def test_swap_is_undone_bit_for_bit(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    recording = bodies.recording(clean.markers, positions)
+    events = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(recording, {"labels": events})
+    assert np.array_equal(result.positions, clean.positions)
+    assert (result.origin[START:STOP, [a, b]] == ORIGINS.index("swap")).all()
+    assert [(r.marker, r.partner, r.kind) for r in result.repairs] == [
+        ("2b", "3a", "swap"),
+        ("3a", "2b", "swap"),
+    ]
+
+
+def test_swap_with_a_missing_partner_moves_the_samples(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, b] = positions[START:STOP, a]
+    positions[START:STOP, a] = np.nan
+    recording = bodies.recording(clean.markers, positions)
+    result = mend(recording, {"labels": [Event("3a", START, STOP, 9.0, "xyz", "2b")]})
+    assert np.array_equal(result.positions[:, a], clean.positions[:, a])
+    assert np.isnan(result.positions[START:STOP, b]).all()
+    assert (result.origin[START:STOP, b] == MISSING).all()
+
+
+def test_a_peak_within_a_swap_is_mended_after_the_swap(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[610:613, a] += 20.0
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(bodies.recording(clean.markers, positions), {"peaks": [Event("2b", 610, 613, 5.0)], "labels": swap})
+    assert error(clean, result).max() < 1
+    assert (result.origin[610:613, a] == ORIGINS.index("peak")).all()
+    others = np.delete(np.arange(len(positions)), slice(610, 613))
+    assert np.array_equal(result.positions[others], clean.positions[others])
+    assert np.array_equal(result.positions[:, b], clean.positions[:, b])
+
+
+@pytest.mark.parametrize("protect", ["2b", "3a"])
+def test_a_swap_with_a_protected_marker_is_left(clean, protect):
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(clean, {"labels": swap}, protect=[protect])
+    assert np.array_equal(result.positions, clean.positions)
+    assert [left.reason.text for left in result.repairs_left] == ["protected", "protected"]
+
+
+def test_a_swap_that_is_none_is_left(clean):
+    swap = [Event("2b", START, STOP, 1.0, "xyz", "3a"), Event("3a", START, STOP, 1.0, "xyz", "2b")]
+    result = mend(clean, {"labels": swap})
+    assert np.array_equal(result.positions, clean.positions)
+    assert [left.marker for left in result.repairs_left] == ["2b", "3a"]
+    assert all("no better with labels exchanged" in left.reason.text for left in result.repairs_left)
+    wanted = mend(clean, {"labels": swap}, decisions=[Decision("2b", START, STOP, "accept", "swap")])
+    assert len(wanted.repairs) == 2
+
+
+def test_a_swap_that_a_gap_interrupts_is_undone(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    positions[START + 5 : STOP - 5, a] = np.nan
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    result = mend(bodies.recording(clean.markers, positions), {"labels": swap})
+    assert len(result.repairs) == 2
+    assert np.array_equal(result.positions[:, a], clean.positions[:, a])

@@ -1,0 +1,188 @@
+"""One finding: repaired by the best candidate, or left or taken away for a reason; a person outweighs every limit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.core.decisions import Decision
+from markermend.core.events import Event, mask
+from markermend.core.recording import MISSING
+from support import bodies
+from support.repairs import MARKER, METHODS, START, STOP, Vague, body, decide, distorted, error, mend
+from support.signals import detect, neighbours, put
+from support.treated import expected
+
+SLOW = {"slow": [Event(MARKER, START, STOP, 4.0)]}
+
+
+@pytest.fixture(scope="module")
+def clean():
+    return body()
+
+
+@pytest.fixture(scope="module")
+def drifting(clean):
+    return distorted(clean, 20.0)
+
+
+def test_overlapping_classes_become_a_gap(clean):
+    recording = distorted(clean, 20.0)
+    found = {"peaks": [Event(MARKER, 610, 613, 2.0)], "slow": [Event(MARKER, START, STOP, 4.0)]}
+    result = mend(recording, found)
+    m = clean.markers.index(MARKER)
+    assert np.isnan(result.positions[START:STOP, m]).all()
+    assert (result.origin[START:STOP, m] == MISSING).all()
+    (left,) = result.repairs_left
+    assert (left.kind, left.start, left.stop, left.outcome) == ("peak+slow", START, STOP, "blanked")
+
+
+def test_what_cannot_be_trusted_becomes_missing_and_says_why(clean):
+    recording = distorted(clean, 20.0)
+    for changes, reason in (
+        ({"max_error_mm": 1e-6}, "repair.max_error_mm: 1e-06"),
+        ({"max_repair_s": 0.1}, "repair.max_repair_s: 0.1"),
+    ):
+        result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
+        assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
+        assert reason in result.repairs_left[0].reason.text
+        assert not result.repairs
+
+
+@pytest.mark.parametrize(
+    ("changes", "facts", "reason"),
+    [
+        ({"protect": ["2*"]}, {}, "protected"),
+        ({"max_altered_share": 0.0001}, {}, "repair.max_altered_share: 0.0001"),
+        ({}, {"kind": "static"}, "static"),
+    ],
+)
+def test_refusals_leave_every_sample(clean, changes, facts, reason):
+    recording = bodies.recording(clean.markers, distorted(clean, 20.0).positions, **facts)
+    result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]}, **changes)
+    assert np.array_equal(result.positions, recording.positions)
+    (left,) = result.repairs_left
+    assert reason in left.reason.text and left.outcome == "left"
+
+
+@pytest.mark.parametrize(("stage", "kind"), [("frozen", "frozen"), ("tails", "tail")])
+def test_what_nobody_measured_is_missing_says_so_and_can_be_kept(clean, stage, kind):
+    recording = distorted(clean, 20.0)
+    found = {stage: [Event(MARKER, START, STOP, 4.0)]}
+    result = mend(recording, found)
+    assert np.isnan(result.positions[START:STOP, clean.markers.index(MARKER)]).all()
+    (left,) = result.repairs_left
+    assert (left.kind, left.outcome, left.reason.text[:12]) == (kind, "blanked", "not measured")
+    decided = [Decision(MARKER, START, STOP, "reject", kind)]
+    assert np.array_equal(mend(recording, found, decisions=decided).positions, recording.positions)
+    static = bodies.recording(clean.markers, recording.positions, kind="static")
+    assert np.array_equal(mend(static, found).positions, recording.positions)
+
+
+def test_missing_samples_inside_a_finding_stay_missing(clean):
+    recording = distorted(clean, 20.0)
+    m = clean.markers.index(MARKER)
+    recording.positions[615:620, m] = np.nan
+    result = mend(recording, {"slow": [Event(MARKER, START, STOP, 4.0)]})
+    assert np.isnan(result.positions[615:620, m]).all()
+    assert (result.origin[615:620, m] == MISSING).all()
+
+
+@pytest.mark.parametrize(
+    "limits", [{"max_altered_share": 0.00001}, {"max_error_mm": 1e-6}, {"max_repair_s": 0.1}, {}], ids=str
+)
+def test_what_a_person_accepts_is_repaired_whatever_the_limits(clean, drifting, limits):
+    result = mend(drifting, SLOW, decisions=[decide("accept", note="taped")], **limits)
+    assert error(clean, result).max() < 1
+    (repair,) = result.repairs
+    assert (repair.method, repair.decisions) == ("local_ridge", ("accept (taped)",))
+    assert result.repairs_left == []
+
+
+def test_the_limit_still_holds_for_all_else(clean, drifting):
+    other = Event("1a", 900, 940, 5.0)
+    found = {"slow": [*SLOW["slow"], other]}
+    result = mend(drifting, found, decisions=[decide("accept")], max_altered_share=0.00001)
+    assert [repair.marker for repair in result.repairs] == [MARKER]
+    (left,) = result.repairs_left
+    assert left.marker == "1a" and "repair.max_altered_share" in left.reason.text and not left.decisions
+
+
+def test_no_guard_vetoes_a_person(clean):
+    methods = {**METHODS, "slow": ["vague"]}
+    result = mend(clean, SLOW, methods=methods, extra=Vague(clean), decisions=[decide("accept")])
+    assert np.allclose(error(clean, result), 12)
+    assert result.error[START, clean.markers.index(MARKER)] == pytest.approx(18.0)
+
+
+@pytest.mark.parametrize("method", ["linear", "spline", "savitzky_golay"])
+def test_the_method_is_the_persons(drifting, method):
+    result = mend(drifting, SLOW, decisions=[decide("method", method)])
+    (repair,) = result.repairs
+    assert (repair.method, repair.decisions) == (method, (f"method {method}",))
+
+
+def test_one_method_for_kinds_that_overlap(clean, drifting):
+    found = {"peaks": [Event(MARKER, 610, 613, 2.0)], **SLOW}
+    result = mend(drifting, found, decisions=[decide("method", "local_ridge")])
+    (repair,) = result.repairs
+    assert (repair.kind, repair.start, repair.stop, repair.score) == ("slow", START, STOP, 4.0)
+    assert error(clean, result).max() < 1
+
+
+def test_a_method_that_only_fills_makes_a_gap(clean, drifting):
+    result = mend(drifting, SLOW, decisions=[decide("method", "kalman")])
+    m = clean.markers.index(MARKER)
+    assert np.isnan(result.positions[START:STOP, m]).all()
+    (left,) = result.repairs_left
+    assert (left.reason.text, left.outcome) == ("to be filled by kalman", "blanked")
+
+
+@pytest.mark.parametrize("limit", [5.0, 100.0])
+def test_what_a_repair_would_not_better_stays_as_measured(clean, limit):
+    methods = {**METHODS, "slow": ["vague"]}
+    result = mend(
+        clean,
+        {"slow": [Event(MARKER, START, STOP, 1.1)]},
+        methods=methods,
+        max_error_mm=limit,
+        extra=Vague(clean),
+    )
+    assert np.array_equal(result.positions, clean.positions)
+    (left,) = result.repairs_left
+    assert left.outcome == "left" and expected(left) == {"vague": 18.0}
+    assert "vague: expected error 18.0 mm for a change of 12.0 mm" in left.reason.text
+
+
+def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_it(clean):
+    recording = distorted(clean, np.array([5.0, 0.0, 0.0]))
+    found = {"slow": [Event(MARKER, START, STOP, 1.1)]}
+    given = {"methods": {**METHODS, "slow": ["vague"]}, "extra": Vague(clean, off=30.0, deviation=0.1)}
+    result = mend(recording, found, **given)
+    assert np.array_equal(result.positions, recording.positions)
+    assert "30.0 mm from where the neighbours predict it, measured 5.0 mm" in result.repairs_left[0].reason.text
+    wanted = mend(recording, found, decisions=[Decision(MARKER, START, STOP, "accept", "slow")], **given)
+    assert wanted.repairs[0].method == "vague"
+
+
+def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
+    """Combined forms (skurowski2022 figure 14), as the detectors find them."""
+
+    def bump(length):
+        return 30 * np.sin(np.pi * (np.arange(length) + 0.5) / length)[:, None] * [1, 0.4, -0.5]
+
+    recording = put(walker.recording, [("STRN", 200, 280)], bump)
+    m = recording.markers.index("STRN")
+    recording.positions[240:242, m] += [20.0, -25.0, 10.0]
+    found = {
+        "peaks": [Event("STRN", 240, 242, 5.0)],
+        "slow": [Event("STRN", 200, 280, 3.0)],
+    }
+    seen, _ = detect(recording, only=("peaks",))
+    assert [(e.marker, e.start, e.stop) for e in seen["peaks"]] == [("STRN", 240, 242)]
+    result = mend(replace(recording, facts={"recording": "walk"}), found, near=neighbours(recording.positions))
+    covered = mask(found["slow"], recording.frames, recording.markers)
+    assert np.array_equal(result.origin == MISSING, covered)
+    assert np.array_equal(result.positions[~covered], recording.positions[~covered])
+    (left,) = result.repairs_left
+    assert left.kind == "peak+slow" and left.outcome == "blanked"
