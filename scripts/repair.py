@@ -11,7 +11,6 @@ from markermend.command.stage import Stage
 from markermend.core import decisions
 from markermend.options.general import DecisionOptions
 from markermend.options.repair import RepairOptions
-from markermend.repair.predictors import needed_predictors
 from markermend.repair.repair import repair
 from markermend.storage import change_file, mesh_file, stage_files
 
@@ -25,17 +24,13 @@ STAGE.writes("changes", "what was done to each finding, or why nothing was")
 
 def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
-    body = mesh_file.read(call.mesh, recording.facts["recording"])
     found = {stage_files.read_facts(path)["stage"]: stage_files.read_events(path) for path in call.events}
-    decided = decisions.read(call.decisions, recording.first_frame)
     repaired = repair(
         recording,
+        mesh_file.read(call.mesh, recording.facts["recording"]),
         found=found,
-        neighbours=body.neighbour_indices(recording.markers),
-        relatives=body.segment_mate_indices(recording.markers),
-        predictors=needed_predictors(call.options, decided),
         options=call.options,
-        decisions=decided,
+        decisions=decisions.read(call.decisions, recording.first_frame),
     )
     stage_files.write_recording(call.repaired, repaired.recording, call.facts)
     change_file.write(call.changes, repaired.changes, call.facts)

@@ -56,7 +56,6 @@ from markermend.options.mesh import MeshOptions
 from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
-from markermend.repair.predictors import needed_predictors
 from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.protocols import PROTOCOLS
@@ -106,10 +105,7 @@ def detect(recording: Recording, body: Mesh, options: dict, preset: str) -> dict
 
 def mend(recording: Recording, body: Mesh, found: dict, options: dict) -> tuple[np.ndarray, bool]:
     """Positions after repair of what was found, and whether the repair refused."""
-    own = options["repair"]
-    near, mates = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
-    given = {"neighbours": near, "relatives": mates, "predictors": needed_predictors(own), "options": own}
-    result = repair(recording, found=found, **given)
+    result = repair(recording, body, found=found, options=options["repair"])
     refused = bool(result.changes) and all(change.reason for change in result.changes)
     return result.recording.positions, refused
 

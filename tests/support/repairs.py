@@ -9,8 +9,8 @@ from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
 from markermend.prediction.interpolation import Interpolation
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.scene import Prediction
-from markermend.repair.repair import repair
+from markermend.prediction.scene import Prediction, Scene
+from markermend.repair.repair import repair_scene
 from support import bodies
 from support.treated import treated
 
@@ -69,11 +69,12 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
         separation=SEPARATION,
         radius=RADIUS,
     )
+    near = neighbours_of(recording) if near is None else near
     return treated(
-        repair(
+        repair_scene(
             recording,
+            Scene(recording.positions, recording.rate, near),
             found=found,
-            neighbours=neighbours_of(recording) if near is None else near,
             predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
             options=replace(options, **changes),
             decisions=decisions,

@@ -18,6 +18,7 @@ from markermend.core.changes import Change
 from markermend.core.decisions import Decision, protecting
 from markermend.core.events import Event, mask
 from markermend.core.labels import follow
+from markermend.core.mesh import Mesh
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Recording, Restored
 from markermend.options.repair import RepairOptions
@@ -27,6 +28,7 @@ from markermend.repair.candidates import CandidateMaker
 from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_exchanges
 from markermend.repair.finding_repair import repair_finding
 from markermend.repair.findings import Rulings, group_findings
+from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
 
 
@@ -48,30 +50,24 @@ class RepairedRecording:
 
 def repair(
     recording: Recording,
+    mesh: Mesh,
     *,
     found: Mapping[str, Sequence[Event]],
-    neighbours: Sequence[np.ndarray],
-    predictors: Mapping[str, Predictor],
     options: RepairOptions,
-    relatives: Sequence[np.ndarray] | None = None,
     decisions: Sequence[Decision] = (),
 ) -> RepairedRecording:
-    """Repair the findings of each class.
+    """Repair the findings of each class with the predictors that the options describe.
 
     Parameters
     ----------
     recording : Recording
         The recording as ingested; it is not modified.
+    mesh : Mesh
+        The functional body mesh of the subject: it ranks the neighbours of each marker.
     found : mapping of str to sequence of Event
         The findings by detector.
-    neighbours : sequence of ndarray of int
-        For each marker the indices of its neighbours, ranked by the mesh.
-    predictors : mapping of str to Predictor
-        The predictors by name: those that the methods of the options and the decisions mention.
     options : RepairOptions
-        The methods of each class and the limits.
-    relatives : sequence of ndarray of int, optional
-        For each marker the indices of its segment mates.
+        The methods of each class, the limits, and the options of the predictors.
     decisions : sequence of Decision
         What a person decided about the recording; no limit holds against a decision.
 
@@ -81,8 +77,44 @@ def repair(
         The recording and what was done to each finding. Missing samples stay missing; static recordings are left as they
         are.
     """
+    neighbours, mates = mesh.neighbour_indices(recording.markers), mesh.segment_mate_indices(recording.markers)
+    scene = Scene(recording.positions, recording.rate, neighbours, segment_mates=mates)
+    predictors = needed_predictors(options, decisions)
+    return repair_scene(recording, scene, found=found, predictors=predictors, options=options, decisions=decisions)
+
+
+def repair_scene(
+    recording: Recording,
+    scene: Scene,
+    *,
+    found: Mapping[str, Sequence[Event]],
+    predictors: Mapping[str, Predictor],
+    options: RepairOptions,
+    decisions: Sequence[Decision] = (),
+) -> RepairedRecording:
+    """Repair the findings of each class with given predictors: see `repair`.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as ingested; it is not modified.
+    scene : Scene
+        The same recording as predictors see it, findings included.
+    found : mapping of str to sequence of Event
+        The findings by detector.
+    predictors : mapping of str to Predictor
+        The predictors by name: those that the methods of the options and the decisions mention.
+    options : RepairOptions
+        The methods of each class and the limits.
+    decisions : sequence of Decision
+        What a person decided about the recording.
+
+    Returns
+    -------
+    RepairedRecording
+        The recording and what was done to each finding.
+    """
     static = recording.facts.get("kind") == "static"
-    scene = Scene(recording.positions, recording.rate, neighbours, segment_mates=relatives)
     exchanges = found.get("labels", ())
     rulings = Rulings([] if static else [*protecting(options.protect), *decisions], exchanges)
     judged = judge(recording, found, rulings.decisions)

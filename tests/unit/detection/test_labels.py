@@ -12,7 +12,7 @@ from markermend.options.detection import LabelsOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Scene
-from markermend.repair.repair import repair
+from markermend.repair.repair import repair_scene
 from markermend.simulation.artifact_models import integers
 from markermend.simulation.contamination import Contamination
 from support.signals import neighbours
@@ -119,8 +119,8 @@ def test_a_ring_that_turns_on_and_on(walker):
 def test_a_ring_is_undone_by_the_repair(walker):
     recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
     options = RepairOptions()
-    around = neighbours(recording.positions)
-    mended = repair(recording, found={"labels": find(recording)}, neighbours=around, predictors={}, options=options)
+    scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
+    mended = repair_scene(recording, scene, found={"labels": find(recording)}, predictors={}, options=options)
     assert np.array_equal(mended.recording.positions, walker.recording.positions)
     assert sorted((e.marker, e.start, e.stop, e.partner) for e in mended.changes) == told
 
@@ -134,8 +134,8 @@ def test_undone_bit_for_bit_alone_and_by_the_repair(walker):
     assert np.array_equal(undo_exchanges(recording.positions, found, recording.markers), clean.positions)
     assert np.array_equal(recording.positions, before)
     options = RepairOptions()
-    around = neighbours(recording.positions)
-    mended = repair(recording, found={"labels": found}, neighbours=around, predictors={}, options=options)
+    scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
+    mended = repair_scene(recording, scene, found={"labels": found}, predictors={}, options=options)
     assert np.array_equal(mended.recording.positions, clean.positions)
 
 
