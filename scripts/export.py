@@ -2,7 +2,8 @@
 
 Reads: the original file, 01_markers.parquet, 07_filled.parquet, 07_changes.parquet.
 Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV also cleaned.trc),
-changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is copied unchanged, and its certificate says so.
+changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is
+copied unchanged, and its certificate says so.
 """
 
 from collections.abc import Sequence
