@@ -10,13 +10,15 @@ from typing import Any
 from markermend.command import detector
 from markermend.detection.labels import detect_labels
 from markermend.options.detection import LabelsOptions
-from markermend.storage import stage_files
+from markermend.storage import mesh_file, stage_files
 
 STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="exchanged labels")
 
 
 def work(call: Any) -> str:
-    recording, scene, _, _ = detector.read(call.markers, call.mesh, call.earlier, as_recorded=True)
+    recording = stage_files.read_recording(call.markers)
+    mesh = mesh_file.read(call.mesh, recording.facts["recording"])
+    scene = detector.scene(recording, mesh, recording.positions)
     found = detect_labels(scene, markers=recording.markers, options=call.options)
     stage_files.write_events(call.events, found, call.facts)
     return detector.result(found)

@@ -1,9 +1,8 @@
-"""What the commands of the detectors share: their files, what they read, the detector that the preset names, their line of result."""
+"""What the commands of the detectors share: their files, the inputs of the detector that the preset names, the line of result."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,11 +10,12 @@ import numpy as np
 from markermend.command.stage import Stage
 from markermend.core import events, labels
 from markermend.core.events import Event
+from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
+from markermend.options.detection import LabelsOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
-from markermend.storage import mesh_file as storage_mesh_file
-from markermend.storage import stage_files
+from markermend.storage import mesh_file, stage_files
 
 
 def stage(name: str, description: str, options: type, *, finds: str) -> Stage:
@@ -67,9 +67,6 @@ def chosen(options: Any) -> Any:
 def arguments(call: Any) -> tuple[dict[str, Any], list[Event]]:
     """Read what a detector is given.
 
-    The published detectors (preset `paper`) look at the trajectories as recorded, all others at trajectories on which
-    exchanged labels are undone.
-
     Parameters
     ----------
     call : Any
@@ -85,18 +82,128 @@ def arguments(call: Any) -> tuple[dict[str, Any], list[Event]]:
     Raises
     ------
     SetAside
-        Where the recording was set aside.
+        Where an earlier stage set the recording aside.
     """
-    as_recorded = getattr(call.options, "preset", "default") == "paper"
-    recording, scene, earlier, exchanges = read(call.markers, call.mesh, call.earlier, as_recorded=as_recorded)
+    recording = stage_files.read_recording(call.markers)
+    mesh = mesh_file.read(call.mesh, recording.facts["recording"])
+    earlier = [event for path in call.earlier for event in stage_files.read_events(path)]
+    return inputs(recording, mesh, earlier, options=call.options)
+
+
+def inputs(
+    recording: Recording, mesh: Mesh, earlier: Sequence[Event], *, options: Any
+) -> tuple[dict[str, Any], list[Event]]:
+    """Prepare what a detector is given.
+
+    The published detectors (preset `paper`) look at the trajectories as recorded, all others at trajectories on which
+    exchanged labels are undone.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as ingested.
+    mesh : Mesh
+        Its functional body mesh.
+    earlier : sequence of Event
+        Events of the detectors before.
+    options : Any
+        The options of the stage.
+
+    Returns
+    -------
+    given : dict
+        The arguments of the detector.
+    recorded_under : list of Event
+        The exchanges that were not undone.
+    """
+    as_recorded = getattr(options, "preset", "default") == "paper"
+    exchanges = [event for event in earlier if event.partner is not None]
+    artifacts = [event for event in earlier if event.partner is None]
+    positions = recording.positions
+    if as_recorded:
+        artifacts = labels.follow(artifacts, found_under=exchanges, stated_under=())
+    else:
+        positions = labels.undo_exchanges(positions, exchanges, recording.markers)
     given = {
-        "scene": scene,
+        "scene": scene(recording, mesh, positions),
         "markers": recording.markers,
-        "earlier": earlier,
-        "predictor": _predictor(call.options),
-        "options": chosen(call.options),
+        "earlier": events.coordinates(artifacts, recording.frames, recording.markers),
+        "predictor": _predictor(options),
+        "options": chosen(options),
     }
     return given, exchanges if as_recorded else []
+
+
+def find(
+    detect: Callable[..., Any], recording: Recording, mesh: Mesh, earlier: Sequence[Event], *, options: Any
+) -> list[Event]:
+    """Find one class of artifacts as its stage does.
+
+    Parameters
+    ----------
+    detect : callable
+        The detector.
+    recording : Recording
+        The recording as ingested.
+    mesh : Mesh
+        Its functional body mesh.
+    earlier : sequence of Event
+        Events of the detectors before.
+    options : Any
+        The options of the stage.
+
+    Returns
+    -------
+    list of Event
+        What was found.
+    """
+    if isinstance(options, LabelsOptions):
+        found: list[Event] = detect(
+            scene(recording, mesh, recording.positions), markers=recording.markers, options=options
+        )
+        return found
+    given, recorded_under = inputs(recording, mesh, earlier, options=options)
+    result = detect(**given)
+    return restate(result[0] if isinstance(result, tuple) else result, recorded_under)
+
+
+def scene(recording: Recording, mesh: Mesh, positions: np.ndarray) -> Scene:
+    """Put positions together with the neighbours that the mesh ranks.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+    mesh : Mesh
+        Its functional body mesh.
+    positions : ndarray of float, shape (frames, markers, 3)
+        Positions in mm; NaN = missing.
+
+    Returns
+    -------
+    Scene
+        What predictors and detectors look at.
+    """
+    neighbours, segment_mates = mesh.neighbour_indices(recording.markers), mesh.segment_mate_indices(recording.markers)
+    return Scene(positions, recording.rate, neighbours, segment_mates=segment_mates)
+
+
+def restate(found: list[Event], recorded_under: Sequence[Event]) -> list[Event]:
+    """State findings under the right labels.
+
+    Parameters
+    ----------
+    found : list of Event
+        What was found.
+    recorded_under : sequence of Event
+        The exchanges of labels that were not undone.
+
+    Returns
+    -------
+    list of Event
+        The findings, those on trajectories as recorded where the exchanges put them.
+    """
+    return labels.follow(found, found_under=(), stated_under=recorded_under) if recorded_under else found
 
 
 def _predictor(options: Any) -> Any:
@@ -108,55 +215,8 @@ def _predictor(options: Any) -> Any:
     return LocalRidge(options.predictors.local_ridge)
 
 
-def read(
-    markers: Path, mesh_file: Path, earlier: list[Path], *, as_recorded: bool = False
-) -> tuple[Recording, Scene, np.ndarray, list[Event]]:
-    """Read a recording, its scene, and what earlier detectors found.
-
-    Parameters
-    ----------
-    markers : Path
-        01_markers.parquet.
-    mesh_file : Path
-        mesh.json.
-    earlier : list of Path
-        Events of the detectors before.
-    as_recorded : bool, optional
-        Whether the scene is wanted as recorded; else the exchanges among the earlier events are undone in it.
-
-    Returns
-    -------
-    recording : Recording
-        The recording.
-    scene : Scene
-        Its positions with the neighbours of each marker.
-    claimed : ndarray of bool
-        Like the positions: what earlier detectors claimed.
-    exchanges : list of Event
-        The exchanges of labels.
-
-    Raises
-    ------
-    SetAside
-        Where an earlier stage set the recording aside.
-    """
-    recording = stage_files.read_recording(markers)
-    network = storage_mesh_file.read(mesh_file, recording.facts["recording"])
-    near, relatives = network.neighbour_indices(recording.markers), network.segment_mate_indices(recording.markers)
-    found = [event for path in earlier for event in stage_files.read_events(path)]
-    exchanges = [event for event in found if event.partner is not None]
-    artifacts = [event for event in found if event.partner is None]
-    positions = recording.positions
-    if as_recorded:
-        artifacts = labels.follow(artifacts, found_under=exchanges, stated_under=())
-    else:
-        positions = labels.undo_exchanges(positions, exchanges, recording.markers)
-    scene = Scene(positions, recording.rate, near, segment_mates=relatives)
-    return recording, scene, events.coordinates(artifacts, recording.frames, recording.markers), exchanges
-
-
-def write(call: Any, found: list[Event], recorded_under: list[Event], facts: dict[str, Any]) -> None:
-    """Write findings under the right labels: those on trajectories as recorded go where the exchanges put them.
+def write(call: Any, found: list[Event], recorded_under: Sequence[Event], facts: dict[str, Any]) -> None:
+    """Write findings under the right labels.
 
     Parameters
     ----------
@@ -164,14 +224,12 @@ def write(call: Any, found: list[Event], recorded_under: list[Event], facts: dic
         The stage's files and options.
     found : list of Event
         What was found.
-    recorded_under : list of Event
+    recorded_under : sequence of Event
         The exchanges that were not undone.
     facts : dict
         More facts for the file.
     """
-    if recorded_under:
-        found = labels.follow(found, found_under=(), stated_under=recorded_under)
-    stage_files.write_events(call.events, found, {**call.facts, **facts})
+    stage_files.write_events(call.events, restate(found, recorded_under), {**call.facts, **facts})
 
 
 def result(found: list[Event]) -> str:

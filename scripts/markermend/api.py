@@ -1,0 +1,521 @@
+"""The workflow's chain in one process, for notebooks, tests and benchmarks: the same functions, the same bytes.
+
+    from markermend import api
+
+    recording = api.read("walk.c3d")
+    cleaned = api.clean(recording)
+    certificate = api.write(cleaned, "walk.c3d", "walk_cleaned.c3d")
+    table = api.to_dataframe(cleaned.recording)
+
+Sums over several threads differ in the last bits: for bytes equal to those of the workflow, import markermend before
+numpy, or set OMP_NUM_THREADS to 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from markermend.command import detector
+from markermend.core import decisions as core_decisions
+from markermend.core.applied_changes import applied_changes
+from markermend.core.artifacts import CLASSES
+from markermend.core.changes import Change
+from markermend.core.decisions import Decision
+from markermend.core.events import Event
+from markermend.core.mesh import Mesh
+from markermend.core.originals import find_originals
+from markermend.core.recording import ORIGINS, Recording, Restored
+from markermend.detection.frozen import detect_frozen
+from markermend.detection.labels import detect_labels
+from markermend.detection.noise import detect_noise
+from markermend.detection.peaks import detect_peaks
+from markermend.detection.slow import detect_slow
+from markermend.detection.steps import detect_steps
+from markermend.detection.tails import detect_tails
+from markermend.export import write_back
+from markermend.export.change_table import change_table
+from markermend.filling.fill import FilledRecording, fill_gaps
+from markermend.formats import files
+from markermend.formats.ingest import ingest
+from markermend.mesh import inference, pair_statistics, user_mesh
+from markermend.options.config import read_config
+from markermend.options.detection import (
+    FrozenOptions,
+    LabelsOptions,
+    NoiseOptions,
+    PeaksOptions,
+    SlowOptions,
+    StepsOptions,
+    TailsOptions,
+)
+from markermend.options.filling import FillOptions
+from markermend.options.general import GeneralOptions
+from markermend.options.ingest import IngestOptions
+from markermend.options.mesh import MeshOptions
+from markermend.options.repair import RepairOptions
+from markermend.repair.predictors import needed_predictors
+from markermend.repair.repair import RepairedRecording
+from markermend.repair.repair import repair as repair_findings
+from markermend.storage import atomic, originals_file
+from markermend.storage.folder_names import printable
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+DETECTORS: Mapping[str, Callable[..., Any]] = {
+    "labels": detect_labels,
+    "frozen": detect_frozen,
+    "tails": detect_tails,
+    "peaks": detect_peaks,
+    "noise": detect_noise,
+    "steps": detect_steps,
+    "slow": detect_slow,
+}
+"""The detector of each class of artifacts, by its stage."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of all stages; each attribute holds those of the stage of its name (config/README.md).
+
+    Examples
+    --------
+    >>> Options.read({"fill": {"max_gap_s": 0.2}}).fill.max_gap_s
+    0.2
+    """
+
+    general: GeneralOptions
+    ingest: IngestOptions
+    mesh: MeshOptions
+    labels: LabelsOptions
+    frozen: FrozenOptions
+    tails: TailsOptions
+    peaks: PeaksOptions
+    noise: NoiseOptions
+    steps: StepsOptions
+    slow: SlowOptions
+    repair: RepairOptions
+    fill: FillOptions
+
+    @classmethod
+    def read(cls, config: Mapping[str, Any] | None = None) -> Options:
+        """Read options.
+
+        Parameters
+        ----------
+        config : mapping, optional
+            A config as in `config/config.yaml`; what is not there has its default.
+
+        Returns
+        -------
+        Options
+            The options of all stages.
+
+        Raises
+        ------
+        BadOptions
+            With all that cannot be used, and what was probably meant.
+        """
+        sections = read_config(config or {})
+        return cls(**{field.name: sections[field.name] for field in fields(cls)})
+
+
+@dataclass(frozen=True)
+class Cleaned:
+    """A cleaned recording, with all that is known about what was done to it.
+
+    Attributes
+    ----------
+    measured : Recording
+        The recording as read.
+    recording : Restored
+        The recording after repair and filling.
+    mesh : Mesh
+        The body mesh that was used.
+    findings : mapping of str to list of Event
+        What each detector found.
+    changes : sequence of Change
+        What became of each finding and each gap, or why nothing was done.
+    """
+
+    measured: Recording
+    recording: Restored
+    mesh: Mesh
+    findings: Mapping[str, list[Event]]
+    changes: Sequence[Change]
+
+
+def read(
+    path: str | PathLike[str],
+    *,
+    subject: str | None = None,
+    recording: str | None = None,
+    kind: str = "auto",
+    rate: float | None = None,
+    options: Options | None = None,
+) -> Recording:
+    """Read a recording of any known format.
+
+    Parameters
+    ----------
+    path : path-like
+        A C3D, TRC, CSV or TSV file.
+    subject, recording : str, optional
+        Their names; by default those of the folder and of the file without its ending.
+    kind : str, optional
+        `dynamic`, `static` (never repaired or filled), or `auto` (judged by name and motion).
+    rate : float, optional
+        Frame rate that replaces the file's, Hz.
+    options : Options, optional
+        The options; their section `ingest` is used.
+
+    Returns
+    -------
+    Recording
+        Positions in mm, NaN where a marker is missing, with facts about the file.
+
+    Raises
+    ------
+    BadRecording
+        Where the file cannot be used.
+
+    Examples
+    --------
+    >>> read("walk.c3d").markers[:2]  # doctest: +SKIP
+    ('LASI', 'RASI')
+    """
+    source, own = Path(path), (options or Options.read()).ingest
+    reading = files.read(source, unlabelled=own.unlabelled, rate=rate)
+    found = ingest(
+        reading,
+        source=printable(source.name),
+        recording=recording or printable(source.stem),
+        subject=subject or printable(source.resolve().parent.name),
+        kind=kind,
+        static_names=own.static_names,
+        static_motion_mm=own.static_motion_mm,
+    )
+    found.facts["source"]["sha256"] = atomic.sha256(source)
+    return found
+
+
+def infer_mesh(
+    recordings: Sequence[Recording],
+    *,
+    mesh_files: Sequence[str | PathLike[str]] = (),
+    options: Options | None = None,
+) -> Mesh:
+    """Infer the functional body mesh of a subject from all of its recordings.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        Recordings of one subject with like sets of markers.
+    mesh_files : sequence of path-like, optional
+        Meshes of the user, which win over inferred ones.
+    options : Options, optional
+        The options; their section `mesh` is used.
+
+    Returns
+    -------
+    Mesh
+        Rigid segments, and which markers predict which.
+
+    Raises
+    ------
+    ValueError
+        Where the sets of markers are so unlike that the recordings need several meshes.
+
+    Examples
+    --------
+    >>> [segment.name for segment in infer_mesh([recording]).segments]  # doctest: +SKIP
+    """
+    own = (options or Options.read()).mesh
+    thinned = [pair_statistics.thin(recording, frames=own.max_frames) for recording in recordings]
+    supplied = [mesh for path in mesh_files for mesh in user_mesh.read(Path(path))]
+    meshes = inference.infer_meshes(thinned, supplied=supplied, options=own)
+    if len(meshes) != 1:
+        groups = "; ".join(", ".join(mesh.recordings) for mesh in meshes)
+        raise ValueError(f"these recordings need {len(meshes)} meshes, infer one for each group: {groups}")
+    return meshes[0]
+
+
+def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> dict[str, list[Event]]:
+    """Find the artifacts of a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as read.
+    mesh : Mesh
+        The body mesh of its subject.
+    options : Options, optional
+        The options; `general.detect` lists the classes to look for.
+
+    Returns
+    -------
+    dict of str to list of Event
+        The findings of each detector, in the strict order of the detectors.
+
+    Examples
+    --------
+    >>> detect(recording, mesh)["peaks"][0]  # doctest: +SKIP
+    Event(marker='LANK', start=310, stop=312, score=4.2, axes='xz', partner=None)
+    """
+    options, own_mesh = options or Options.read(), mesh_of(recording, mesh)
+    findings: dict[str, list[Event]] = {}
+    for stage in (stage for stage in CLASSES if stage in options.general.detect):
+        earlier = [event for events in findings.values() for event in events]
+        found = detector.find(DETECTORS[stage], recording, own_mesh, earlier, options=getattr(options, stage))
+        findings[stage] = sorted(found, key=lambda event: event.order)
+    return findings
+
+
+def repair(
+    recording: Recording,
+    mesh: Mesh,
+    findings: Mapping[str, Sequence[Event]],
+    options: Options | None = None,
+    *,
+    decisions: Sequence[Mapping[str, Any]] = (),
+) -> RepairedRecording:
+    """Repair what the detectors found, each class in its way.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as read; it is not modified.
+    mesh : Mesh
+        The body mesh of its subject.
+    findings : mapping of str to sequence of Event
+        The findings of each detector.
+    options : Options, optional
+        The options; their section `repair` is used.
+    decisions : sequence of mapping, optional
+        What a person decided, line by line: the columns of the table of decisions with a value.
+
+    Returns
+    -------
+    RepairedRecording
+        The recording after repair, and what was done to each finding.
+
+    Examples
+    --------
+    >>> repair(recording, mesh, detect(recording, mesh)).changes[0].method  # doctest: +SKIP
+    'spline'
+    """
+    own, decided = (options or Options.read()).repair, read_decisions(decisions, recording)
+    own_mesh = mesh_of(recording, mesh)
+    return repair_findings(
+        recording,
+        found=findings,
+        neighbours=own_mesh.neighbour_indices(recording.markers),
+        relatives=own_mesh.segment_mate_indices(recording.markers),
+        predictors=needed_predictors(own, decided),
+        options=own,
+        decisions=decided,
+    )
+
+
+def fill(
+    repaired: RepairedRecording,
+    mesh: Mesh,
+    options: Options | None = None,
+    *,
+    decisions: Sequence[Mapping[str, Any]] = (),
+) -> FilledRecording:
+    """Fill the gaps of a repaired recording.
+
+    Parameters
+    ----------
+    repaired : RepairedRecording
+        The recording after repair; it is not modified.
+    mesh : Mesh
+        The body mesh of its subject.
+    options : Options, optional
+        The options; their section `fill` is used.
+    decisions : sequence of mapping, optional
+        What a person decided, line by line: the columns of the table of decisions with a value.
+
+    Returns
+    -------
+    FilledRecording
+        The recording after filling, and what repair and filling did to each stretch.
+
+    Examples
+    --------
+    >>> fill(repaired, mesh).recording.missing.any()  # doctest: +SKIP
+    False
+    """
+    recording = repaired.recording
+    return fill_gaps(
+        recording,
+        mesh_of(recording, mesh),
+        options=(options or Options.read()).fill,
+        decisions=read_decisions(decisions, recording),
+        repairs=repaired.changes,
+    )
+
+
+def clean(
+    recording: Recording,
+    mesh: Mesh | None = None,
+    options: Options | None = None,
+    *,
+    decisions: Sequence[Mapping[str, Any]] = (),
+) -> Cleaned:
+    """Detect, repair and fill.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as read; it is not modified.
+    mesh : Mesh, optional
+        The body mesh of its subject; by default it is inferred from this recording alone.
+    options : Options, optional
+        The options.
+    decisions : sequence of mapping, optional
+        What a person decided, line by line: the columns of the table of decisions with a value.
+
+    Returns
+    -------
+    Cleaned
+        The recording before and after, and what was done.
+
+    Examples
+    --------
+    >>> clean(read("walk.c3d")).changes[0].outcome  # doctest: +SKIP
+    <Outcome.REPAIRED: 'repaired'>
+    """
+    options = options or Options.read()
+    mesh = infer_mesh([recording], options=options) if mesh is None else mesh
+    findings = detect(recording, mesh, options)
+    filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
+    return Cleaned(recording, filled.recording, mesh, findings, filled.changes)
+
+
+def write(
+    cleaned: Cleaned,
+    original: str | PathLike[str],
+    path: str | PathLike[str],
+    *,
+    changes: str | PathLike[str] | None = None,
+    originals: str | PathLike[str] | None = None,
+) -> dict[str, Any]:
+    """Write a copy of the original file in which only the changed samples differ.
+
+    Parameters
+    ----------
+    cleaned : Cleaned
+        The cleaned recording.
+    original : path-like
+        The file that was read.
+    path : path-like
+        Where the copy goes.
+    changes : path-like, optional
+        Where the table of changes goes, as tab-separated text.
+    originals : path-like, optional
+        Where the original value of every changed sample goes, as Parquet.
+
+    Returns
+    -------
+    dict
+        The certificate: checksums, how many samples changed, and that every other byte is equal.
+
+    Raises
+    ------
+    BadRecording
+        Where the original has changed since it was read, or another byte would differ.
+
+    Examples
+    --------
+    >>> write(cleaned, "walk.c3d", "walk_cleaned.c3d")["changed_samples"]  # doctest: +SKIP
+    17
+    """
+    certificate = write_back.write_cleaned(Path(original), Path(path), cleaned.measured, cleaned.recording)
+    applied = applied_changes(cleaned.measured, cleaned.recording, cleaned.changes)
+    if changes is not None:
+        atomic.write_text(Path(changes), change_table(applied, cleaned.recording))
+    if originals is not None:
+        values = find_originals(cleaned.measured, cleaned.recording, applied)
+        originals_file.write(Path(originals), values, {"stage": "export"})
+    return certificate
+
+
+def to_dataframe(recording: Recording) -> pd.DataFrame:
+    """Put trajectories into a table.
+
+    Parameters
+    ----------
+    recording : Recording
+        A recording, before or after cleaning.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per frame, numbered as the capture program does. Columns `{marker}.x`, `.y`, `.z` (mm, NaN = missing);
+        after cleaning also `.origin` (measured, filled, ...) and `.error`, `.error95` (mm).
+
+    Examples
+    --------
+    >>> to_dataframe(read("walk.c3d"))["LANK.z"].max()  # doctest: +SKIP
+    """
+    import pandas as pd
+
+    columns: dict[str, Any] = {}
+    for m, marker in enumerate(recording.markers):
+        columns |= {f"{marker}.{axis}": recording.positions[:, m, a] for a, axis in enumerate("xyz")}
+        if isinstance(recording, Restored):
+            columns[f"{marker}.origin"] = pd.Categorical.from_codes(recording.origin[:, m], categories=list(ORIGINS))
+            columns[f"{marker}.error"] = recording.error[:, m]
+            columns[f"{marker}.error95"] = recording.error95[:, m]
+    frames = pd.RangeIndex(recording.first_frame, recording.first_frame + recording.frames, name="frame")
+    return pd.DataFrame(columns, index=frames)
+
+
+def mesh_of(recording: Recording, mesh: Mesh) -> Mesh:
+    """Fit the mesh of a subject to one of the recordings that it was inferred from.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+    mesh : Mesh
+        The mesh.
+
+    Returns
+    -------
+    Mesh
+        The mesh without the markers that the recording does not hold.
+
+    Raises
+    ------
+    ValueError
+        Where the mesh lacks markers of the recording.
+    """
+    lacking = sorted(set(recording.markers) - set(mesh.markers))
+    if lacking:
+        raise ValueError(f"the mesh lacks {', '.join(lacking)}: infer it from this recording too")
+    return mesh.without(set(mesh.markers) - set(recording.markers))
+
+
+def read_decisions(lines: Sequence[Mapping[str, Any]], recording: Recording) -> list[Decision]:
+    """Read what a person decided about a recording.
+
+    Parameters
+    ----------
+    lines : sequence of mapping
+        The columns of the table of decisions with a value; frames as the capture program numbers them.
+    recording : Recording
+        The recording.
+
+    Returns
+    -------
+    list of Decision
+        The decisions on frames counted from 0.
+    """
+    return core_decisions.read([dict(line) for line in lines], recording.first_frame)

@@ -1,0 +1,45 @@
+"""The chain in one process and the workflow give the same bytes."""
+
+from pathlib import Path
+
+import pytest
+
+import synthesize
+from markermend import api
+from support.workflow_runs import Project
+
+
+def same(project: Project, folder: Path) -> dict[str, list[bool]]:
+    """Clean all recordings of a project in this process; say which files equal those of the workflow."""
+    equal = {}
+    for subject in sorted(project.recordings.iterdir()):
+        paths = sorted(subject.iterdir())
+        recordings = [api.read(path) for path in paths]
+        mesh = api.infer_mesh(recordings)
+        for path, recording in zip(paths, recordings, strict=True):
+            there = project.results / subject.name / path.stem
+            names = [f"cleaned{path.suffix.lower()}", "changes.tsv"]
+            cleaned = api.clean(recording, mesh)
+            api.write(cleaned, path, folder / names[0], changes=folder / names[1])
+            equal[f"{subject.name}/{path.stem}"] = [
+                (folder / name).read_bytes() == (there / name).read_bytes() for name in names
+            ]
+    return equal
+
+
+def test_on_synthetic_sessions(tmp_path):
+    project = Project(tmp_path)
+    places = ["--folder", str(project.recordings), "--truth", str(tmp_path / "truth")]
+    synthesize.main([*places, "--seed", "1", "--subjects", "1", "--duration-s", "6"])
+    project.run()
+    names = sorted(path.stem for path in (project.recordings / "S01").iterdir())
+    assert same(project, tmp_path) == {f"S01/{name}": [True, True] for name in names}
+
+
+@pytest.mark.data
+def test_on_a_real_recording(tmp_path, data):
+    project = Project(tmp_path)
+    (project.recordings / "S").mkdir(parents=True)
+    (project.recordings / "S/85_02.c3d").write_bytes((data / "clean/85_02.c3d").read_bytes())
+    project.run()
+    assert same(project, tmp_path) == {"S/85_02": [True, True]}
