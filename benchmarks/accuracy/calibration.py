@@ -21,8 +21,7 @@ import numpy as np
 
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_gapped, load
-from markermend.mesh.inference import infer_meshes
-from markermend.mesh.pair_statistics import thin
+from markermend import api
 
 LENGTHS_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 MOST_SHARE = 0.5
@@ -33,8 +32,7 @@ MOST_SHARE = 0.5
 def neighbours(folder, name):
     """Whom each marker is predicted from, by the complete recording."""
     whole = load(folder, name)
-    (mesh,) = infer_meshes([thin(whole, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"])
-    return mesh.neighbour_indices(whole.markers)
+    return api.infer_mesh([whole]).neighbour_indices(whole.markers)
 
 
 def one_run(folder, name, length_s, markers, seed):

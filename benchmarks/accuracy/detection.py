@@ -26,42 +26,30 @@ import csv
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import cache
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from benchmarks.support.defaults import OPTIONS, PROJECT
+from benchmarks.support.defaults import PROJECT
 from benchmarks.support.detection_outcome import CLASSES, Outcome, print_outcome
-from markermend.command.detector import chosen
-from markermend.core import events, labels
+from markermend import api
+from markermend.core import events
+from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.detection.frozen import detect_frozen
-from markermend.detection.labels import detect_labels
-from markermend.detection.noise import detect_noise
-from markermend.detection.peaks import detect_peaks
-from markermend.detection.published import slow
-from markermend.detection.slow import detect_slow
-from markermend.detection.steps import detect_steps
-from markermend.detection.tails import detect_tails
-from markermend.formats import files
-from markermend.mesh import inference, pair_statistics
-from markermend.options.mesh import MeshOptions
-from markermend.options.published import PublishedSlowOptions
-from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.scene import Scene
-from markermend.repair.repair import repair
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.protocols import PROTOCOLS
 
-UNMEASURED = {"frozen": detect_frozen, "tails": detect_tails}
-DETECTORS = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
+PRESETS = ("peaks", "noise", "steps", "slow")
+"""The detectors that have presets."""
 GLITCHES = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 BORDER = 2
 """Samples on either side of a glitch that are not counted: where it begins is a matter of taste."""
@@ -75,37 +63,16 @@ def damage(clean: Recording, *, amplitude: float, share: float, seed: int, proto
     return PROTOCOLS[protocol](clean.positions, clean.markers, rate=clean.rate, **given)
 
 
-def detect(recording: Recording, body: Mesh, options: dict, preset: str) -> dict:
-    """Find the events of each class as the workflow does: label exchanges undone, each detector after the ones before.
-
-    What frozen and tails find is missing for all that come later.
-    """
-    near, mates = body.neighbour_indices(recording.markers), body.segment_mate_indices(recording.markers)
-    scene = Scene(recording.positions, recording.rate, near, segment_mates=mates)
-    predictor = LocalRidge(options["predictors"].local_ridge)
-    claimed, found = np.zeros(recording.positions.shape, bool), {}
-    if preset != "paper":
-        found["labels"] = detect_labels(scene, markers=recording.markers, options=options["labels"])
-        positions = labels.undo_exchanges(scene.positions, found["labels"], recording.markers)
-        scene = replace(scene, positions=positions)
-        for kind, look in UNMEASURED.items():
-            given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
-            found[kind] = look(scene, options=options[kind], **given)
-            claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-    for kind, look in DETECTORS.items():
-        own = chosen(replace(options[kind], preset=preset))
-        if isinstance(own, PublishedSlowOptions):
-            predictor = slow.predictor(own, options["predictors"])
-        given = {"markers": recording.markers, "earlier": claimed, "predictor": predictor}
-        result = look(scene, options=own, **given)
-        found[kind] = result[0] if kind == "steps" else result
-        claimed = claimed | events.coordinates(found[kind], recording.frames, recording.markers)
-    return found
+@cache
+def options_of(preset: str) -> api.Options:
+    """The default options with a preset of the detectors; `paper` is the published detectors alone."""
+    presets = {name: {"preset": preset} for name in PRESETS if (name, preset) != ("slow", "coordinates")}
+    return api.Options.read({**presets, **({"detect": list(PRESETS)} if preset == "paper" else {})})
 
 
-def mend(recording: Recording, body: Mesh, found: dict, options: dict) -> tuple[np.ndarray, bool]:
+def mend(recording: Recording, mesh: Mesh, found: Mapping[str, Sequence[Event]]) -> tuple[np.ndarray, bool]:
     """Positions after repair of what was found, and whether the repair refused."""
-    result = repair(recording, body, found=found, options=options["repair"])
+    result = api.repair(recording, mesh, found)
     refused = bool(result.changes) and all(change.reason for change in result.changes)
     return result.recording.positions, refused
 
@@ -149,28 +116,22 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     return out
 
 
-def infer(recording: Recording, options: MeshOptions) -> Mesh:
-    """The mesh of a recording by itself."""
-    thinned = pair_statistics.thin(recording, frames=options.max_frames)
-    return inference.infer_mesh([replace(thinned, facts={"recording": "benchmark"})], options=options)
-
-
-def judge(clean: Recording, options: dict, *, ignored: np.ndarray, presets: list, **condition) -> dict[str, Outcome]:
+def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **condition: Any) -> dict[str, Outcome]:
     """Damage one recording once, and judge each preset on it.
 
     ignored: samples (frames, markers) that do not count. condition: see `damage`.
     """
     harm = damage(clean, **condition)
     harmed = replace(clean, positions=harm.positions)
-    body = infer(harmed, options["mesh"])
+    mesh = api.infer_mesh([harmed])
     truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
-    perfect, _ = mend(harmed, body, harm.events, options)
+    perfect, _ = mend(harmed, mesh, harm.events)
     for preset in presets:
-        found = detect(harmed, body, options, preset)
+        found = api.detect(harmed, mesh, options_of(preset))
         told, outcome = classes(found, harmed), Outcome()
         np.add.at(outcome.confusion, (truth[seen], told[seen]), 1)
         outcome.forms = forms(harm, seen, told)
-        actual, outcome.refused = mend(harmed, body, found, options)
+        actual, outcome.refused = mend(harmed, mesh, found)
         for stage, positions in enumerate((harmed.positions, perfect, actual)):
             squared = ((positions - clean.positions) ** 2).sum(axis=2)
             known = seen & ~np.isnan(squared)
@@ -183,8 +144,8 @@ def judge(clean: Recording, options: dict, *, ignored: np.ndarray, presets: list
 
 def run(path: Path, presets: list, condition: dict) -> dict[str, Outcome]:
     """Judge one recording under one condition."""
-    clean = files.read(path, unlabelled=OPTIONS["ingest"].unlabelled, rate=None).recording
-    return judge(clean, OPTIONS, ignored=glitches(path, clean), presets=presets, **condition)
+    clean = api.read(path, kind="dynamic")
+    return judge(clean, ignored=glitches(path, clean), presets=presets, **condition)
 
 
 def group_of(path: Path) -> str:

@@ -20,7 +20,8 @@ from scipy.interpolate import CubicSpline
 
 from benchmarks.support import gap_cases
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.fill_runs import fill, mesh_of, walker, with_gaps
+from benchmarks.support.fill_runs import fill, walker, with_gaps
+from markermend import api
 from markermend.core.recording import Recording
 
 
@@ -56,7 +57,7 @@ def segments(load):
     """Each segment of the mesh misses a second, one after the other: what hangs on it sees its border go, too."""
     for name in ("85_12", "STS1"):
         whole = load(name)
-        found = mesh_of(whole).segments
+        found = api.infer_mesh([whole]).segments
         starts = spread(len(found), round(whole.rate), whole.frames)
         lost = [[whole.markers.index(marker) for marker in segment.markers] for segment in found]
         gone = [
@@ -68,7 +69,7 @@ def segments(load):
 def neighbours(load):
     """A marker and its 15 nearest neighbours miss the same second, at five places."""
     whole = load("85_12")
-    near = mesh_of(whole).neighbour_indices(whole.markers)
+    near = api.infer_mesh([whole]).neighbour_indices(whole.markers)
     for marker in (5, 20):
         lost = [marker, *near[marker][:15]]
         gone = [gap for start in spread(5, 120, whole.frames) for gap in at_once(lost, start, 120)]
@@ -158,7 +159,7 @@ def rigid(frames, markers, rate):
 def eight(load):
     """No more than eight markers: those of one arm."""
     whole = load("85_12")
-    near = mesh_of(whole).neighbour_indices(whole.markers)[9][:7]
+    near = api.infer_mesh([whole]).neighbour_indices(whole.markers)[9][:7]
     few = replace(
         whole,
         markers=tuple(whole.markers[m] for m in (9, *near)),

@@ -19,10 +19,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.support.defaults import OPTIONS
+from markermend import api
 from markermend.core.labels import undo_exchanges
 from markermend.detection.labels import detect_labels
-from markermend.formats import files
-from markermend.mesh import inference, pair_statistics
 from markermend.prediction.scene import Scene
 
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
@@ -35,11 +34,8 @@ MARGIN = 5
 
 def read(path: Path) -> tuple[tuple[str, ...], Scene]:
     """The markers and the scene of a recording, with its own mesh."""
-    recording = files.read(path, unlabelled=OPTIONS["ingest"].unlabelled, rate=None).recording
-    recording = replace(recording, facts={"recording": path.stem})
-    mesh = inference.infer_mesh(
-        [pair_statistics.thin(recording, frames=OPTIONS["mesh"].max_frames)], options=OPTIONS["mesh"]
-    )
+    recording = api.read(path)
+    mesh = api.infer_mesh([recording])
     return recording.markers, Scene(recording.positions, recording.rate, mesh.neighbour_indices(recording.markers))
 
 

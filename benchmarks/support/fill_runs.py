@@ -14,10 +14,9 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 
 from benchmarks.support.defaults import OPTIONS, PROJECT
+from markermend import api
 from markermend.core.changes import Change
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
-from markermend.mesh.inference import infer_meshes
-from markermend.mesh.pair_statistics import thin
 from markermend.options.flags import write_flags
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
@@ -56,14 +55,6 @@ class Run:
     megabytes: float
 
 
-def mesh_of(recording):
-    """The mesh inferred from one recording."""
-    (inferred,) = infer_meshes(
-        [thin(recording, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"]
-    )
-    return inferred
-
-
 def fill(recording, **options):
     """Infer the mesh of a recording with gaps and run scripts/fill.py on it, with some options changed."""
     recording = replace(recording, facts={"recording": "benchmark", "kind": "dynamic"})
@@ -72,7 +63,7 @@ def fill(recording, **options):
         files = {name: Path(folder, file) for name, file in FILES.items()}
         stage_files.write_recording(files["repaired"], restored(recording), {})
         change_file.write(files["repairs"], [], {})
-        mesh_file.write(files["mesh"], [mesh_of(recording)], {})
+        mesh_file.write(files["mesh"], [api.infer_mesh([recording])], {})
         script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
         command = [sys.executable, "-c", WATCH, *script, *shlex.split(write_flags(own)), "--decisions=[]"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

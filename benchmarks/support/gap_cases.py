@@ -13,13 +13,10 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 import numpy as np
 
 from benchmarks.support.defaults import OPTIONS
+from markermend import api
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.ensembles import make_ensembles
 from markermend.filling.fill import fill_scene
-from markermend.formats import files
-from markermend.formats.ingest import ingest
-from markermend.mesh.inference import infer_meshes
-from markermend.mesh.pair_statistics import thin
 from markermend.options.filling import EnsembleOptions
 from markermend.options.values import Reader, plain
 from markermend.prediction.scene import Scene
@@ -34,17 +31,7 @@ FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT"
 def load(folder, name):
     """The recording of a case as the workflow ingests it."""
     (path,) = Path(folder, "clean").glob(f"{name}*")
-    options = OPTIONS["ingest"]
-    reading = files.read(path, unlabelled=options.unlabelled, rate=None)
-    return ingest(
-        reading,
-        source=path.name,
-        recording=name,
-        subject="benchmark",
-        kind="dynamic",
-        static_names=options.static_names,
-        static_motion_mm=options.static_motion_mm,
-    )
+    return api.read(path, recording=name, subject="benchmark", kind="dynamic")
 
 
 @cache
@@ -87,7 +74,7 @@ def fill_case(folder, case, names, changes=()):
         positions[start:stop, marker] = np.nan
     started = time.process_time()
     gapped = replace(whole, positions=positions)
-    (mesh,) = infer_meshes([thin(gapped, frames=OPTIONS["mesh"].max_frames)], supplied=[], options=OPTIONS["mesh"])
+    mesh = api.infer_mesh([gapped])
     inferred = time.process_time()
     filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
     seconds = inferred - started, time.process_time() - inferred

@@ -80,7 +80,14 @@ DETECTORS: Mapping[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Options:
-    """Options of all stages; each attribute holds those of the stage of its name (config/README.md).
+    """Options of all stages.
+
+    Attributes
+    ----------
+    general : GeneralOptions
+        Which classes of artifacts to look for.
+    ingest, mesh, labels, frozen, tails, peaks, noise, steps, slow, repair, fill
+        The options of the stage of that name (config/README.md).
 
     Examples
     --------

@@ -76,7 +76,7 @@ def test_damage_is_found_counted_and_told(walker, capsys):
     condition = {"protocol": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
     total = Outcome()
     ignored = np.zeros(clean.missing.shape, bool)
-    judged = detection.judge(clean, detection.OPTIONS, ignored=ignored, presets=["default"], **condition)
+    judged = detection.judge(clean, ignored=ignored, presets=["default"], **condition)
     total.add(judged["default"])
     harm = detection.damage(clean, **condition)
     truth, seen = detection.classes(harm.events, clean), ~np.isnan(harm.positions).any(axis=2)

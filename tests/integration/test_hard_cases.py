@@ -6,13 +6,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from markermend import api
 from markermend.core.recording import FILLED, MISSING, Recording
 from markermend.formats import files
 from markermend.formats.ingest import ingest
-from markermend.mesh.inference import infer_mesh
-from markermend.mesh.pair_statistics import thin
 from markermend.options.ingest import IngestOptions
-from markermend.options.mesh import MeshOptions
 from markermend.simulation.walker import walk
 from markermend.simulation.walker_body import make_body
 from support import bodies, fillings
@@ -39,7 +37,7 @@ def fill(whole, gaps, **options):
     for marker, start, stop in gaps:
         positions[start:stop, marker] = np.nan
     gapped = restored(positions, markers=whole.markers, rate=whole.rate)
-    mesh = mesh_of(gapped)
+    mesh = api.infer_mesh([gapped])
     result = treated(fillings.fill(gapped, mesh.neighbour_indices(whole.markers), **options))
     missing = gapped.missing
     assert np.array_equal(result.positions[~missing], positions[~missing])
@@ -57,12 +55,6 @@ def fill(whole, gaps, **options):
     ]
     reasons = {entry.marker: entry.reason.text for entry in result.gaps_left}
     return Outcome(result, distance, *shares, reasons)
-
-
-def mesh_of(recording):
-    """The mesh of a recording alone."""
-    named = replace(recording, facts={"recording": "walk", "kind": "dynamic"})
-    return infer_mesh([thin(named, frames=MeshOptions().max_frames)], options=MeshOptions())
 
 
 def joined(*recordings):
@@ -137,7 +129,7 @@ def test_a_limb_with_nothing_beyond_it(walker):
 
 
 def test_a_marker_and_its_ten_nearest(person):
-    near = mesh_of(person).neighbour_indices(person.markers)[10][:10]
+    near = api.infer_mesh([person]).neighbour_indices(person.markers)[10][:10]
     done = fill(first(person, frames=800), [(m, 500, 530) for m in (10, *near)])
     filled_well(done, gaps=11, error=8, inside95=0.6)
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.accuracy import detection
-from markermend.formats import files
-from markermend.options.ingest import IngestOptions
+from markermend import api
 
 KNOWN = [
     ("2022_01_0403.c3d", {"labels": [("LTH1", 194, 801), ("LTH2", 194, 801), ("LTH1", 904, 936), ("LTH2", 904, 936)]}),
@@ -19,10 +18,8 @@ KNOWN = [
 @pytest.mark.parametrize(("name", "known"), KNOWN)
 def test_what_a_person_saw_is_found(data, name, known):
     """Nearly all of it: where it begins and ends is a matter of taste, but for swapped labels."""
-    recording = files.read(data / "raw" / name, unlabelled=IngestOptions().unlabelled, rate=None).recording
-    found = detection.detect(
-        recording, detection.infer(recording, detection.OPTIONS["mesh"]), detection.OPTIONS, "default"
-    )
+    recording = api.read(data / "raw" / name)
+    found = api.detect(recording, api.infer_mesh([recording]))
     told = detection.classes(found, recording)
     for kind, places in known.items():
         for marker, start, stop in places:

@@ -30,12 +30,13 @@ def same(project: Project, folder: Path) -> dict[str, list[bool]]:
 def test_on_synthetic_sessions(tmp_path):
     project = Project(tmp_path)
     places = ["--folder", str(project.recordings), "--truth", str(tmp_path / "truth")]
-    synthesize.main([*places, "--seed", "1", "--subjects", "1", "--duration-s", "6"])
+    synthesize.main([*places, "--seed", "1", "--subjects", "1", "--duration-s", "4"])
     project.run()
     names = sorted(path.stem for path in (project.recordings / "S01").iterdir())
     assert same(project, tmp_path) == {f"S01/{name}": [True, True] for name in names}
 
 
+@pytest.mark.slow
 @pytest.mark.data
 def test_on_a_real_recording(tmp_path, data):
     project = Project(tmp_path)

@@ -28,15 +28,12 @@ rule ingest:
         failures=plan.failed("ingest"),
         source=plan.original,
         source_hash=plan.source_hash,
-        subject=plan.subject_flag,
-        recording=plan.recording_flag,
-        kind=plan.kind_flag,
-        rate=plan.rate_flag,
+        recording=plan.recording_flags,
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/ingest.py --source {params.source:q} --markers {output.markers:q}"
-        " {params.subject:q} {params.recording:q} {params.kind:q} {params.rate:q} {params.options} 2> {log:q}"
+        " {params.recording:q} {params.options} 2> {log:q}"
 
 
 rule mesh:

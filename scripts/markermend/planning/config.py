@@ -22,9 +22,17 @@ REFUSED = "The config cannot be used (config/README.md says what the keys mean):
 
 
 def prepare(config: dict[str, Any]) -> None:
-    """Bring what may have come from a command line (`--config key=value`) into the config's types, in place.
+    """Bring what may have come from a command line (`--config key=value`) into the types of the config, in place.
 
-    Raises BadDataSet where Snakemake took a folder's name for something else.
+    Parameters
+    ----------
+    config : dict
+        The config, as Snakemake put it together.
+
+    Raises
+    ------
+    BadDataSet
+        Where Snakemake took the name of a folder for something else.
     """
     for key in ("recordings", "results"):
         if not isinstance(config.get(key), str):
@@ -120,7 +128,23 @@ def unknown(place: str, names: Collection[str], known: Collection[str]) -> list[
 
 
 def folder(name: str) -> str:
-    """The absolute path of a folder to write to. Raises BadDataSet for one that Snakemake takes for a pattern."""
+    """Find the folder of results.
+
+    Parameters
+    ----------
+    name : str
+        As the config has it.
+
+    Returns
+    -------
+    str
+        Its absolute path.
+
+    Raises
+    ------
+    BadDataSet
+        For a path that Snakemake takes for a pattern.
+    """
     path = os.path.abspath(os.path.expanduser(name))
     if any(mark in path for mark in "{}<>"):
         raise BadDataSet(
@@ -131,7 +155,18 @@ def folder(name: str) -> str:
 
 
 def failures(results: str) -> Counter[tuple[str, str, str]]:
-    """How often each stage failed so far, by folder of the subject, folder of the recording ("" for none), and stage."""
+    """Count how often each stage failed so far.
+
+    Parameters
+    ----------
+    results : str
+        The folder of results.
+
+    Returns
+    -------
+    Counter
+        Failures by folder of the subject, folder of the recording ("" for none), and stage.
+    """
     counts: Counter[tuple[str, str, str]] = Counter()
     for pattern in ("*/failures.tsv", "*/*/failures.tsv"):
         for path in glob.iglob(os.path.join(glob.escape(results), pattern)):

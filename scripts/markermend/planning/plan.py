@@ -103,76 +103,128 @@ class Plan:
         return [self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.entries]
 
     def events(self, before: str | None = None) -> list[str]:
-        """Events files of the detectors that run: all, or those of the detectors before one."""
+        """Name the events files of the detectors that run.
+
+        Parameters
+        ----------
+        before
+            A detector; only those before it are named.
+
+        Returns
+        -------
+        list of str
+            Patterns of the files, in the order of the detectors.
+        """
         stages = self.detectors if before is None else self.detectors[: self.detectors.index(before)]
         return [self.files.events[stage] for stage in stages]
 
     def entry(self, wildcards: Wildcards) -> Entry:
-        """The recording that a job is about."""
+        """Find the recording that a job is about.
+
+        Parameters
+        ----------
+        wildcards
+            The names of its folders.
+
+        Returns
+        -------
+        Entry
+            The recording.
+        """
         return self.entries[wildcards.subject, wildcards.recording]
 
     def original(self, wildcards: Wildcards) -> str:
-        """Path of the original file."""
+        """Path of the original file; see `Plan.entry`."""
         return self.entry(wildcards).source
 
     def source(self, wildcards: Wildcards) -> str | list[str]:
-        """The original file as an input, where its name can be one."""
+        """The original file as an input, where its name can be one; see `Plan.entry`."""
         path = self.original(wildcards)
         return path if nameable(path) else []
 
     def source_hash(self, wildcards: Wildcards) -> str | None:
-        """In place of the input: the content of an original whose name cannot be one, or that it is not there."""
+        """Hash an original that cannot be an input, so that an edit reruns what depends on it.
+
+        Parameters
+        ----------
+        wildcards
+            The names of the recording's folders.
+
+        Returns
+        -------
+        str or None
+            The sha256; `not there` where there is no file; None for an original that is an input.
+        """
         path = self.original(wildcards)
         if nameable(path):
             return None
         return sha256(Path(path)) if os.path.exists(path) else "not there"
 
-    def subject_flag(self, wildcards: Wildcards) -> str:
-        """The subject's own name, as a flag."""
-        return f"--subject={self.entry(wildcards).subject}"
-
-    def recording_flag(self, wildcards: Wildcards) -> str:
-        """The recording's own name, as a flag."""
-        return f"--recording={self.entry(wildcards).recording}"
-
-    def kind_flag(self, wildcards: Wildcards) -> str:
-        """The recording's kind as the table of recordings has it, as a flag."""
-        return f"--kind={self.entry(wildcards).kind}"
-
-    def rate_flag(self, wildcards: Wildcards) -> str:
-        """The recording's rate as the table of recordings has it, as a flag."""
-        return f"--rate={text(self.entry(wildcards).rate)}"
+    def recording_flags(self, wildcards: Wildcards) -> list[str]:
+        """What the table of recordings states, as flags; see `Plan.entry`."""
+        entry = self.entry(wildcards)
+        stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind, "rate": text(entry.rate)}
+        return [f"--{name}={value}" for name, value in stated.items()]
 
     def decisions_flag(self, wildcards: Wildcards) -> str:
-        """The decisions on the recording, as a flag: other recordings' lines in the table rerun nothing."""
+        """The decisions on the recording alone, as a flag; see `Plan.entry`."""
         decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
         return f"--decisions={text(decided)}"
 
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
-        """The ingested trajectories of each of the subject's recordings."""
+        """The ingested trajectories of each recording of the subject; see `Plan.entry`."""
         subject = wildcards.subject
         return [self.files.markers.format(subject=subject, recording=recording) for recording in self.subjects[subject]]
 
     def mesh_files(self, wildcards: Wildcards) -> list[str]:
-        """Mesh files that the user supplies for the subject: those in the table of recordings, else the config's."""
+        """The mesh files that the user supplies for the subject; see `Plan.entry`."""
         return self.meshes[wildcards.subject]
 
     def subjects_of(self, suffix: str) -> str:
-        """A constraint on the subject that only recordings of one format meet; it looks ahead at the recording."""
+        """Write a constraint on the wildcard `subject` that only recordings of one format meet.
+
+        Parameters
+        ----------
+        suffix
+            The format.
+
+        Returns
+        -------
+        str
+            A regular expression that looks ahead at the recording.
+        """
         folders = ["/".join(pair) for pair, entry in self.entries.items() if entry.format == suffix]
         return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
 
     def code(self, stage: str, *extra: str) -> list[str]:
-        """The stage's script and modules by content, one entry each: an edit reruns the stages that use the module.
+        """Hash the code of a stage: an edit of a module reruns the stages that use it.
 
-        extra: files of the package that the stage reads besides, relative to the package.
+        Parameters
+        ----------
+        stage
+            Name of its script.
+        *extra
+            Files and folders of the package that the stage reads besides.
+
+        Returns
+        -------
+        list of str
+            The script and its modules by content, one entry each.
         """
         return code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
 
     def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
-        """The stage's options as flags.
+        """Write the options of a stage as flags.
 
-        A function, so that Snakemake leaves braces in values as they are.
+        Parameters
+        ----------
+        stage
+            Its name.
+
+        Returns
+        -------
+        callable
+            Gives the flags to every job; a function, so that Snakemake leaves braces in values as they are.
         """
         flags = write_flags(self.options[stage])
 
@@ -182,7 +234,18 @@ class Plan:
         return of_stage
 
     def failed(self, stage: str) -> Callable[[Wildcards], int]:
-        """How often the stage failed on what a job is about: one failure more, and the next run tries again."""
+        """Count the failures of a stage: one more, and the next run tries again.
+
+        Parameters
+        ----------
+        stage
+            Its name.
+
+        Returns
+        -------
+        callable
+            Gives the number of failures on what a job is about.
+        """
 
         def of_stage(wildcards: Wildcards) -> int:
             subject, recording = getattr(wildcards, "subject", "report"), getattr(wildcards, "recording", "")

@@ -10,6 +10,7 @@ import pytest
 import mesh as mesh_script
 from markermend.command import detector
 from markermend.core.events import Event
+from markermend.options.config import read_config
 from markermend.options.flags import write_flags
 from markermend.options.mesh import MeshOptions
 from markermend.storage import stage_files
@@ -39,22 +40,28 @@ def files(tmp_path_factory, walker):
     return made
 
 
+def arguments(files, earlier, preset="default"):
+    options = read_config({"peaks": {"preset": preset}})["peaks"]
+    call = SimpleNamespace(markers=files.markers, mesh=files.mesh, earlier=earlier, options=options)
+    given, recorded_under = detector.arguments(call)
+    return given["scene"].positions, given["earlier"], recorded_under
+
+
 def test_exchanges_of_the_stage_labels_are_undone(files):
-    _, scene, claimed, exchanges = detector.read(files.markers, files.mesh, [files.labels, files.frozen])
-    assert np.array_equal(scene.positions, files.clean.positions)
-    assert exchanges == sorted(EXCHANGES, key=lambda event: event.order)
+    positions, claimed, recorded_under = arguments(files, [files.labels, files.frozen])
+    assert np.array_equal(positions, files.clean.positions) and recorded_under == []
     assert claimed[310:320, files.pair[0]].all() and claimed.sum() == 30
 
 
 def test_without_that_stage_nothing_is_undone(files):
-    _, scene, _, exchanges = detector.read(files.markers, files.mesh, [files.frozen])
-    assert np.array_equal(scene.positions, files.recording.positions) and exchanges == []
+    positions, _, recorded_under = arguments(files, [files.frozen])
+    assert np.array_equal(positions, files.recording.positions) and recorded_under == []
 
 
 def test_as_recorded_what_was_claimed_follows_its_samples(files):
-    earlier = [files.labels, files.frozen]
-    _, scene, claimed, _ = detector.read(files.markers, files.mesh, earlier, as_recorded=True)
-    assert np.array_equal(scene.positions, files.recording.positions)
+    positions, claimed, recorded_under = arguments(files, [files.labels, files.frozen], preset="paper")
+    assert np.array_equal(positions, files.recording.positions)
+    assert recorded_under == sorted(EXCHANGES, key=lambda event: event.order)
     assert claimed[310:320, files.pair[1]].all() and claimed.sum() == 30
 
 

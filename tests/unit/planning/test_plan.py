@@ -58,10 +58,9 @@ def test_an_original_is_an_input_or_is_known_by_its_content(plan, tmp_path):
 
 
 def test_what_the_table_says_of_a_recording_becomes_flags(plan):
-    run = job(recording="run")
-    flags = [flag(run) for flag in (plan.subject_flag, plan.recording_flag, plan.kind_flag, plan.rate_flag)]
+    flags = plan.recording_flags(job(recording="run"))
     assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120"]
-    assert plan.rate_flag(job()) == "--rate=none"
+    assert plan.recording_flags(job())[-1] == "--rate=none"
 
 
 def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
