@@ -57,7 +57,6 @@ from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
 from markermend.options.repair import RepairOptions
-from markermend.repair.predictors import needed_predictors
 from markermend.repair.repair import RepairedRecording
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, originals_file
@@ -315,16 +314,12 @@ def repair(
     >>> repair(recording, mesh, detect(recording, mesh)).changes[0].method  # doctest: +SKIP
     'spline'
     """
-    own, decided = (options or Options.read()).repair, read_decisions(decisions, recording)
-    own_mesh = mesh_of(recording, mesh)
     return repair_findings(
         recording,
+        mesh_of(recording, mesh),
         found=findings,
-        neighbours=own_mesh.neighbour_indices(recording.markers),
-        relatives=own_mesh.segment_mate_indices(recording.markers),
-        predictors=needed_predictors(own, decided),
-        options=own,
-        decisions=decided,
+        options=(options or Options.read()).repair,
+        decisions=read_decisions(decisions, recording),
     )
 
 
