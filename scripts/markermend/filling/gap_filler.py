@@ -61,8 +61,8 @@ class GapFiller:
     def fill(self, scene: GrowingScene, gaps: Sequence[Gap]) -> FilledGaps:
         """Fill gaps in their order.
 
-        All gaps of a marker see the same scene, in which none of them is filled: they share what is learned from it,
-        and no marker learns from its own filled samples.
+        All gaps of a marker see the same scene, in which none of them is filled: the members are trained once for all
+        of them, and never on filled samples of the marker itself.
 
         Parameters
         ----------

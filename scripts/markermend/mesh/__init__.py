@@ -1,1 +1,1 @@
-"""The functional body mesh: which markers form rigid segments, and how the segments hang together."""
+"""The functional body mesh: which markers form rigid segments, and how the segments are connected."""

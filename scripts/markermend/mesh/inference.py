@@ -9,7 +9,7 @@ import numpy as np
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.mesh.pair_statistics import PairStatistics, pair_statistics, recording_name
-from markermend.mesh.segment_summary import Description, Excitation, judge_excitation, named, rank_markers
+from markermend.mesh.segment_summary import Excitation, SegmentSummary, judge_excitation, named, rank_markers
 from markermend.mesh.segment_tree import Skeleton, infer_skeleton
 from markermend.mesh.user_mesh import UserMesh
 from markermend.mesh.user_skeleton import fit_to_recordings
@@ -118,7 +118,7 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
     attachment = statistics.attachment_costs(dissimilarity)
     skeleton, remarks = _skeleton(statistics, dissimilarity, attachment, options, supplied)
     excitation = _excitation(statistics, skeleton, options)
-    description = Description(skeleton, statistics, dissimilarity, attachment, options.segment_cut_mm, excitation.share)
+    summary = SegmentSummary(skeleton, statistics, dissimilarity, attachment, options.segment_cut_mm, excitation.share)
     predictors, neighbours = rank_markers(
         skeleton, dissimilarity, min_predictors=options.min_predictors, max_neighbours=options.max_neighbours
     )
@@ -126,7 +126,7 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
     return Mesh(
         recordings=tuple(sorted(recording_name(recording) for recording in recordings)),
         markers=tuple(markers),
-        segments=description.segments(),
+        segments=summary.segments(),
         predictors=named(predictors, markers),
         neighbours=named(neighbours, markers),
         warnings=(*_seldom_seen(statistics, options.min_frames), *remarks, *lacks),

@@ -201,7 +201,7 @@ class _Pool:
         self.squares[block] += squares
 
     def statistics(self, seconds: float) -> PairStatistics:
-        """Means over the recordings that know a pair."""
+        """Means over the recordings in which a pair is known."""
         with np.errstate(invalid="ignore", divide="ignore"):
             distance, deviation = self.distance / self.known, np.sqrt(self.variance / self.known)
             scale = np.sqrt(self.squares * self.squares.T)
@@ -217,7 +217,7 @@ def pair_statistics(
 ) -> PairStatistics:
     """Pool the statistics of all pairs of markers over recordings.
 
-    Deviations are pooled as root mean square, distances as mean over the recordings that know the pair, displacements
+    Deviations are pooled as root mean square, distances as mean over the recordings in which the pair is known, displacements
     as one sample. The order of the recordings does not matter.
 
     Parameters
@@ -234,7 +234,7 @@ def pair_statistics(
     Returns
     -------
     PairStatistics
-        The statistics; NaN where no recording knows a pair.
+        The statistics; NaN where no recording holds enough joint frames of a pair.
     """
     pool = _Pool(markers)
     for recording in sorted(recordings, key=recording_name):

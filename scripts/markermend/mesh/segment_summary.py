@@ -66,7 +66,7 @@ def judge_excitation(statistics: PairStatistics, *, segments: int, markers: int,
 
 
 @dataclass(frozen=True)
-class Description:
+class SegmentSummary:
     """Describes the segments of a skeleton.
 
     Attributes
@@ -149,7 +149,7 @@ def rank_markers(
     dissimilarity : ndarray, shape (markers, markers)
         Dissimilarity of each pair, mm; NaN = unknown.
     min_predictors : int
-        Fewest predictors of a marker, where its component has so many.
+        Fewest predictors of a marker, as far as its component has them.
     max_neighbours : int
         Most neighbours of a marker.
 

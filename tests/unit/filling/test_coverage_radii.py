@@ -1,4 +1,4 @@
-"""Radii of balls: against drawn distances, and what is believed where nothing was tried."""
+"""Radii of balls: against drawn distances, and the prior where there are no pseudo-gaps."""
 
 import numpy as np
 import pytest
@@ -43,12 +43,12 @@ def test_radii_equal_the_naive_quantiles_of_the_mixture(seed):
     assert coverage_radii(errors, options) == pytest.approx(expected, rel=3e-4)
 
 
-def test_without_pseudo_gaps_the_belief_stands():
+def test_without_pseudo_gaps_the_prior_stands():
     assert coverage_radii([], PRIOR) == pytest.approx((1.4, 3.0), rel=1e-4)
     assert coverage_radii([np.full(5, np.nan)], PRIOR) == pytest.approx((1.4, 3.0), rel=1e-4)
 
 
-def test_many_pseudo_gaps_tell_the_quantiles():
+def test_many_pseudo_gaps_determine_the_quantiles():
     rng = np.random.default_rng(2)
     missed = [np.linalg.norm(rng.normal(0, 2, (50, 3)), axis=1) for _ in range(2000)]
     inner, outer = coverage_radii(missed, PRIOR)
@@ -62,10 +62,10 @@ def test_each_pseudo_gap_is_one_part_however_long():
     assert inner == pytest.approx(5.0, rel=1e-3)
 
 
-def test_few_pseudo_gaps_move_the_belief_a_little():
+def test_few_pseudo_gaps_move_the_prior_a_little():
     few, many = ([np.full(10, 6.0)] * count for count in (2, 40))
-    believed, after_few, after_many = (coverage_radii(parts, PRIOR)[0] for parts in ([], few, many))
-    assert believed < after_few < 1.5 * believed < after_many
+    prior, after_few, after_many = (coverage_radii(parts, PRIOR)[0] for parts in ([], few, many))
+    assert prior < after_few < 1.5 * prior < after_many
 
 
 def test_units_do_not_matter():
@@ -78,7 +78,7 @@ def test_units_do_not_matter():
 
 
 @pytest.mark.parametrize("wrong", [{"inner": 0}, {"outer": 1}, {"prior_pseudo_gaps": 0}])
-def test_wrong_beliefs_are_refused(wrong):
+def test_wrong_priors_are_refused(wrong):
     with pytest.raises(ValueError, match="radii"):
         RadiusOptions(**{"inner": 1.4, "outer": 3.0, "prior_pseudo_gaps": 10, **wrong})
 

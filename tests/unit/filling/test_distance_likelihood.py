@@ -1,4 +1,4 @@
-"""Distances to references: what is learned of them, and what follows for positions."""
+"""Distances to references: their densities, and what follows for positions."""
 
 from dataclasses import replace
 
@@ -23,22 +23,22 @@ def body(walker):
 def test_the_steadiest_markers_are_the_references(body):
     own = options(references=2, spacing_references=4)
     ranked, _ = reference_markers(scene(body), 9, frames=own.max_frames, minimum_frames=own.min_frames)
-    learned = DistanceModel.estimate(scene(body), 9, own)
-    assert learned.references.tolist() == ranked[:4].tolist()
-    for reference, density in zip(learned.references, learned.densities, strict=True):
+    model = DistanceModel.estimate(scene(body), 9, own)
+    assert model.references.tolist() == ranked[:4].tolist()
+    for reference, density in zip(model.references, model.densities, strict=True):
         usual = np.median(np.linalg.norm(body[:, 9] - body[:, reference], axis=1))
         assert density.quantiles((0.5,))[0] == pytest.approx(usual, rel=0.01)
 
 
-def test_the_truth_is_likelier_than_what_lies_beside_it(body):
-    learned = DistanceModel.estimate(scene(body), 9, options())
-    likelihood = learned.likelihood(np.stack([body[:, 9], body[:, 9] + 60]), body)
+def test_the_truth_is_likelier_than_positions_off_it(body):
+    model = DistanceModel.estimate(scene(body), 9, options())
+    likelihood = model.likelihood(np.stack([body[:, 9], body[:, 9] + 60]), body)
     assert (likelihood[0] > 1e3 * likelihood[1]).all()
 
 
-def test_what_lies_far_off_is_brought_near_and_the_truth_hardly_moves(body):
-    learned = DistanceModel.estimate(scene(body), 9, options(spacing_rounds=5))
-    off = [np.linalg.norm(learned.constrain(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
+def test_distant_positions_move_nearer_and_the_truth_hardly_moves(body):
+    model = DistanceModel.estimate(scene(body), 9, options(spacing_rounds=5))
+    off = [np.linalg.norm(model.constrain(body[:, 9] + by, body) - body[:, 9], axis=1) for by in (0, 60)]
     assert off[0].mean() < 1
     assert off[1].mean() < 0.9 * np.sqrt(3) * 60
     unbound = DistanceModel.estimate(scene(body), 9, options())
@@ -48,7 +48,7 @@ def test_what_lies_far_off_is_brought_near_and_the_truth_hardly_moves(body):
 def test_without_references_nothing_is_judged(body):
     alone = body.copy()
     alone[40:, 9] = np.nan
-    learned = DistanceModel.estimate(scene(alone), 9, options(spacing_rounds=5))
-    assert len(learned.references) == 0
-    assert (learned.likelihood(body[None, :, 9] + 60, body) == 1).all()
-    assert np.array_equal(learned.constrain(body[:, 9] + 60, body), body[:, 9] + 60)
+    model = DistanceModel.estimate(scene(alone), 9, options(spacing_rounds=5))
+    assert len(model.references) == 0
+    assert (model.likelihood(body[None, :, 9] + 60, body) == 1).all()
+    assert np.array_equal(model.constrain(body[:, 9] + 60, body), body[:, 9] + 60)

@@ -64,7 +64,7 @@ def test_a_reference_that_is_not_seen_does_not_count(distances):
     assert np.allclose(found[:, 2], without[:, 2])
 
 
-def test_members_that_tell_nothing_are_left_out():
+def test_members_without_a_prediction_are_left_out():
     positions = np.zeros((3, 4, 3))
     positions[1] += 6
     positions[2] = np.nan

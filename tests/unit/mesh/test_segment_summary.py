@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.mesh.pair_statistics import PairStatistics
-from markermend.mesh.segment_summary import Description, judge_excitation, named, rank_markers
+from markermend.mesh.segment_summary import SegmentSummary, judge_excitation, named, rank_markers
 from markermend.mesh.segment_tree import Skeleton
 from markermend.options.mesh import MeshOptions
 
@@ -31,7 +31,7 @@ def pairs(part):
 def test_segments_equal_the_definitions_in_loops(statistics):
     dissimilarity = statistics.dissimilarity(300.0)
     attachment = statistics.attachment_costs(dissimilarity)
-    found = Description(SKELETON, statistics, dissimilarity, attachment, 12.0, 0.5).segments()
+    found = SegmentSummary(SKELETON, statistics, dissimilarity, attachment, 12.0, 0.5).segments()
     for s, (part, segment) in enumerate(zip(SKELETON.members, found, strict=True)):
         inner = np.mean([dissimilarity[pair] for pair in pairs(part)]) if pairs(part) else 12.0
         squares = [statistics.deviation[pair] ** 2 for pair in pairs(part)]
@@ -49,7 +49,7 @@ def test_segments_equal_the_definitions_in_loops(statistics):
 def test_a_long_segment_is_named_by_three_markers(statistics):
     skeleton = Skeleton(((0, 1, 2, 3, 4, 5),), (None,), (None,), (None,))
     matrix = np.zeros((6, 6))
-    (segment,) = Description(skeleton, statistics, matrix, matrix, 12.0, 1.0).segments()
+    (segment,) = SegmentSummary(skeleton, statistics, matrix, matrix, 12.0, 1.0).segments()
     assert segment.name == "a+b+c+3" and segment.confidence == 1.0
 
 
