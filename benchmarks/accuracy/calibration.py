@@ -11,8 +11,11 @@ Samples of one gap go together, so a cell knows little more than it has runs: th
 from the spread between runs.
 """
 
+from __future__ import annotations
+
 import argparse
 from collections import defaultdict
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -23,25 +26,28 @@ from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_gapped, load
 from markermend import api
 
+OneRun = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Distances from the truth, error and error95 (samples,), mm."""
+
 LENGTHS_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 MOST_SHARE = 0.5
 """Gaps longer than this share of a recording are not tried: too little would be left to learn from."""
 
 
 @cache
-def neighbours(folder, name):
+def neighbours(folder: str, name: str) -> list[np.ndarray]:
     """Whom each marker is predicted from, by the complete recording."""
     whole = load(folder, name)
     return api.infer_mesh([whole]).neighbour_indices(whole.markers)
 
 
-def one_run(folder, name, length_s, markers, seed):
+def one_run(folder: str, name: str, length_s: float, markers: int, seed: Sequence[int]) -> OneRun | None:
     """Hide a stretch of some markers and fill it; returns distances, error and error95 (samples,), mm, or None."""
     whole = load(folder, name)
     length = round(length_s * whole.rate)
     if length > MOST_SHARE * whole.frames or 2 * markers > len(whole.markers):
         return None
-    rng = np.random.default_rng([seed, length, markers])
+    rng = np.random.default_rng([*seed, length, markers])
     seen = np.concatenate([np.zeros((1, len(whole.markers)), int), np.cumsum(~whole.missing, axis=0)])
     for start in rng.permutation(np.arange(1, whole.frames - length - 1)).tolist():
         there = np.flatnonzero(seen[start + length + 1] - seen[start - 1] == length + 2)
@@ -53,10 +59,10 @@ def one_run(folder, name, length_s, markers, seed):
     filled = fill_gapped(whole, gaps, neighbours(folder, name), OPTIONS["fill"].members)
     place = slice(start, start + length), [marker for marker, _, _ in gaps]
     distance = np.linalg.norm(filled.positions[place] - whole.positions[place], axis=2)
-    return [each.ravel() for each in (distance, filled.error[place], filled.error95[place])]
+    return distance.ravel(), filled.error[place].ravel(), filled.error95[place].ravel()
 
 
-def cell(runs):
+def cell(runs: Sequence[OneRun]) -> str:
     """Shares within both balls, %, and their standard errors, from what the runs found."""
     shares = np.array([[(d <= e).mean(), (d <= e95).mean()] for d, e, e95 in runs])
     inside, outside = 100 * shares.mean(axis=0)
@@ -64,7 +70,7 @@ def cell(runs):
     return f"{inside:3.0f} ({spread[0]:2.0f}) {outside:3.0f} ({spread[1]:2.0f})"
 
 
-def main():
+def main() -> None:
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
@@ -84,7 +90,7 @@ def main():
         for markers in arguments.markers
         for run in range(arguments.runs)
     ]
-    found = defaultdict(list)
+    found: dict[tuple[str, float | str], list[OneRun]] = defaultdict(list)
     with ProcessPoolExecutor(arguments.jobs) as pool:
         columns = zip(*plan, strict=True)
         for (name, length, _, _), outcome in zip(
@@ -102,9 +108,9 @@ def main():
     print(f"\nmean error, mm{'':12}" + "".join(f"{mean_error(found['all', each]):18.2f}" for each in headings))
 
 
-def mean_error(runs):
+def mean_error(runs: Sequence[OneRun]) -> float:
     """Mean distance over the samples of all runs, mm."""
-    return np.concatenate([distance for distance, _, _ in runs]).mean() if runs else np.nan
+    return float(np.concatenate([distance for distance, _, _ in runs]).mean()) if runs else float("nan")
 
 
 if __name__ == "__main__":

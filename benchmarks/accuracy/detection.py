@@ -82,7 +82,7 @@ def class_of(kind: str) -> int:
     return 1 + CLASSES.index(kind)
 
 
-def classes(found: dict, recording: Recording) -> np.ndarray:
+def classes(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.ndarray:
     """Class of each sample (frames, markers): 0 clean, else 1 + its place in CLASSES; the detector that was first wins."""
     own = [(class_of(kind), event) for kind in found for event in found[kind]]
     out = np.zeros(recording.missing.shape, int)
@@ -142,7 +142,7 @@ def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **co
     return out
 
 
-def run(path: Path, presets: list, condition: dict) -> dict[str, Outcome]:
+def run(path: Path, presets: Sequence[str], condition: dict[str, Any]) -> dict[str, Outcome]:
     """Judge one recording under one condition."""
     clean = api.read(path, kind="dynamic")
     return judge(clean, ignored=glitches(path, clean), presets=presets, **condition)
@@ -152,7 +152,7 @@ def group_of(path: Path) -> str:
     return next((name for name, recordings in GROUPS.items() if path.stem in recordings), "others")
 
 
-def conditions(arguments: argparse.Namespace) -> Iterator[dict]:
+def conditions(arguments: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """What `damage` is asked for, but for the seed."""
     for amplitude, share in product(arguments.amplitudes, arguments.shares):
         yield {"protocol": arguments.protocol, "amplitude": amplitude, "share": share}

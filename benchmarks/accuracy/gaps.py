@@ -16,23 +16,28 @@ from __future__ import annotations
 import argparse
 import json
 from collections import defaultdict
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import yaml
 
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import fill_case, score
+from benchmarks.support.gap_cases import FilledCase, fill_case, score
+
+Programs = dict[str, dict[str, dict[str, Any]]]
+"""Errors and seconds of other programs by program and case."""
 
 
-def print_errors(ours, programs, title):
+def print_errors(ours: Mapping[str, tuple[str, float]], programs: Programs, title: str) -> None:
     """Per condition: our mean error, and for each program its mean, ours on the cases that it has, and the ratio."""
     print(
         f"\n{title}\nmean error, mm; each program: its error (ours on its cases), by how much ours is smaller or larger"
     )
-    ratios = defaultdict(dict)
+    ratios: dict[str, dict[str, float]] = defaultdict(dict)
     for condition in sorted({condition for condition, _ in ours.values()}):
         mine = {key: error for key, (own, error) in ours.items() if own == condition}
         key = "rmse" if condition.startswith("sp") else "error"
@@ -50,14 +55,14 @@ def print_errors(ours, programs, title):
     print(f"\n{'program':12} {'mean ratio A':>12} {'mean ratio B':>12} {'worst':>7} condition")
     for program, own in ratios.items():
         means = [[own[name] for name in own if name.startswith("sp") == late] for late in (False, True)]
-        worst = max(own, key=own.get)
+        worst = max(own, key=own.__getitem__)
         shown = [f"{np.mean(mean):12.3f}" if mean else f"{'':12}" for mean in means]
         print(f"{program:12} {' '.join(shown)} {own[worst]:7.3f} {worst}")
 
 
-def print_calibration(cases):
+def print_calibration(cases: Iterable[FilledCase]) -> None:
     """Share of the true positions within the stated balls, %, by recording and condition, and over all."""
-    samples = defaultdict(list)
+    samples: dict[tuple[str, str], list[np.ndarray]] = defaultdict(list)
     for case, _, gaps in cases:
         for offsets, error, error95, _ in gaps:
             distance = np.linalg.norm(offsets, axis=1)
@@ -68,15 +73,15 @@ def print_calibration(cases):
     print(
         f"\ntrue positions within error and error95, %\n{'recording':16} {'condition':10} {'68':>6} {'95':>6} {'n':>8}"
     )
-    for (name, condition), inside in sorted(samples.items()):
-        joined = np.concatenate(inside)
+    for (name, condition), shares in sorted(samples.items()):
+        joined = np.concatenate(shares)
         low, high = 100 * joined.mean(axis=0)
         print(f"{name:16} {condition:10} {low:6.1f} {high:6.1f} {len(joined):8}")
 
 
-def print_seconds(cases, programs):
+def print_seconds(cases: Iterable[FilledCase], programs: Programs) -> None:
     """Per condition: our seconds of a core for the mesh and for filling, and the seconds of PMA where it was run."""
-    spent = defaultdict(list)
+    spent: dict[str, list[tuple[float, float, float]]] = defaultdict(list)
     for case, seconds, _ in cases:
         theirs = programs["pma5"].get(f"{case['seq']}/{case['cond']}_{case['it']}", {}).get("seconds", np.nan)
         spent[case["cond"]].append((*seconds, theirs))
@@ -88,7 +93,7 @@ def print_seconds(cases, programs):
             print(f"{condition:10} {mesh:6.2f} {fill:6.2f} {theirs:6.1f} {theirs / (mesh + fill):14.1f}")
 
 
-def main():
+def main() -> None:
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
@@ -117,7 +122,7 @@ def main():
     for title, kept in (("all markers", False), ("without the rigidly fitted markers of HDM05", True)):
         ours = {}
         for case, _, gaps in done:
-            if kept and any(gap[3] for gap in gaps):
+            if kept and any(gap.fitted for gap in gaps):
                 continue
             condition = case["cond"]
             ours[f"{case['seq']}/{condition}_{case['it']}"] = condition, score(condition, gaps)
@@ -125,8 +130,8 @@ def main():
     print_calibration(done)
     print_seconds(done, programs)
     mesh, fill = np.array([seconds for _, seconds, _ in done]).sum(axis=0)
-    gaps = sum(len(own) for _, _, own in done)
-    print(f"\n{len(done)} cases, {gaps} gaps: fill {fill:.0f} s ({fill / gaps:.2f} s per gap), mesh {mesh:.0f} s")
+    count = sum(len(own) for _, _, own in done)
+    print(f"\n{len(done)} cases, {count} gaps: fill {fill:.0f} s ({fill / count:.2f} s per gap), mesh {mesh:.0f} s")
 
 
 if __name__ == "__main__":

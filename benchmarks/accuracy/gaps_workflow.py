@@ -10,6 +10,8 @@ the workflow writes into cleaned.c3d is compared with the truth, and so is what 
 off, and the rules of what may be filled are lifted, as there.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import subprocess
@@ -23,15 +25,15 @@ import numpy as np
 import yaml
 
 from benchmarks.support.defaults import DATA, OPTIONS, PROJECT
-from benchmarks.support.gap_cases import LIFTED, fill_case, load, score
+from benchmarks.support.gap_cases import LIFTED, Case, FilledGap, fill_case, load, score
 from markermend.formats import files
 from markermend.options.config import write_config
 
 UNLABELLED = OPTIONS["ingest"].unlabelled
 
 
-def write_case(folder, case, target):
-    """Write a case's recording with its gaps; returns the truth and which samples are hidden, as read from the file."""
+def write_case(folder: Path, case: Case, target: Path) -> None:
+    """Write the recording of a case with its gaps."""
     (original,) = Path(folder, "clean").glob(f"{case['seq']}*")
     reading = files.read(original, unlabelled=UNLABELLED, rate=None)
     positions = reading.recording.positions.copy()
@@ -45,17 +47,23 @@ def write_case(folder, case, target):
     )
 
 
-def run(recordings, results, cores):
+def run(recordings: Path, results: Path, cores: int) -> None:
     """Run the workflow over the cases."""
     lifted = write_config({**OPTIONS, "fill": replace(OPTIONS["fill"], **LIFTED)})
     study = {**lifted, "recordings": str(recordings), "results": str(results), "detect": []}
     path = results.with_suffix(".yaml")
     path.write_text(yaml.safe_dump(study), encoding="utf-8")
-    command = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--configfile", path]
+    command: list[str | Path] = [
+        Path(sys.executable).with_name("snakemake"),
+        "--cores",
+        str(cores),
+        "--configfile",
+        path,
+    ]
     subprocess.run([*command, "--quiet", "rules", "progress"], cwd=PROJECT, check=True)
 
 
-def compare(folder, case, results):
+def compare(folder: Path, case: Case, results: Path) -> tuple[float, float, float]:
     """Errors of a case, mm: by the predictors alone, by the workflow; and how far apart the two are at most."""
     _, _, alone = fill_case(str(folder), case, OPTIONS["fill"].members)
     (cleaned,) = results.glob(f"{case['seq']}_{case['cond']}_{case['it']}/*/cleaned.c3d")
@@ -64,12 +72,13 @@ def compare(folder, case, results):
     for marker, start, stop in case["gaps"]:
         place = slice(start, stop), marker
         offsets = (written.positions - truth.positions)[place][~truth.missing[place]]
-        through.append((offsets,))
-    apart = max(np.abs(a[0] - b[0]).max(initial=0.0) for a, b in zip(alone, through, strict=True))
+        nothing = np.empty(0)
+        through.append(FilledGap(offsets, nothing, nothing, False))
+    apart = max(np.abs(a.offsets - b.offsets).max(initial=0.0) for a, b in zip(alone, through, strict=True))
     return score(case["cond"], alone), score(case["cond"], through), float(apart)
 
 
-def main():
+def main() -> None:
     """Parse the command line, write the cases, run, compare, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
@@ -89,7 +98,7 @@ def main():
             name = f"{case['seq']}_{case['cond']}_{case['it']}"
             write_case(arguments.data, case, folder / "recordings" / name / f"{case['seq']}.c3d")
         run(folder / "recordings", folder / "results", arguments.cores)
-        errors = defaultdict(list)
+        errors: dict[str, list[tuple[float, float, float]]] = defaultdict(list)
         for case in cases:
             errors[case["cond"]].append(compare(arguments.data, case, folder / "results"))
     print(f"{'condition':10} {'cases':>5} {'alone, mm':>10} {'workflow':>9} {'apart at most':>13}")

@@ -9,11 +9,15 @@ names; seconds (of a core) and peak memory are those of the process, start and f
 the recording with its gaps. `inside` and `inside95` are the shares of the true positions within error and error95.
 """
 
+from __future__ import annotations
+
 import argparse
 import re
 from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -21,8 +25,12 @@ from scipy.interpolate import CubicSpline
 from benchmarks.support import gap_cases
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.fill_runs import fill, walker, with_gaps
+from benchmarks.support.gap_cases import Gap
 from markermend import api
 from markermend.core.recording import Recording
+
+Load = Callable[[str], Recording]
+"""Reads a clean recording by its name."""
 
 
 @dataclass(frozen=True)
@@ -31,21 +39,22 @@ class Case:
 
     title: str
     whole: Recording
-    gaps: list
-    options: dict = field(default_factory=dict)
+    gaps: list[Gap]
+    options: dict[str, Any] = field(default_factory=dict)
 
 
-def spread(count, length, frames, *, first=60):
+def spread(count: int, length: int, frames: int, *, first: int = 60) -> list[int]:
     """Starts of `count` stretches of so many frames, evenly over a recording."""
-    return np.linspace(first, frames - length - first, count).astype(int).tolist()
+    starts: list[int] = np.linspace(first, frames - length - first, count).astype(int).tolist()
+    return starts
 
 
-def at_once(markers, start, length):
+def at_once(markers: Iterable[int], start: int, length: int) -> list[Gap]:
     """A gap at the same place in each of the markers."""
     return [(int(marker), start, start + length) for marker in markers]
 
 
-def concurrent(load):
+def concurrent(load: Load) -> Iterator[Case]:
     """Twenty markers miss the same second."""
     for name in ("85_02", "85_12", "HDM"):
         whole = load(name)
@@ -53,7 +62,7 @@ def concurrent(load):
         yield Case(f"20 at once, {name}", whole, at_once(chosen, whole.frames // 2, round(whole.rate)))
 
 
-def segments(load):
+def segments(load: Load) -> Iterator[Case]:
     """Each segment of the mesh misses a second, one after the other: what hangs on it sees its border go, too."""
     for name in ("85_12", "STS1"):
         whole = load(name)
@@ -66,7 +75,7 @@ def segments(load):
         yield Case(f"whole segments, {name}", whole, gone)
 
 
-def neighbours(load):
+def neighbours(load: Load) -> Iterator[Case]:
     """A marker and its 15 nearest neighbours miss the same second, at five places."""
     whole = load("85_12")
     near = api.infer_mesh([whole]).neighbour_indices(whole.markers)
@@ -76,7 +85,7 @@ def neighbours(load):
         yield Case(f"{whole.markers[marker]} and 15 nearest", whole, gone)
 
 
-def blackout(load):
+def blackout(load: Load) -> Iterator[Case]:
     """All markers are lost."""
     whole = load("85_12")
     every = range(len(whole.markers))
@@ -92,7 +101,7 @@ def blackout(load):
             yield Case(f"blackout {seconds} s, kalman", whole, gone, {"members": names})
 
 
-def rare(load):
+def rare(load: Load) -> Iterator[Case]:
     """A marker is seen for a quarter of the time."""
     whole = load("85_12")
     gone = [(9, start, start + 120) for start in range(40, whole.frames - 120, 160)]
@@ -100,7 +109,7 @@ def rare(load):
     yield Case("seen 25 %, min_seen_share .2", whole, gone, {"min_seen_share": 0.2})
 
 
-def everyone(load):
+def everyone(load: Load) -> Iterator[Case]:
     """Every marker has gaps, at ever other times: not one is complete."""
     for name in ("85_12", "HDM"):
         whole = load(name)
@@ -112,7 +121,7 @@ def everyone(load):
         yield Case(f"no complete marker, {name}", whole, gone)
 
 
-def ends(load):
+def ends(load: Load) -> Iterator[Case]:
     """Markers come late or leave early."""
     whole = load("85_12")
     gone = [(m, 0, 60) for m in (3, 14, 30)] + [(m, whole.frames - 60, whole.frames) for m in (7, 20, 38)]
@@ -124,7 +133,7 @@ def ends(load):
     yield Case("all enter and leave", whole, late + inner)
 
 
-def subjects(load):
+def subjects(load: Load) -> Iterator[Case]:
     """Two people and a prop in one recording; one of the people vanishes while the other has gaps."""
     first, second = load("85_12"), load("HDM")
     frames = second.frames
@@ -145,7 +154,7 @@ def subjects(load):
     yield Case("prop", whole, [(82, 500, 600), (84, 550, 700), (85, 2000, 2200)])
 
 
-def rigid(frames, markers, rate):
+def rigid(frames: int, markers: int, rate: float) -> np.ndarray:
     """A prop that tumbles: positions (frames, markers, 3)."""
     seconds = np.arange(frames)[:, None] / rate
     rng = np.random.default_rng(4)
@@ -156,7 +165,7 @@ def rigid(frames, markers, rate):
     return np.stack([plane.real, plane.imag, height], axis=-1) + rng.normal(0, 0.2, (frames, markers, 3))
 
 
-def eight(load):
+def eight(load: Load) -> Iterator[Case]:
     """No more than eight markers: those of one arm."""
     whole = load("85_12")
     near = api.infer_mesh([whole]).neighbour_indices(whole.markers)[9][:7]
@@ -170,7 +179,7 @@ def eight(load):
     yield Case("8 markers, 3 at once", few, at_once(range(3), 2000, 120))
 
 
-def islands(load):
+def islands(load: Load) -> Iterator[Case]:
     """Gaps of a marker with one or two samples between."""
     whole = load("85_12")
     for between in (1, 2, 3):
@@ -179,7 +188,7 @@ def islands(load):
         yield Case(f"{between} samples between, border_s 0", whole, gone, {"border_s": 0.0})
 
 
-def extremes(load):
+def extremes(load: Load) -> Iterator[Case]:
     """Next to nothing seen of a marker; next to no frames; nothing moves."""
     whole = load("85_12")
     lifted = {"min_seen_share": 0.0, "max_gap_s": None, "max_error_mm": None}
@@ -203,7 +212,7 @@ def extremes(load):
     yield Case("one frozen marker", single, [(41, 500, 620)])
 
 
-def rates(load):
+def rates(load: Load) -> Iterator[Case]:
     """The same motion and the same gaps at other rates."""
     whole = load("85_12")
     course = CubicSpline(np.arange(whole.frames) / whole.rate, whole.positions)
@@ -216,13 +225,13 @@ def rates(load):
         yield Case(f"{rate} Hz", resampled, gone)
 
 
-def metres(load):
+def metres(load: Load) -> Iterator[Case]:
     """A recording stored in metres."""
     whole = load("STS1")
     yield Case("in metres (STS1)", whole, [(m, 200 + 5 * m, 300 + 5 * m) for m in range(0, 50, 10)])
 
 
-def large(load):
+def large(load: Load) -> Iterator[Case]:
     """Many markers; many frames."""
     rng = np.random.default_rng(2)
     for frames, markers, count in ((5_000, 200, 60), (100_000, 60, 60)):
@@ -244,7 +253,7 @@ CASES = {
 } | {case.__name__: case for case in (extremes, rates, metres, large)}
 
 
-def row(case):
+def row(case: Case) -> str:
     """Fill, and write one line of the table."""
     gapped = with_gaps(case.whole, case.gaps)
     run = fill(gapped, **case.options)
@@ -268,7 +277,7 @@ def row(case):
     )
 
 
-def main():
+def main() -> None:
     """Parse the command line, run the cases, print a row for each."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")

@@ -11,16 +11,19 @@ A member that is added should never make the mean error larger by more than 2 %.
 with the member alone, pseudo-gaps included, for weighing what it costs against what it brings.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import fill_case, score
+from benchmarks.support.gap_cases import Case, fill_case, score
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import REGISTRY
 
@@ -29,9 +32,12 @@ SLOW = ("replicated_network", "bolero", *NETWORKS)
 """Tried only where they are named: they train for seconds to minutes per gap."""
 
 
-def try_members(pool, folder, cases, names):
+def try_members(
+    pool: ProcessPoolExecutor, folder: str, cases: Sequence[Case], names: Sequence[str]
+) -> tuple[dict[str, np.ndarray], float]:
     """Mean error by condition, mm, and seconds per gap, with the named members."""
-    errors, seconds, gaps = defaultdict(list), 0.0, 0
+    errors: dict[str, list[float]] = defaultdict(list)
+    seconds, gaps = 0.0, 0
     for case, spent, found in pool.map(fill_case, [folder] * len(cases), cases, [tuple(names)] * len(cases)):
         error = score(case["cond"], found)
         errors[case["cond"]].append(error)
@@ -39,17 +45,17 @@ def try_members(pool, folder, cases, names):
     return {condition: np.array(each) for condition, each in errors.items()}, seconds / gaps
 
 
-def compared(errors, usual):
+def compared(errors: Mapping[str, np.ndarray], usual: Mapping[str, np.ndarray]) -> tuple[float, float]:
     """Mean over the conditions of the ratio of mean errors, over the cases that both filled whole; and its largest."""
     ratios = []
     for condition, each in errors.items():
         both = np.isfinite(each) & np.isfinite(usual[condition])
         if both.any():
             ratios.append(each[both].mean() / usual[condition][both].mean())
-    return (np.mean(ratios), np.max(ratios)) if ratios else (np.nan, np.nan)
+    return (float(np.mean(ratios)), float(np.max(ratios))) if ratios else (np.nan, np.nan)
 
 
-def main():
+def main() -> None:
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")

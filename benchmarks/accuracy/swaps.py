@@ -11,6 +11,8 @@ Kinds: a pair; a pair that never swaps back; a pair of which the other marker is
 ring. Distances are medians over the recording, of a ring that of its first two.
 """
 
+from __future__ import annotations
+
 import argparse
 from collections import Counter
 from dataclasses import replace

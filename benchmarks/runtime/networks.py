@@ -9,8 +9,11 @@ on them. Each number of networks is trained both ways in turn, on the same gaps;
 between what the two tell, mm.
 """
 
+from __future__ import annotations
+
 import argparse
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,9 +27,11 @@ from markermend.simulation.walker_body import make_body
 
 DEFAULT = NeuralNetworkOptions()
 GAP = (500, 600)
+Place = tuple[np.ndarray, list[np.ndarray]]
+"""Positions (frames, markers, 3) and the neighbours of each marker."""
 
 
-def positions(markers):
+def positions(markers: int) -> Place:
     """A person for 15 s, with a gap of 1 s in each of so many markers, and who is near whom."""
     rng = np.random.default_rng(1)
     person = walk(
@@ -45,7 +50,7 @@ def positions(markers):
     return gapped, [np.argsort(row, kind="stable")[:-1] for row in spread]
 
 
-def trained(network, place, jobs):
+def trained(network: Network, place: Place, jobs: Iterable[Sequence[int]]) -> tuple[float, np.ndarray]:
     """Train the jobs (lists of markers) one after the other in a fresh scene; the seconds, and what all markers get."""
     scene = Scene(place[0], 100.0, place[1])
     started = time.perf_counter()
@@ -55,7 +60,7 @@ def trained(network, place, jobs):
     return seconds, np.stack([network.predict(scene, marker, *GAP).positions for markers in jobs for marker in markers])
 
 
-def main():
+def main() -> None:
     """Parse the command line, train, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))

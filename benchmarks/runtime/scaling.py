@@ -8,11 +8,13 @@ Each row is scripts/fill.py with the default settings in a process of its own: s
 its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at a random place on a random marker.
 """
 
+from __future__ import annotations
+
 import argparse
 
 import numpy as np
 
-from benchmarks.support.fill_runs import fill, walker, with_gaps
+from benchmarks.support.fill_runs import Run, fill, walker, with_gaps
 from markermend.core.changes import Outcome
 
 BASE = {"frames": 4_000, "markers": 41, "gaps": 10}
@@ -20,7 +22,7 @@ VARIED = {"frames": (1_000, 4_000, 16_000, 64_000), "markers": (20, 41, 80, 160)
 RATE = 100
 
 
-def run(frames, markers, gaps):
+def run(frames: int, markers: int, gaps: int) -> tuple[Run, int]:
     """Fill so many gaps; returns the run and the number of gaps that were filled."""
     rng = np.random.default_rng(7)
     starts = rng.integers(RATE, frames - 2 * RATE, gaps).tolist()
@@ -31,14 +33,14 @@ def run(frames, markers, gaps):
     return done, sum(change.outcome is Outcome.FILLED for change in done.changes)
 
 
-def main():
+def main() -> None:
     """Parse the command line, run, print a table for each number that varies."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--vary", nargs="+", choices=VARIED, default=list(VARIED))
     for varied in parser.parse_args().vary:
         others = ", ".join(f"{value} {name}" for name, value in BASE.items() if name != varied)
         print(f"\n{others}\n{varied:>8} {'filled':>7} {'seconds':>8} {'x':>5} {'MB':>6} {'x':>5}")
-        before = None
+        before: tuple[float, float] | None = None
         for value in VARIED[varied]:
             done, filled = run(**{**BASE, varied: value})
             now = done.seconds, done.megabytes

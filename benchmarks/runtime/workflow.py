@@ -9,6 +9,8 @@ Times are those of Snakemake's own benchmark files: seconds from start to end of
 and the share of a core that it used. `overhead` is the wall time of the whole run without those seconds.
 """
 
+from __future__ import annotations
+
 import argparse
 import csv
 import json
@@ -24,7 +26,7 @@ from benchmarks.support.defaults import PROJECT
 
 def run(recordings: str, results: Path, cores: int) -> float:
     """Run the workflow; returns the wall time, s."""
-    command = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--quiet", "all"]
+    command: list[str | Path] = [Path(sys.executable).with_name("snakemake"), "--cores", str(cores), "--quiet", "all"]
     command += ["--config", f"recordings={Path(recordings).resolve()}", f"results={results}"]
     started = time.perf_counter()
     subprocess.run(command, cwd=PROJECT, check=True)

@@ -1,5 +1,7 @@
 """What is counted when detection and repair are judged, and the tables that tell it."""
 
+from __future__ import annotations
+
 from collections import Counter
 from dataclasses import dataclass, field
 
@@ -26,7 +28,7 @@ class Outcome:
     forms: Counter[tuple[str, str, str]] = field(default_factory=Counter)
     refused: int = 0
 
-    def add(self, other: "Outcome") -> None:
+    def add(self, other: Outcome) -> None:
         self.confusion += other.confusion
         self.squares += other.squares
         self.forms.update(other.forms)

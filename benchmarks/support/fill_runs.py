@@ -1,19 +1,24 @@
 """What the benchmarks of the fill stage share: recordings with gaps, and the stage run on them in a process of its own."""
 
+from __future__ import annotations
+
 import os
 import shlex
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
 from benchmarks.support.defaults import OPTIONS, PROJECT
+from benchmarks.support.gap_cases import Gap
 from markermend import api
 from markermend.core.changes import Change
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
@@ -55,7 +60,7 @@ class Run:
     megabytes: float
 
 
-def fill(recording, **options):
+def fill(recording: Recording, **options: Any) -> Run:
     """Infer the mesh of a recording with gaps and run scripts/fill.py on it, with some options changed."""
     recording = replace(recording, facts={"recording": "benchmark", "kind": "dynamic"})
     own = replace(OPTIONS["fill"], **options)
@@ -64,16 +69,29 @@ def fill(recording, **options):
         stage_files.write_recording(files["repaired"], restored(recording), {})
         change_file.write(files["repairs"], [], {})
         mesh_file.write(files["mesh"], [api.infer_mesh([recording])], {})
-        script = [sys.executable, PROJECT / "scripts/fill.py", *(f"--{name}={path}" for name, path in files.items())]
-        command = [sys.executable, "-c", WATCH, *script, *shlex.split(write_flags(own)), "--decisions=[]"]
+        script: list[str | Path] = [
+            sys.executable,
+            PROJECT / "scripts/fill.py",
+            *(f"--{name}={path}" for name, path in files.items()),
+        ]
+        command: list[str | Path] = [
+            sys.executable,
+            "-c",
+            WATCH,
+            *script,
+            *shlex.split(write_flags(own)),
+            "--decisions=[]",
+        ]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
             raise RuntimeError(done.stderr[-2000:])
         seconds, megabytes = map(float, done.stdout.split())
-        return Run(stage_files.read_recording(files["filled"]), change_file.read(files["changes"]), seconds, megabytes)
+        filled = stage_files.read_recording(files["filled"])
+        assert isinstance(filled, Restored)
+        return Run(filled, change_file.read(files["changes"]), seconds, megabytes)
 
 
-def restored(recording):
+def restored(recording: Recording) -> Restored:
     """A recording as repair hands it on: nothing repaired."""
     missing = recording.missing
     error = np.where(missing, np.nan, 0.0)
@@ -81,7 +99,7 @@ def restored(recording):
     return Restored(**vars(recording), origin=origin, error=error, error95=error)
 
 
-def with_gaps(recording, gaps):
+def with_gaps(recording: Recording, gaps: Iterable[Gap]) -> Recording:
     """The recording without the samples in the gaps (marker, start, stop)."""
     positions = recording.positions.copy()
     for marker, start, stop in gaps:
@@ -90,7 +108,7 @@ def with_gaps(recording, gaps):
 
 
 @cache
-def walker(frames, markers, rate=100.0, seed=1):
+def walker(frames: int, markers: int, rate: float = 100.0, seed: int = 1) -> Recording:
     """A synthetic person with so many markers, doing ever other things: takes of a minute, joined standing.
 
     Markers beyond the walker's 51 sit within some centimetres of these.
@@ -118,7 +136,7 @@ def walker(frames, markers, rate=100.0, seed=1):
     return Recording(body.markers, positions, rate)
 
 
-def continued(positions, last):
+def continued(positions: np.ndarray, last: np.ndarray) -> np.ndarray:
     """The positions (frames, markers, 3) turned about the vertical and moved so that they go on from `last` (markers, 3)."""
     plane, there = (points[..., 0] + 1j * points[..., 1] for points in (positions, last))
     middle = plane[0].mean()

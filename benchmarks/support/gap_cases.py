@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache, reduce
 from pathlib import Path
+from typing import Any, NamedTuple
 
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
@@ -14,28 +16,64 @@ import numpy as np
 
 from benchmarks.support.defaults import OPTIONS
 from markermend import api
-from markermend.core.recording import MEASURED, MISSING, Restored
-from markermend.filling.ensembles import make_ensembles
+from markermend.core.recording import MEASURED, MISSING, Recording, Restored
+from markermend.filling.ensembles import Ensembles, make_ensembles
 from markermend.filling.fill import fill_scene
-from markermend.options.filling import EnsembleOptions
+from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.options.values import Reader, plain
 from markermend.prediction.scene import Scene
 
-LIFTED = {"max_gap_s": None, "max_gap_s_of": {}, "fill_ends": True, "min_seen_share": 0.0, "border_s": 0.0}
+Gap = tuple[int, int, int]
+"""Marker, start and stop."""
+
+Case = dict[str, Any]
+"""A case of cases.json: recording (`seq`), condition (`cond`), iteration (`it`) and gaps."""
+
+Changes = tuple[tuple[str, Any], ...]
+"""Other values of options of the ensemble, by dotted name."""
+
+
+class FilledGap(NamedTuple):
+    """The known samples of one gap after filling: offsets (n, 3) from the truth, error and error95 (n,), mm.
+
+    fitted: whether the marker was fitted rigidly by the vendor.
+    """
+
+    offsets: np.ndarray
+    error: np.ndarray
+    error95: np.ndarray
+    fitted: bool
+
+
+class FilledCase(NamedTuple):
+    """A case, the seconds that mesh and fill took, and its gaps."""
+
+    case: Case
+    seconds: tuple[float, float]
+    gaps: list[FilledGap]
+
+
+LIFTED: dict[str, Any] = {
+    "max_gap_s": None,
+    "max_gap_s_of": {},
+    "fill_ends": True,
+    "min_seen_share": 0.0,
+    "border_s": 0.0,
+}
 LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
 FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
 """Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
 
 
 @cache
-def load(folder, name):
+def load(folder: str, name: str) -> Recording:
     """The recording of a case as the workflow ingests it."""
     (path,) = Path(folder, "clean").glob(f"{name}*")
     return api.read(path, recording=name, subject="benchmark", kind="dynamic")
 
 
 @cache
-def lifted(names, changes=()):
+def lifted(names: tuple[str, ...], changes: Changes = ()) -> tuple[FillOptions, Ensembles]:
     """The options of the config with the limits lifted, and the ensemble over the named members that they describe.
 
     changes: changed options (dotted name, value) of the ensemble.
@@ -51,7 +89,13 @@ def lifted(names, changes=()):
     return options, make_ensembles(options)
 
 
-def fill_gapped(whole, gaps, neighbours, names, changes=()):
+def fill_gapped(
+    whole: Recording,
+    gaps: Iterable[Gap],
+    neighbours: Sequence[np.ndarray],
+    names: tuple[str, ...],
+    changes: Changes = (),
+) -> Restored:
     """Hide gaps (marker, start, stop) of a recording and fill them with the named members."""
     positions = whole.positions.copy()
     for marker, start, stop in gaps:
@@ -66,7 +110,7 @@ def fill_gapped(whole, gaps, neighbours, names, changes=()):
     return fill_scene(restored, Scene(positions, whole.rate, neighbours), ensembles, options).recording
 
 
-def fill_case(folder, case, names, changes=()):
+def fill_case(folder: str, case: Case, names: tuple[str, ...], changes: Changes = ()) -> FilledCase:
     """Fill the gaps of one case; returns seconds (mesh, fill) and for each gap offsets (n, 3), error and error95 (n,)."""
     whole = load(folder, case["seq"])
     positions = whole.positions.copy()
@@ -84,13 +128,13 @@ def fill_case(folder, case, names, changes=()):
         known = ~whole.missing[place]
         offsets = (filled.positions - whole.positions)[place][known]
         fitted = case["seq"].startswith("HDM") and whole.markers[marker].split(":")[-1] in FITTED
-        gaps.append((offsets, filled.error[place][known], filled.error95[place][known], fitted))
-    return case, seconds, gaps
+        gaps.append(FilledGap(offsets, filled.error[place][known], filled.error95[place][known], fitted))
+    return FilledCase(case, seconds, gaps)
 
 
-def score(condition, gaps):
+def score(condition: str, gaps: Sequence[FilledGap]) -> float:
     """The error of a case, mm, by the measure of its protocol; NaN where a sample stayed open."""
-    offsets = np.concatenate([gap[0] for gap in gaps])
+    offsets = np.concatenate([gap.offsets for gap in gaps])
     if condition.startswith("sp"):
         return float(np.sqrt((offsets**2).mean()))
     return float(np.linalg.norm(offsets, axis=1).mean())
