@@ -253,8 +253,8 @@ CASES = {
 } | {case.__name__: case for case in (extremes, rates, metres, large)}
 
 
-def row(case: Case) -> str:
-    """Fill, and write one line of the table."""
+def row(case: Case) -> dict[str, Any]:
+    """Fill, and describe the outcome under the columns of benchmarks/results/hard_cases.tsv."""
     gapped = with_gaps(case.whole, case.gaps)
     run = fill(gapped, **case.options)
     measured = ~gapped.missing
