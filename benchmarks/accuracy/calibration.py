@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import fill_gapped, load
 from markermend import api
@@ -64,10 +65,15 @@ def one_run(folder: str, name: str, length_s: float, markers: int, seed: Sequenc
 
 def cell(runs: Sequence[OneRun]) -> str:
     """Shares within both balls, %, and their standard errors, from what the runs found."""
-    shares = np.array([[(d <= e).mean(), (d <= e95).mean()] for d, e, e95 in runs])
-    inside, outside = 100 * shares.mean(axis=0)
-    spread = 100 * shares.std(axis=0, ddof=1) / np.sqrt(len(shares)) if len(shares) > 1 else (np.nan, np.nan)
-    return f"{inside:3.0f} ({spread[0]:2.0f}) {outside:3.0f} ({spread[1]:2.0f})"
+    shares = inside(runs)
+    error, error95 = shares.mean(axis=0)
+    spread = shares.std(axis=0, ddof=1) / np.sqrt(len(shares)) if len(shares) > 1 else (np.nan, np.nan)
+    return f"{error:3.0f} ({spread[0]:2.0f}) {error95:3.0f} ({spread[1]:2.0f})"
+
+
+def inside(runs: Sequence[OneRun]) -> np.ndarray:
+    """Shares of the true positions within both balls (runs, 2), %."""
+    return 100 * np.array([[(d <= e).mean(), (d <= e95).mean()] for d, e, e95 in runs])
 
 
 def main() -> None:
@@ -80,6 +86,7 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=4, help="per recording, length and number of markers")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     clean = sorted(path.stem for path in (arguments.data / "clean").iterdir() if path.suffix in (".c3d", ".trc"))
     names = arguments.recordings or clean
@@ -105,6 +112,15 @@ def main() -> None:
     for name in [*names, "all"]:
         row = [cell(found[name, each]) if found[name, each] else "-" for each in headings]
         print(f"{name:26}" + "".join(f"{each:>18}" for each in row))
+    if arguments.tsv:
+        rows = [
+            {"recording": name, "gap_s": each, "within_error_percent": shares[0], "within_error95_percent": shares[1]}
+            for name in [*names, "all"]
+            for each in headings
+            if found[name, each]
+            for shares in [inside(found[name, each]).mean(axis=0).tolist()]
+        ]
+        result_tables.write(arguments.tsv, rows)
     print(f"\nmean error, mm{'':12}" + "".join(f"{mean_error(found['all', each]):18.2f}" for each in headings))
 
 

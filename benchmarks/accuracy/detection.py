@@ -38,8 +38,9 @@ os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 
+from benchmarks.support import result_tables
 from benchmarks.support.defaults import PROJECT
-from benchmarks.support.detection_outcome import CLASSES, Outcome, print_outcome
+from benchmarks.support.detection_outcome import CLASSES, Outcome, figures, print_outcome
 from markermend import api
 from markermend.core import events
 from markermend.core.events import Event
@@ -170,7 +171,9 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[0], help="seeds; one contamination each")
     parser.add_argument("--each", action="store_true", help="print the tables of each recording too")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
+    rows: list[dict[str, object]] = []
     with ProcessPoolExecutor(arguments.jobs) as pool:
         for condition in conditions(arguments):
             totals: dict[tuple[str, str], Outcome] = {}
@@ -185,6 +188,18 @@ def main() -> None:
             for name, preset in sorted(totals, key=lambda key: key[0] == "all recordings"):
                 title = f"{name}: {condition['protocol']}, {condition['amplitude']:g} mm, {condition['share']:.0%}, {preset}"
                 print_outcome(title, totals[name, preset])
+                rows.append(
+                    {
+                        "protocol": condition["protocol"],
+                        "preset": preset,
+                        "amplitude_mm": f"{condition['amplitude']:g}",
+                        "share_percent": f"{100 * condition['share']:g}",
+                        "group": name,
+                        **figures(totals[name, preset]),
+                    }
+                )
+    if arguments.tsv:
+        result_tables.write(arguments.tsv, rows)
 
 
 if __name__ == "__main__":

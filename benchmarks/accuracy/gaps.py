@@ -16,7 +16,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import FilledCase, fill_case, score
 
@@ -93,6 +94,19 @@ def print_seconds(cases: Iterable[FilledCase], programs: Programs) -> None:
             print(f"{condition:10} {mesh:6.2f} {fill:6.2f} {theirs:6.1f} {theirs / (mesh + fill):14.1f}")
 
 
+def rows(cases: Sequence[FilledCase]) -> list[dict[str, object]]:
+    """Mean error of each condition, mm, with the number of cases that were filled whole, and seconds per recording."""
+    found = []
+    for condition in sorted({case["cond"] for case, _, _ in cases}):
+        own = [each for each in cases if each.case["cond"] == condition]
+        errors = np.array([score(condition, each.gaps) for each in own])
+        seconds = float(np.mean([sum(each.seconds) for each in own]))
+        complete = np.isfinite(errors)
+        error = float(errors[complete].mean()) if complete.any() else None
+        found.append({"condition": condition, "cases": int(complete.sum()), "error_mm": error, "seconds": seconds})
+    return found
+
+
 def main() -> None:
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -109,6 +123,7 @@ def main() -> None:
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     path = arguments.cases or arguments.data.parent / "bench/gaps/cases.json"
     cases = json.loads(path.read_text(encoding="utf-8"))
@@ -129,6 +144,8 @@ def main() -> None:
         print_errors(ours, programs, title)
     print_calibration(done)
     print_seconds(done, programs)
+    if arguments.tsv:
+        result_tables.write(arguments.tsv, rows(done))
     mesh, fill = np.array([seconds for _, seconds, _ in done]).sum(axis=0)
     count = sum(len(own) for _, _, own in done)
     print(f"\n{len(done)} cases, {count} gaps: fill {fill:.0f} s ({fill / count:.2f} s per gap), mesh {mesh:.0f} s")

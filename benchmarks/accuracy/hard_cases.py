@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from benchmarks.support import gap_cases
+from benchmarks.support import gap_cases, result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.fill_runs import fill, walker, with_gaps
 from benchmarks.support.gap_cases import Gap
@@ -270,10 +270,25 @@ def row(case: Case) -> dict[str, Any]:
     reasons = Counter(re.sub(r"\d+(\.\d+)?", "#", reason.text) for reason in left)
     why = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common())
     error = distance.mean() if filled.any() else np.nan
-    total = len(run.changes)
+    return {
+        "case": case.title,
+        "gaps": len(run.changes),
+        "filled": fills,
+        "error_mm": float(error),
+        "within_error_percent": float(inside),
+        "within_error95_percent": float(inside95),
+        "seconds": run.seconds,
+        "megabytes": run.megabytes,
+        "left_open_because": why,
+    }
+
+
+def line(found: dict[str, Any]) -> str:
+    """A row as a line of the printed table."""
+    _, gaps, filled, error, inside, inside95, seconds, megabytes, why = found.values()
     return (
-        f"{case.title:34} {total:5} {fills:6} {len(left):5} {error:8.2f} {inside:6.0f} {inside95:8.0f} "
-        f"{run.seconds:7.1f} {run.megabytes:6.0f}  {why}"
+        f"{found['case']:34} {gaps:5} {filled:6} {gaps - filled:5} {error:8.2f} {inside:6.0f} {inside95:8.0f} "
+        f"{seconds:7.1f} {megabytes:6.0f}  {why}"
     )
 
 
@@ -282,14 +297,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--only", nargs="+", choices=CASES, default=list(CASES), metavar="NAME", help=", ".join(CASES))
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     print(
         f"{'case':34} {'gaps':>5} {'filled':>6} {'left':>5} {'error mm':>8} {'inside':>6} {'inside95':>8} "
         f"{'seconds':>7} {'MB':>6}  why left"
     )
+    rows = []
     for name in arguments.only:
         for case in CASES[name](lambda recording: gap_cases.load(str(arguments.data), recording)):
-            print(row(case), flush=True)
+            rows.append(row(case))
+            print(line(rows[-1]), flush=True)
+    if arguments.tsv:
+        result_tables.write(arguments.tsv, rows)
 
 
 if __name__ == "__main__":

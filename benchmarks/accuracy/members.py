@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import Case, fill_case, score
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
@@ -64,6 +65,7 @@ def main() -> None:
     parser.add_argument("--conditions", nargs="+", default=CONDITIONS, help="such as g3_L1 sp2_50")
     parser.add_argument("--iterations", type=int, default=1, help="the first so many of each condition")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     path = arguments.cases or arguments.data.parent / "bench/gaps/cases.json"
     cases = json.loads(path.read_text(encoding="utf-8"))
@@ -75,6 +77,7 @@ def main() -> None:
         usual, seconds = try_members(pool, str(arguments.data), cases, default)
         print(f"{len(cases)} cases; default members: {', '.join(default)}; {seconds:.2f} s per gap")
         print(f"{'member':20} {'change':8} {'error':>6} {'worst condition':>16} {'alone':>7} {'s per gap':>10}")
+        rows = []
         for name in wanted:
             others = [other for other in default if other != name] if name in default else [*default, name]
             mean, worst = compared(try_members(pool, str(arguments.data), cases, others)[0], usual)
@@ -82,6 +85,18 @@ def main() -> None:
             change = "without" if name in default else "with"
             alone = compared(errors, usual)[0]
             print(f"{name:20} {change:8} {mean:6.3f} {worst:16.3f} {alone:7.2f} {seconds:10.2f}", flush=True)
+            rows.append(
+                {
+                    "member": name,
+                    "change": change,
+                    "error_ratio": mean,
+                    "worst_condition_ratio": worst,
+                    "alone_ratio": alone,
+                    "seconds_per_gap": seconds,
+                }
+            )
+    if arguments.tsv:
+        result_tables.write(arguments.tsv, rows)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.support import result_tables
 from benchmarks.support.defaults import OPTIONS
 from markermend import api
 from markermend.core.labels import undo_exchanges
@@ -72,6 +73,7 @@ def main() -> None:
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
     parser.add_argument("--trials", type=int, default=12, help="swaps of each kind and length in each recording")
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS, help="kinds of swaps")
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     tried: Counter[tuple[str, int, int]] = Counter()
     right: Counter[tuple[str, int, int]] = Counter()
@@ -108,6 +110,22 @@ def main() -> None:
         for band, high in enumerate(BANDS):
             cells = [f"{right[kind, band, length]}/{tried[kind, band, length]}" for length in lengths]
             print(f"{'up to ' + format(high, 'g'):>18}" + "".join(f"{cell:>9}" for cell in cells))
+    if arguments.tsv:
+        result_tables.write(
+            arguments.tsv,
+            [
+                {
+                    "kind": kind,
+                    "distance_below_mm": f"{high:g}",
+                    "frames": "to end" if kind == "lasting" else length,
+                    "undone": right[kind, band, length],
+                    "tried": tried[kind, band, length],
+                }
+                for kind in arguments.kinds
+                for band, high in enumerate(BANDS)
+                for length in (LENGTHS if kind != "lasting" else LENGTHS[:1])
+            ],
+        )
     print(f"false events: {false} beside swaps, {in_clean} in the recordings as they are")
 
 

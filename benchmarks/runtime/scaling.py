@@ -11,9 +11,11 @@ its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at 
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 import numpy as np
 
+from benchmarks.support import result_tables
 from benchmarks.support.fill_runs import Run, fill, walker, with_gaps
 from markermend.core.changes import Outcome
 
@@ -37,7 +39,10 @@ def main() -> None:
     """Parse the command line, run, print a table for each number that varies."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--vary", nargs="+", choices=VARIED, default=list(VARIED))
-    for varied in parser.parse_args().vary:
+    parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
+    arguments = parser.parse_args()
+    rows: list[dict[str, object]] = []
+    for varied in arguments.vary:
         others = ", ".join(f"{value} {name}" for name, value in BASE.items() if name != varied)
         print(f"\n{others}\n{varied:>8} {'filled':>7} {'seconds':>8} {'x':>5} {'MB':>6} {'x':>5}")
         before: tuple[float, float] | None = None
@@ -47,6 +52,11 @@ def main() -> None:
             ratios = [f"{a / b:5.2f}" if before else f"{'':5}" for a, b in zip(now, before or now, strict=True)]
             print(f"{value:8} {filled:7} {now[0]:8.1f} {ratios[0]} {now[1]:6.0f} {ratios[1]}", flush=True)
             before = now
+            rows.append(
+                {"varied": varied, **BASE, varied: value, "filled": filled, "seconds": now[0], "megabytes": now[1]}
+            )
+    if arguments.tsv:
+        result_tables.write(arguments.tsv, rows)
 
 
 if __name__ == "__main__":

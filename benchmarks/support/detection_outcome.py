@@ -61,6 +61,25 @@ def print_outcome(title: str, outcome: Outcome) -> None:
         _print_forms(outcome.forms)
 
 
+def figures(outcome: Outcome) -> dict[str, float]:
+    """The figures of one condition: found and right samples by class and false ones, %; MCC; errors in mm."""
+    confusion = outcome.confusion
+    found: dict[str, float] = {}
+    scores = []
+    for number, name in enumerate(CLASSES, 1):
+        true, called = confusion[number].sum(), confusion[:, number].sum()
+        found[f"{name}_found_percent"] = float(100 * confusion[number, number] / true) if true else float("nan")
+        found[f"{name}_right_percent"] = float(100 * confusion[number, number] / called) if called else float("nan")
+        if true:
+            scores.append(2 * confusion[number, number] / (true + max(1, called)))
+    found["macro_f1"] = float(np.mean(scores)) if scores else float("nan")
+    found["mcc"] = correlation(confusion)
+    found["false_percent"] = float(100 * confusion[0, 1:].sum() / max(1, confusion[0].sum()))
+    stages = ("before_mm", "perfect_mm", "found_mm")
+    errors = {name: root(stage) for name, stage in zip(stages, outcome.squares[:, 1:], strict=True)}
+    return {**found, **errors}
+
+
 def _print_confusion(confusion: np.ndarray) -> None:
     print(f"{'samples: true, found':>22}" + "".join(f"{name:>9}" for name in NAMES))
     for name, row in zip(NAMES, confusion, strict=True):

@@ -21,7 +21,9 @@ def test_rows_come_back_as_text(tmp_path):
 
 def test_differences_are_named(tmp_path):
     result_tables.write(tmp_path / "a.tsv", ROWS)
-    result_tables.write(tmp_path / "b.tsv", [{**ROWS[0], "error_mm": 4.55, "note": "x"}, {**ROWS[1], "condition": "new"}])
+    result_tables.write(
+        tmp_path / "b.tsv", [{**ROWS[0], "error_mm": 4.55, "note": "x"}, {**ROWS[1], "condition": "new"}]
+    )
     old, new = (result_tables.read(tmp_path / f"{name}.tsv") for name in "ab")
     found = list(result_tables.differences(old, new, keys=["condition"], within=0.02))
     assert found == [
