@@ -5,14 +5,13 @@ Writes: mesh.json.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
+from markermend.command.recordings import read_subject
 from markermend.command.stage import Stage
-from markermend.core.recording import SetAside
-from markermend.mesh import inference, pair_statistics, user_mesh
+from markermend.mesh import inference, user_mesh
 from markermend.options.mesh import MeshOptions
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import mesh_file
 
 STAGE = Stage("mesh", __doc__, MeshOptions)
 STAGE.reads("markers", "trajectories as ingested, of every recording of the subject", many=True)
@@ -21,17 +20,7 @@ STAGE.writes("mesh", "meshes")
 
 
 def work(call: Any) -> str:
-    recordings, aside = [], None
-    for path in call.markers:
-        try:
-            recording = stage_files.read_recording(path)
-        except SetAside as note:
-            aside = note
-            continue
-        facts = {"recording": path.parent.name, **recording.facts}
-        recordings.append(pair_statistics.thin(replace(recording, facts=facts), frames=call.options.max_frames))
-    if not recordings and aside is not None:
-        raise aside
+    recordings = read_subject(call.markers, max_frames=call.options.max_frames)
     supplied = [own for path in call.mesh_files for own in user_mesh.read(path)]
     meshes = inference.infer_meshes(recordings, supplied=supplied, options=call.options)
     call.facts["inputs"]["markers"].sort()

@@ -26,7 +26,7 @@ CHANGE = "Change it when "
 class Unit:
     """Unit of a number.
 
-    Parameters
+    Attributes
     ----------
     symbol : str
         As it stands behind a number, such as `s`.
@@ -42,7 +42,7 @@ class Unit:
 class Bound:
     """Bound of a number.
 
-    Parameters
+    Attributes
     ----------
     limit : float
         The bound.
@@ -132,7 +132,7 @@ class RegularExpression:
 class Keys:
     """Marks a mapping that has these keys and no other.
 
-    Parameters
+    Attributes
     ----------
     names : tuple of str
         The keys.
@@ -145,7 +145,7 @@ class Keys:
 class Changes:
     """Marks a mapping that changes some options of a class.
 
-    Parameters
+    Attributes
     ----------
     of : type
         The class, whose fields are the possible keys.
@@ -158,7 +158,7 @@ class Changes:
 class Shared:
     """Marks a field whose value is set elsewhere: in the section, or under the top-level key, of the field's name.
 
-    Parameters
+    Attributes
     ----------
     parts : tuple of str
         The fields of that section that are read; all of them if empty.
@@ -183,7 +183,7 @@ CountOrNone = Annotated[int, AtLeast(0)]
 class Option:
     """An option as it was declared.
 
-    Parameters
+    Attributes
     ----------
     name : str
         Name of the field.

@@ -39,7 +39,11 @@ Preset = Annotated[Literal["default", "coordinates", "paper"], Laboratory]
 
 @dataclass(frozen=True)
 class LabelsOptions:
-    """Detect exchanged labels, which the detectors after it undo first (except those of the preset `paper`)."""
+    """Detect exchanged labels.
+
+    The detectors that come after look at trajectories on which these exchanges are undone; those of the preset `paper` look
+    at the trajectories as recorded. Without `labels` among `detect`, nothing is exchanged anywhere.
+    """
 
     floor_mm: Annotated[PositiveMillimetres, Laboratory] = 8
     """Smallest jump of an exchange.
@@ -84,7 +88,7 @@ class FrozenOptions(DetectorOptions):
     min_frames: Annotated[int, AtLeast(2), Laboratory] = 4
     """Frames with exactly the same position, at least.
 
-    Change it when your system holds positions for a few frames and this is of no concern to you (higher)."""
+    Change it when short repetitions of a position are normal in your data (higher)."""
 
     floor_mm: Annotated[Millimetres, Laboratory] = 3
     """Motion of the neighbours, and predicted motion of the marker, in the meantime, at least.
@@ -137,7 +141,7 @@ class ResidualWindowOptions:
     """Options of the matched filter on windows of the residual."""
 
     threshold_sigmas: Annotated[Positive, Laboratory] = 9.5
-    """Smallest finding, in units of the usual residual (of the usual change in the other presets, see `coordinates`).
+    """Smallest finding, in units of the usual residual.
 
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
@@ -176,7 +180,11 @@ class ResidualWindowOptions:
 
 @dataclass(frozen=True)
 class PeaksOptions(ResidualWindowOptions, DetectorOptions):
-    """Detect isolated peaks."""
+    """Detect isolated peaks.
+
+    The options here and in `advanced.peaks` are those of the preset `default`; each other preset has its own in
+    `advanced.peaks.PRESET`.
+    """
 
     preset: Preset = "default"
     """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
@@ -254,7 +262,11 @@ class IncrementOptions:
 
 @dataclass(frozen=True)
 class NoiseOptions(IncrementOptions, DetectorOptions):
-    """Detect heavy noise."""
+    """Detect heavy noise.
+
+    The options here and in `advanced.noise` are those of the preset `default`; each other preset has its own in
+    `advanced.noise.PRESET`.
+    """
 
     preset: Preset = "default"
     """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
@@ -289,7 +301,11 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
 
 @dataclass(frozen=True)
 class StepsOptions(ResidualWindowOptions, DetectorOptions):
-    """Detect steps."""
+    """Detect steps.
+
+    The options here and in `advanced.steps` are those of the preset `default`; each other preset has its own in
+    `advanced.steps.PRESET`.
+    """
 
     preset: Preset = "default"
     """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
@@ -376,7 +392,11 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
 
 @dataclass(frozen=True)
 class SlowOptions(DetectorOptions):
-    """Detect slow changes."""
+    """Detect slow changes.
+
+    The options here and in `advanced.slow` are those of the preset `default`; the preset `paper` has its own in
+    `advanced.slow.paper`.
+    """
 
     predictors: Annotated[PredictorOptions, Shared(("local_ridge", "polynomial", "replicated_network"))] = field(
         default_factory=PredictorOptions

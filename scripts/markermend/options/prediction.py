@@ -28,7 +28,7 @@ from markermend.options.declaration import (
 
 @dataclass(frozen=True)
 class LocalRidgeOptions:
-    """local_ridge: ridge regression on the neighbours, in a local frame."""
+    """Ridge regression on the neighbours in a local frame: local_ridge."""
 
     anchors: Annotated[int, AtLeast(3)] = 3
     """Markers that carry the local frame."""
@@ -71,7 +71,7 @@ class LocalRidgeOptions:
 
 @dataclass(frozen=True)
 class GaussianProcessOptions:
-    """local_gp: a Gaussian process in the local frame, beyond the options of local_ridge."""
+    """Gaussian process in the local frame, beyond the options of local_ridge: local_gp."""
 
     max_training_frames: Annotated[int, AtLeast(2)] = 500
     """Training frames, at most."""
@@ -88,7 +88,7 @@ class GaussianProcessOptions:
 
 @dataclass(frozen=True)
 class ReferenceTriangleOptions:
-    """local_interpolation, local_quadratic and local_grnn: models in the frame of three references."""
+    """Models in the frame of three references: local_interpolation, local_quadratic and local_grnn."""
 
     references: Annotated[int, AtLeast(3)] = 8
     """Best references, from which triples are drawn."""
@@ -111,7 +111,7 @@ class ReferenceTriangleOptions:
 
 @dataclass(frozen=True)
 class GlobalRegressionOptions:
-    """linear_regression: regression on all markers at a steady distance (tits2018)."""
+    """Regression on all markers at a steady distance (tits2018): linear_regression."""
 
     max_distance_deviation_mm: Millimetres = 50
     """References whose distance varies by more than this are left out."""
@@ -131,7 +131,7 @@ class GlobalRegressionOptions:
 
 @dataclass(frozen=True)
 class IteratedSvdOptions:
-    """msvd: iterated truncated singular value decomposition."""
+    """Iterated truncated singular value decomposition: msvd."""
 
     neighbours: Count = 20
     """Neighbours in the model, at most."""
@@ -163,7 +163,7 @@ class IteratedSvdOptions:
 
 @dataclass(frozen=True)
 class WeightedPcaOptions:
-    """weighted_pca: weighted principal components (Gløersen & Federolf 2016)."""
+    """Weighted principal components (Gløersen & Federolf 2016): weighted_pca."""
 
     strategy: Literal["together", "single"] = "single"
     """Whether all markers that are missing in the same frames are reconstructed `together`, or one at a time (`single`)."""
@@ -195,7 +195,7 @@ class WeightedPcaOptions:
 
 @dataclass(frozen=True)
 class KalmanSmootherOptions:
-    """kalman: low-dimensional Kalman smoother (Burke & Lasenby 2016), the member for blackouts."""
+    """Low-dimensional Kalman smoother (Burke & Lasenby 2016), the member for blackouts: kalman."""
 
     neighbours: Count = 20
     """Neighbours in the model, at most."""
@@ -227,7 +227,7 @@ class KalmanSmootherOptions:
 
 @dataclass(frozen=True)
 class BoleroOptions:
-    """bolero: linear dynamical system with soft bone lengths (Li et al. 2009, 2010)."""
+    """Linear dynamical system with soft bone lengths (Li et al. 2009, 2010): bolero."""
 
     state_dimensions: Count = 16
     """Dimensions of the state, at most."""
@@ -268,7 +268,7 @@ class BoleroOptions:
 
 @dataclass(frozen=True)
 class LaggedRegressionOptions:
-    """polynomial: polynomial least squares on siblings and parent marker (skurowski2022)."""
+    """Polynomial least squares on siblings and parent marker (skurowski2022): polynomial."""
 
     neighbours: Count = 6
     """Nearest neighbours that are used where siblings and parent marker are not known."""
@@ -294,7 +294,7 @@ class LaggedRegressionOptions:
 
 @dataclass(frozen=True)
 class ReplicatedNetworkOptions(LaggedRegressionOptions):
-    """replicated_network: neural network with replicated outputs (skurowski2022)."""
+    """Neural network with replicated outputs (skurowski2022): replicated_network."""
 
     lags: CountOrNone = 1
     """Earlier samples that are used."""
@@ -339,7 +339,7 @@ class ReplicatedNetworkOptions(LaggedRegressionOptions):
 
 @dataclass(frozen=True)
 class NeuralNetworkOptions:
-    """network_linear, network_tanh, network_lstm, network_gru and network_bilstm (Skurowski & Pawlyta 2021); they need torch."""
+    """Neural networks (Skurowski & Pawlyta 2021), which need torch: network_linear, _tanh, _lstm, _gru and _bilstm."""
 
     inputs: Count = 5
     """Neighbours that are inputs of a network, at most."""
@@ -405,7 +405,7 @@ class NeuralNetworkOptions:
 
 @dataclass(frozen=True)
 class InterpolationOptions:
-    """linear, spline, pchip and makima: interpolation of the marker's own trajectory."""
+    """Interpolation of the marker's own trajectory: linear, spline, pchip and makima."""
 
     knots: Annotated[int, AtLeast(2)] = 30
     """Observed samples on either side of a gap through which an interpolation goes, at most."""
@@ -413,7 +413,11 @@ class InterpolationOptions:
 
 @dataclass(frozen=True)
 class PredictorOptions:
-    """Predictors, which detection, repair and filling share."""
+    """Make the predictors, which detection, repair and filling share.
+
+    `fill.members` may name all of them and the variants of local_ridge; `repair.methods` may name local_ridge, linear, spline,
+    pchip, makima, polynomial and replicated_network, and the preset `paper` of slow changes the two last.
+    """
 
     local_ridge: LocalRidgeOptions = field(default_factory=LocalRidgeOptions)
     """Ridge regression on the neighbours, in a local frame: the predictor of detection, repair and filling."""
@@ -430,10 +434,11 @@ class PredictorOptions:
     """The predictors linear, spline, pchip and makima."""
 
     polynomial: LaggedRegressionOptions = field(default_factory=LaggedRegressionOptions)
-    """Polynomial least squares on siblings and parent marker (skurowski2022)."""
+    """Polynomial least squares that predict a marker from its siblings and its parent marker (skurowski2022)."""
 
     replicated_network: ReplicatedNetworkOptions = field(default_factory=ReplicatedNetworkOptions)
-    """Neural network with replicated outputs (skurowski2022)."""
+    """One neural network with replicated outputs per marker, trained by scaled conjugate gradient (skurowski2022); it takes about
+    half a second to a second per marker."""
 
     linear_regression: GlobalRegressionOptions = field(default_factory=GlobalRegressionOptions)
     """Regression on all markers at a steady distance (tits2018)."""

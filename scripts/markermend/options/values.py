@@ -362,7 +362,7 @@ def text(value: Any) -> str:
     Returns
     -------
     str
-        `none`, `true`, `false`, a number, a text as it is, or JSON.
+        `none`, `true`, `false`, a number as YAML 1.1 reads it (`1.0e-06`), a text as it is, or JSON.
     """
     if value is None:
         return "none"
@@ -370,8 +370,11 @@ def text(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, dict | list):
         return json.dumps(value, sort_keys=True, ensure_ascii=False)
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return str(int(value))
+    if isinstance(value, float):
+        if value.is_integer() and abs(value) < 1e15:
+            return str(int(value))
+        mantissa, mark, exponent = repr(value).partition("e")
+        return f"{mantissa}{'.0' if mark and '.' not in mantissa else ''}{mark}{exponent}"
     return str(value)
 
 

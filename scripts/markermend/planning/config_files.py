@@ -6,6 +6,7 @@ Writes: config/config.yaml, workflow/schemas/config.schema.yaml, and what stands
 
 from __future__ import annotations
 
+import inspect
 import textwrap
 import types
 from collections.abc import Iterator, Mapping
@@ -28,7 +29,7 @@ from markermend.options.declaration import (
     marked,
     peel,
 )
-from markermend.options.values import plain
+from markermend.options.values import plain, text
 from markermend.storage import atomic
 
 BEGIN, END = "<!-- options: begin, made by `make config` -->", "<!-- options: end -->"
@@ -52,10 +53,7 @@ def value(content: Any) -> str:
         As YAML 1.1 reads it back; whole numbers have no decimals.
     """
     if isinstance(content, float):
-        if content.is_integer() and abs(content) < 1e15:
-            return str(int(content))
-        mantissa, mark, exponent = repr(content).partition("e")
-        return f"{mantissa}{'' if '.' in mantissa or not mark else '.0'}{mark}{exponent}"
+        return text(content)
     if isinstance(content, dict):
         return "{" + ", ".join(f"{value(key)}: {value(own)}" for key, own in content.items()) + "}"
     if isinstance(content, list):
@@ -93,6 +91,22 @@ def title(cls: type) -> str:
         The first sentence of its docstring, without the full stop.
     """
     return (cls.__doc__ or "").partition("\n")[0].removesuffix(".")
+
+
+def explanation(cls: type) -> str:
+    """Explain a section beyond its title.
+
+    Parameters
+    ----------
+    cls : type
+        The class of its options.
+
+    Returns
+    -------
+    str
+        The rest of the docstring.
+    """
+    return (inspect.getdoc(cls) or "").partition("\n\n")[2]
 
 
 def config_yaml() -> str:
@@ -233,6 +247,7 @@ def tables() -> str:
         A heading and a table for each section, the laboratory's first.
     """
     blocks = []
+    unseen = set(SECTIONS)
     for prefix, sections in tiers():
         if prefix:
             blocks.append(
@@ -243,8 +258,10 @@ def tables() -> str:
             place = f"`{prefix}.{name}`" if prefix else f"`{name}`"
             own = f"## {heading}" if name == GENERAL else f"{'###' if prefix else '##'} {place}: {_lower(heading)}"
             rows = [row for option in options for row in _rows(option, getattr(SECTIONS[name](), option.name), "")]
+            prose = explanation(SECTIONS[name]) if name in unseen else ""
+            unseen.discard(name)
             head = ["| key | meaning, unit | default | change it when |", "|---|---|---|---|"]
-            blocks.append("\n".join([own, "", *head, *rows]))
+            blocks.append("\n".join([own, "", *([prose, ""] if prose else []), *head, *rows]))
     return "\n\n".join(blocks)
 
 
@@ -263,12 +280,12 @@ def _rows(option: Option, default: Any, prefix: str) -> Iterator[str]:
         yield from _rows(inner, getattr(default, inner.name), f"{name}.")
 
 
-def readme(text: str) -> str:
+def readme(page: str) -> str:
     """Put the tables into config/README.md.
 
     Parameters
     ----------
-    text : str
+    page : str
         The page.
 
     Returns
@@ -281,7 +298,7 @@ def readme(text: str) -> str:
     ValueError
         If the markers are not there.
     """
-    before, begin, rest = text.partition(BEGIN)
+    before, begin, rest = page.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
         raise ValueError(f"config/README.md lacks the markers {BEGIN} and {END}")

@@ -65,6 +65,10 @@ def test_about_forty_options_are_for_laboratories():
         ({"ingest": {"static_names": ["("]}}, "ingest.static_names[0]: '(' is not a regular expression"),
         ({"detect": ["peaks", "peaks"]}, "detect: 'peaks' is there twice"),
         ({"detect": ["swaps"]}, "detect[0]: 'swaps' is none of labels, frozen"),
+        (
+            {"advanced": {"predictors": {"bolero": {"tolerance": "1e-6"}}}},
+            "advanced.predictors.bolero.tolerance: '1e-6' is not a number, such as 0.0001",
+        ),
         ({"results": ""}, "results: it must not be empty"),
         ({"qc": 3}, "qc: 3 is not a mapping of keys to values"),
         ({"peeks": {}}, "peeks: there is no such key; did you mean peaks?"),

@@ -111,7 +111,7 @@ def test_plain_values_are_what_json_knows():
 
 
 @pytest.mark.parametrize(
-    ("value", "words"), [(None, "none"), (True, "true"), (2.0, "2"), (1e-6, "1e-06"), ([1], "[1]"), ("-x", "-x")]
+    ("value", "words"), [(None, "none"), (True, "true"), (2.0, "2"), (1e-6, "1.0e-06"), ([1], "[1]"), ("-x", "-x")]
 )
 def test_a_value_as_text(value, words):
     assert text(value) == words
