@@ -2,37 +2,87 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 NEWTON_STEPS = 40
 """Largest number of Newton steps to an eigenvalue; a handful is usual."""
 
 
-def align(points: np.ndarray, template: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Fit a rigid template to points in all frames at once (the orthogonal Procrustes problem without reflections).
+@dataclass(frozen=True, eq=False)
+class LocalFrames:
+    """Frames of reference on a body, one at each of n frames of a recording.
 
-    A laboratory position ``x`` has the local coordinates ``(x - origin) @ rotation``.
+    Attributes
+    ----------
+    axes : np.ndarray
+        Rotations (n, 3, 3): their columns are the local axes in laboratory coordinates.
+    origin : np.ndarray
+        Origins (n, 3), mm, in the laboratory.
+    """
+
+    axes: np.ndarray
+    origin: np.ndarray
+
+    def local(self, points: np.ndarray) -> np.ndarray:
+        """Express laboratory positions in the local frames.
+
+        Parameters
+        ----------
+        points : np.ndarray
+            Positions in the laboratory, (n, 3) or (n, k, 3), mm.
+
+        Returns
+        -------
+        np.ndarray
+            Local positions of the same shape, mm.
+        """
+        local: np.ndarray
+        if points.ndim == 2:
+            local = np.einsum("ni,nij->nj", points - self.origin, self.axes)
+        else:
+            local = np.einsum("nki,nij->nkj", points - self.origin[:, None], self.axes)
+        return local
+
+    def laboratory(self, local: np.ndarray) -> np.ndarray:
+        """Express local positions in the laboratory.
+
+        Parameters
+        ----------
+        local : np.ndarray
+            Local positions (n, 3), mm.
+
+        Returns
+        -------
+        np.ndarray
+            Positions (n, 3) in the laboratory, mm.
+        """
+        positions: np.ndarray = np.einsum("nj,nij->ni", local, self.axes) + self.origin
+        return positions
+
+
+def align(points: np.ndarray, template: np.ndarray) -> LocalFrames:
+    """Fit a rigid template to points in all frames at once (the orthogonal Procrustes problem without reflections).
 
     Parameters
     ----------
     points : np.ndarray
-        Points (frames, k, 3), mm, without NaN.
+        Points (n, k, 3), mm, without NaN.
     template : np.ndarray
         Template (k, 3), mm, centred.
 
     Returns
     -------
-    rotation : np.ndarray
-        Rotations (frames, 3, 3) from local to laboratory axes.
-    origin : np.ndarray
-        Origins (frames, 3), mm: the means of the points.
+    LocalFrames
+        The frames in which the points are nearest to the template; their origins are the means of the points.
 
     References
     ----------
     Kabsch (1976), Acta Crystallographica A 32(5).
     """
     origin = points.mean(axis=1)
-    return nearest_rotations(np.einsum("nki,kj->nij", points - origin[:, None], template)), origin
+    return LocalFrames(nearest_rotations(np.einsum("nki,kj->nij", points - origin[:, None], template)), origin)
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
@@ -127,8 +177,7 @@ def mean_shape(points: np.ndarray) -> np.ndarray:
     typical = int(np.argmin(np.abs(distances - np.median(distances, axis=0)).sum(axis=1)))
     shape: np.ndarray = centred[typical]
     for _ in range(2):
-        rotation, _ = align(points, shape)
-        median = np.median(centred @ rotation, axis=0)
+        median = np.median(centred @ align(points, shape).axes, axis=0)
         shape = median - median.mean(axis=0)
     return shape
 

@@ -1,1 +1,1 @@
-"""Predictors by regression on lagged coordinates of the segment mates (skurowski2022 3.3)."""
+"""Regressions of a marker on the present and past laboratory coordinates of its segment mates (skurowski2022)."""

@@ -1,4 +1,4 @@
-"""Small feed-forward networks, many at once: layers of tanh and a linear output that is there several times.
+"""Small feed-forward networks, many at once: layers of tanh and a replicated linear output.
 
 The first axis of every array counts the networks. A network's parameters are one vector: layer by layer its weights
 (inputs, outputs), then its offsets.
@@ -15,11 +15,24 @@ Layers = list[tuple[np.ndarray, np.ndarray]]
 """Weights (networks, inputs, outputs) and offsets (networks, 1, outputs) of each layer."""
 
 CACHED = 200_000
-"""Numbers that are worked on at once: beyond a processor's cache many small networks together are slower than in turn."""
+"""Numbers processed at once: beyond a processor's cache, many small networks together are slower than in turn."""
 
 
 def split(parameters: np.ndarray, sizes: Sequence[int]) -> Layers:
-    """The layers that parameters (networks, n) hold; sizes: of the input, the hidden layers and the output."""
+    """Split parameters into the weights and offsets of the layers.
+
+    Parameters
+    ----------
+    parameters : np.ndarray
+        Parameters (networks, n).
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
+
+    Returns
+    -------
+    Layers
+        Views into the parameters.
+    """
     layers, at = [], 0
     for inputs, outputs in pairwise(sizes):
         weights = parameters[:, at : at + inputs * outputs].reshape(-1, inputs, outputs)
@@ -30,10 +43,22 @@ def split(parameters: np.ndarray, sizes: Sequence[int]) -> Layers:
 
 
 def initial(sizes: Sequence[int], *, rng: np.random.Generator) -> np.ndarray:
-    """Random parameters (n,) of one network.
+    """Draw the first parameters of one network.
 
-    A layer's weights vary with one over the root of the number of its inputs, its offsets by 1, so that units bend at
-    different places.
+    Weights have a standard deviation of one over the root of the number of inputs; offsets one of 1, so that the units
+    bend at different places.
+
+    Parameters
+    ----------
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
+    rng : np.random.Generator
+        Source of randomness.
+
+    Returns
+    -------
+    np.ndarray
+        Parameters (n,).
     """
     parts = []
     for inputs, outputs in pairwise(sizes):
@@ -42,7 +67,22 @@ def initial(sizes: Sequence[int], *, rng: np.random.Generator) -> np.ndarray:
 
 
 def activations(parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray) -> list[np.ndarray]:
-    """What goes into each layer, and last what comes out, each (networks, n, size), for rows (networks, n, inputs)."""
+    """Compute the activations of all layers.
+
+    Parameters
+    ----------
+    parameters : np.ndarray
+        Parameters (networks, n).
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
+    rows : np.ndarray
+        Inputs (networks, rows, inputs).
+
+    Returns
+    -------
+    list[np.ndarray]
+        The inputs of each layer and, last, the output, each (networks, rows, size).
+    """
     layers = split(parameters, sizes)
     out = [rows]
     for number, (weights, offsets) in enumerate(layers, 1):
@@ -53,7 +93,28 @@ def activations(parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray) 
 
 
 def mean_output(parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray, *, size: int) -> np.ndarray:
-    """The mean of the replicas of an output of so many values, (networks, n, size); source: skurowski2022 eq 10."""
+    """Average the replicas of the output.
+
+    Parameters
+    ----------
+    parameters : np.ndarray
+        Parameters (networks, n).
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
+    rows : np.ndarray
+        Inputs (networks, rows, inputs).
+    size : int
+        Size of one replica.
+
+    Returns
+    -------
+    np.ndarray
+        Mean outputs (networks, rows, size).
+
+    References
+    ----------
+    skurowski2022 eq 10.
+    """
     last = activations(parameters, sizes, rows)[-1]
     mean: np.ndarray = last.reshape(*last.shape[:2], -1, size).mean(axis=2)
     return mean
@@ -62,9 +123,27 @@ def mean_output(parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray, 
 def loss(
     parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray, target: np.ndarray, weight: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Half the weighted square error of all replicas, (networks,), and its gradient, like parameters.
+    """Compute half the weighted square error, averaged over the replicas, and its gradient by backpropagation.
 
-    rows: (networks, n, inputs). target: (networks, n, size of one replica). weight: (networks, n), of the rows.
+    Parameters
+    ----------
+    parameters : np.ndarray
+        Parameters (networks, n).
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
+    rows : np.ndarray
+        Inputs (networks, rows, inputs).
+    target : np.ndarray
+        Targets (networks, rows, size of one replica).
+    weight : np.ndarray
+        Weights of the rows (networks, rows).
+
+    Returns
+    -------
+    loss : np.ndarray
+        Losses (networks,).
+    gradient : np.ndarray
+        Gradients (networks, n).
     """
     layers = split(parameters, sizes)
     inward = activations(parameters, sizes, rows)
@@ -82,31 +161,65 @@ def loss(
 
 
 class Stack:
-    """The data of many networks, and how far the networks are off on them.
+    """The data of many networks, and their losses on them.
 
-    Networks may have different numbers of rows: they are filled up with zeros of weight zero.
+    Networks may have different numbers of rows: rows of zeros with weight zero make them equal.
+
+    Parameters
+    ----------
+    data : Sequence[tuple[np.ndarray, np.ndarray]]
+        Inputs (rows, inputs) and targets (rows, size of one replica) of each network.
+    sizes : Sequence[int]
+        Sizes of the input, the hidden layers and the output.
     """
 
     def __init__(self, data: Sequence[tuple[np.ndarray, np.ndarray]], sizes: Sequence[int]) -> None:
-        """data: for each network its rows (n, inputs) and targets (n, size of one replica)."""
-        most = max(len(rows) for rows, _ in data)
+        longest = max(len(rows) for rows, _ in data)
         self.sizes = sizes
-        self.rows = np.stack([_filled(rows, most) for rows, _ in data])
-        self.target = np.stack([_filled(target, most) for _, target in data])
-        self.weight = np.stack([_filled(np.full(len(rows), 1 / len(rows)), most) for rows, _ in data])
-        self._together = max(1, CACHED // (most * sum(sizes)))
+        self.rows = np.stack([_padded(rows, longest) for rows, _ in data])
+        self.target = np.stack([_padded(target, longest) for _, target in data])
+        self.weight = np.stack([_padded(np.full(len(rows), 1 / len(rows)), longest) for rows, _ in data])
+        self._together = max(1, CACHED // (longest * sum(sizes)))
 
     def loss(self, parameters: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """See `loss`, for the parameters of some of the networks."""
+        """Compute losses and gradients of some of the networks.
+
+        Parameters
+        ----------
+        parameters : np.ndarray
+            Their parameters (b, n).
+        which : np.ndarray
+            Their indices (b,), ascending.
+
+        Returns
+        -------
+        loss : np.ndarray
+            Half the mean square errors (b,).
+        gradient : np.ndarray
+            Gradients (b, n).
+        """
         parts = [loss(own, self.sizes, *data) for own, *data in self._blocks(parameters, which)]
         return np.concatenate([value for value, _ in parts]), np.concatenate([gradient for _, gradient in parts])
 
     def error(self, parameters: np.ndarray, which: np.ndarray) -> np.ndarray:
-        """Mean square error of the mean output of some of the networks, (networks,)."""
+        """Compute the mean square error of the mean output of some of the networks.
+
+        Parameters
+        ----------
+        parameters : np.ndarray
+            Their parameters (b, n).
+        which : np.ndarray
+            Their indices (b,), ascending.
+
+        Returns
+        -------
+        np.ndarray
+            Mean square errors (b,).
+        """
         out = []
         for own, rows, target, weight in self._blocks(parameters, which):
-            off = mean_output(own, self.sizes, rows, size=target.shape[2]) - target
-            out.append(np.einsum("bna,bna,bn->b", off, off, weight))
+            difference = mean_output(own, self.sizes, rows, size=target.shape[2]) - target
+            out.append(np.einsum("bna,bna,bn->b", difference, difference, weight))
         return np.concatenate(out)
 
     def _blocks(self, parameters: np.ndarray, which: np.ndarray) -> Iterator[tuple[np.ndarray, ...]]:
@@ -117,6 +230,6 @@ class Stack:
             yield parameters[first : first + len(some)], self.rows[place], self.target[place], self.weight[place]
 
 
-def _filled(values: np.ndarray, count: int) -> np.ndarray:
+def _padded(values: np.ndarray, count: int) -> np.ndarray:
     """Values with zeros after them to a length of `count`."""
     return np.concatenate([values, np.zeros((count - len(values), *values.shape[1:]))])

@@ -1,7 +1,7 @@
-"""Replicated feed-forward network (skurowski2022 3.3.3): a marker from its relatives, and from where it is on average.
+"""Replicated feed-forward network (skurowski2022 3.3.3): a marker from its segment mates and its own moving average.
 
-Its three outputs are there several times and their mean is the prediction: begun at random and not trained to the end,
-the replicas err in different ways. The networks of many markers are trained together.
+The output is replicated, and the mean of the replicas is the prediction: started at random and stopped early, they err
+in different ways. The networks of many markers are trained together.
 """
 
 from __future__ import annotations
@@ -14,104 +14,172 @@ from markermend.numerics import intervals
 from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimise
 from markermend.options.prediction import ReplicatedNetworkOptions
 from markermend.prediction.lagged_regression.feed_forward import Stack, initial, mean_output
-from markermend.prediction.lagged_regression.polynomial import raised
-from markermend.prediction.lagged_regression.predictor import LaggedRegression, Learned, Task
+from markermend.prediction.lagged_regression.polynomial import MIN_DEVIATION_MM, powers
+from markermend.prediction.lagged_regression.predictor import LaggedRegression, Regression, TrainingSet
 from markermend.prediction.scene import Scene
 
 
 class ReplicatedNetwork(LaggedRegression):
-    """The replicated network as a predictor; states no error, as the held-out frames lie too near to those trained on."""
+    """The replicated network as a predictor; it states no error, as the held-out frames lie too near to the others.
+
+    Parameters
+    ----------
+    options : ReplicatedNetworkOptions
+        Options of the inputs, the network and the training.
+    """
 
     name = "replicated_network"
     options: ReplicatedNetworkOptions
 
     def __init__(self, options: ReplicatedNetworkOptions) -> None:
-        """Keep the options; nothing is trained before a marker is asked for."""
         super().__init__(options)
 
     def rows(self, scene: Scene, marker: int, inputs: np.ndarray, frames: np.ndarray) -> np.ndarray:
-        """The relatives' coordinates and, last, the marker's own moving average (skurowski2022 eq 11), (n, k), mm."""
+        """Assemble the lagged inputs and, last, the marker's own moving average. See `LaggedRegression.rows`."""
         window = intervals.samples(self.options.moving_average_s, scene.rate)
         average = scene.cached((self.name, window, marker), lambda: moving_average(scene.positions[:, marker], window))
         return np.concatenate([super().rows(scene, marker, inputs, frames), average[frames]], axis=1)
 
-    def learn(self, tasks: Sequence[Task]) -> list[Learned]:
-        """See LaggedRegression. Networks with as many inputs advance together."""
-        scalings = [Scaling(task, self.options.max_power) for task in tasks]
-        learned: dict[int, Learned] = {}
+    def fit(self, training: Sequence[TrainingSet]) -> list[Regression]:
+        """Train the networks, those with equally many inputs together. See `LaggedRegression.fit`."""
+        scalings = [Scaling(own, self.options.max_power) for own in training]
+        trained: dict[int, Regression] = {}
         for width in {scaling.width for scaling in scalings}:
-            alike = [number for number, scaling in enumerate(scalings) if scaling.width == width]
+            group = [number for number, scaling in enumerate(scalings) if scaling.width == width]
             sizes = (width, *self.options.hidden_units, 3 * self.options.replicas)
-            found = self._train([tasks[number] for number in alike], [scalings[number] for number in alike], sizes)
-            for number, parameters in zip(alike, found, strict=True):
-                learned[number] = scalings[number].learned(parameters, sizes)
-        return [learned[number] for number in range(len(tasks))]
+            found = self._train([training[number] for number in group], [scalings[number] for number in group], sizes)
+            for number, parameters in zip(group, found, strict=True):
+                trained[number] = scalings[number].regression(parameters, sizes)
+        return [trained[number] for number in range(len(training))]
 
-    def _train(self, tasks: Sequence[Task], scalings: Sequence[Scaling], sizes: Sequence[int]) -> np.ndarray:
-        """Parameters (tasks, n) of networks, each begun as its marker and the seed say."""
+    def _train(self, training: Sequence[TrainingSet], scalings: Sequence[Scaling], sizes: Sequence[int]) -> np.ndarray:
+        """Parameters (networks, n), each started by the seed and the marker, stopped by its error on held-out frames."""
         options = self.options
-        each = round(1 / options.validation_share)
-        held = [np.arange(len(task.frames)) % each == each // 2 for task in tasks]
-        parts = list(zip(tasks, scalings, held, strict=True))
-        trained = Stack([scaling.data(task, ~out) for task, scaling, out in parts], sizes)
-        judged = Stack([scaling.data(task, out) for task, scaling, out in parts], sizes)
-        start = [initial(sizes, rng=np.random.default_rng([options.seed, task.marker])) for task in tasks]
+        every = round(1 / options.validation_share)
+        held = [np.arange(len(own.frames)) % every == every // 2 for own in training]
+        parts = list(zip(training, scalings, held, strict=True))
+        trained = Stack([scaling.data(own, ~out) for own, scaling, out in parts], sizes)
+        validation = Stack([scaling.data(own, out) for own, scaling, out in parts], sizes)
+        start = [initial(sizes, rng=np.random.default_rng([options.seed, own.marker])) for own in training]
         return minimise(
             trained.loss,
             np.stack(start),
             options=DescentOptions(
                 options.max_iterations, options.gradient_tolerance, options.curvature_step, options.patience
             ),
-            held_out=judged.error,
+            held_out=validation.error,
         ).parameters
 
 
 class Scaling:
-    """How rows of one task become what its network sees: standardized coordinates, their powers, and the average."""
+    """How rows of inputs become those of the network: standardised coordinates, their powers, and the average.
 
-    def __init__(self, task: Task, powers: int) -> None:
-        self.powers = powers
-        self.middle, self.scale = _spread(task.rows)
-        self.second_middle, self.second_scale = np.zeros(1), np.ones(1)
-        self.second_middle, self.second_scale = _spread(self.features(task.rows))
-        self.centre, self.size = _spread(task.target)
-        self.width = len(self.second_middle)
+    Parameters
+    ----------
+    training : TrainingSet
+        The training set that sets means and deviations.
+    max_power : int
+        Highest power of a coordinate.
+    """
+
+    def __init__(self, training: TrainingSet, max_power: int) -> None:
+        self.max_power = max_power
+        self.mean, self.deviation = _moments(training.rows)
+        self.feature_mean, self.feature_deviation = np.zeros(1), np.ones(1)
+        self.feature_mean, self.feature_deviation = _moments(self.features(training.rows))
+        self.target_mean, self.target_deviation = _moments(training.target)
+        self.width = len(self.feature_mean)
 
     def features(self, rows: np.ndarray) -> np.ndarray:
-        """Inputs of the network, (n, width)."""
-        plain = (rows - self.middle) / self.scale
-        features = np.concatenate([*raised(plain[:, :-3], self.powers), plain[:, -3:]], axis=1)
-        return (features - self.second_middle) / self.second_scale
+        """Compute the inputs of the network.
 
-    def data(self, task: Task, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What a network is given (n, width) and is to say (n, 3) at the chosen of its task's frames."""
-        return self.features(task.rows[chosen]), (task.target[chosen] - self.centre) / self.size
+        Parameters
+        ----------
+        rows : np.ndarray
+            Rows (n, k), mm.
 
-    def learned(self, parameters: np.ndarray, sizes: Sequence[int]) -> Learned:
-        """The trained network."""
+        Returns
+        -------
+        np.ndarray
+            Standardised features (n, width).
+        """
+        scores = (rows - self.mean) / self.deviation
+        features = np.concatenate([*powers(scores[:, :-3], self.max_power), scores[:, -3:]], axis=1)
+        standardised: np.ndarray = (features - self.feature_mean) / self.feature_deviation
+        return standardised
 
-        def model(rows: np.ndarray) -> np.ndarray:
-            said = mean_output(parameters[None], sizes, self.features(rows)[None], size=3)[0]
-            return said * self.size + self.centre
+    def data(self, training: TrainingSet, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Standardise some frames of a training set.
 
-        return Learned(model, np.nan)
+        Parameters
+        ----------
+        training : TrainingSet
+            The training set.
+        chosen : np.ndarray
+            Which of its frames, bool (n,).
+
+        Returns
+        -------
+        features : np.ndarray
+            Inputs (m, width).
+        targets : np.ndarray
+            Standardised targets (m, 3).
+        """
+        targets = (training.target[chosen] - self.target_mean) / self.target_deviation
+        return self.features(training.rows[chosen]), targets
+
+    def regression(self, parameters: np.ndarray, sizes: Sequence[int]) -> Regression:
+        """Make a regression of a trained network.
+
+        Parameters
+        ----------
+        parameters : np.ndarray
+            Parameters of the network (n,).
+        sizes : Sequence[int]
+            Sizes of its layers.
+
+        Returns
+        -------
+        Regression
+            The network between millimetres and millimetres.
+        """
+
+        def predict(rows: np.ndarray) -> np.ndarray:
+            scores = mean_output(parameters[None], sizes, self.features(rows)[None], size=3)[0]
+            positions: np.ndarray = scores * self.target_deviation + self.target_mean
+            return positions
+
+        return Regression(predict, np.nan)
 
 
-def moving_average(course: np.ndarray, window: int) -> np.ndarray:
-    """Mean of what is seen of a course (frames, 3) within half a window of each frame; where nothing is, a straight line."""
-    seen = ~np.isnan(course).any(axis=1)
-    values = np.concatenate([np.where(seen[:, None], course, 0), seen[:, None]], axis=1)
+def moving_average(trajectory: np.ndarray, window: int) -> np.ndarray:
+    """Average a trajectory over a centred window, with straight lines where the window shows nothing.
+
+    Parameters
+    ----------
+    trajectory : np.ndarray
+        Positions (frames, 3), mm, NaN = missing.
+    window : int
+        Length of the window, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Averages of what is observed (frames, 3), mm; NaN throughout if nothing is.
+    """
+    observed = ~np.isnan(trajectory).any(axis=1)
+    values = np.concatenate([np.where(observed[:, None], trajectory, 0), observed[:, None]], axis=1)
     total = np.concatenate([np.zeros((1, 4)), np.cumsum(values, axis=0)])
-    frames = np.arange(len(course))
-    last = np.minimum(frames + window // 2 + 1, len(course))
+    frames = np.arange(len(trajectory))
+    last = np.minimum(frames + window // 2 + 1, len(trajectory))
     total = total[last] - total[np.maximum(frames - window // 2, 0)]
     known = np.flatnonzero(total[:, 3])
     if len(known) == 0:
-        return np.full(course.shape, np.nan)
+        return np.full(trajectory.shape, np.nan)
     mean = total[known, :3] / total[known, 3:]
     return np.stack([np.interp(frames, known, axis) for axis in mean.T], axis=1)
 
 
-def _spread(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and standard deviation of each column; what hardly varies is not blown up."""
-    return rows.mean(axis=0), np.maximum(rows.std(axis=0), 1e-3)
+def _moments(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and standard deviation of each column, the latter bounded from below."""
+    return rows.mean(axis=0), np.maximum(rows.std(axis=0), MIN_DEVIATION_MM)

@@ -1,1 +1,1 @@
-"""Ridge regression in a frame on the body, and the residual carried on by kriging."""
+"""Regression of a marker on its neighbours in a local frame on the body, with kriging of the residual."""

@@ -1,8 +1,9 @@
-"""Which neighbours make the frame of a local ridge, which are its inputs, and which frames train it."""
+"""Choice of anchors, inputs and training frames of a local ridge, and the training data that follow."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -10,131 +11,169 @@ import numpy as np
 from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
 from markermend.options.prediction import LocalRidgeOptions
-from markermend.prediction.local_ridge.model import RidgeModel, robust_weights
+from markermend.prediction.local_ridge.model import TrainingSet, robust_weights
 from markermend.prediction.marker_selection import pseudo_random_subset
 from markermend.prediction.scene import Scene
 
+MIN_ANCHORS = 3
+"""Markers that define a local frame, at least."""
+
+EXTRA_ANCHORS = 3
+"""Anchors that are added, at most, to a frame of too little extent."""
+
 SHAPE_FRAMES = 200
-"""From so many frames the mean shape of the anchors is found: more tell the same."""
+"""Frames from which the mean shape of the anchors is estimated; more change it little."""
+
+OFTEN = 0.9
+"""A neighbour observed in a smaller share of the frames to predict comes after those that are there throughout."""
+
+MIN_JOINT_SHARE = 0.6
+"""Share of the anchors' joint frames that the inputs together leave for training, at least."""
 
 
-class RidgeChoice:
-    """Makes the models that a local ridge needs for some frames; a scene remembers them."""
+@dataclass(frozen=True, eq=False)
+class Assignment:
+    """Training data, which of their inputs are used, and the frames to predict with them.
+
+    Attributes
+    ----------
+    data : TrainingSet
+        The training data.
+    used : np.ndarray
+        Which of the inputs are observed in these frames, bool (k,).
+    rows : np.ndarray
+        The frames (n,), ascending.
+    """
+
+    data: TrainingSet
+    used: np.ndarray
+    rows: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Anchors:
+    """Markers (a,) that carry a local frame, the frames (mask) that show them and the target, their mean shape (a, 3)."""
+
+    markers: np.ndarray
+    observed: np.ndarray
+    shape: np.ndarray
+
+
+class InputSelection:
+    """Chooses the training data that a local ridge needs for some frames; a scene caches them.
+
+    Parameters
+    ----------
+    options : LocalRidgeOptions
+        How many anchors, inputs and frames to use.
+    """
 
     def __init__(self, options: LocalRidgeOptions) -> None:
         self.options = options
 
-    def models(
-        self, scene: Scene, marker: int, frames: np.ndarray
-    ) -> Iterator[tuple[RidgeModel, np.ndarray, np.ndarray]]:
-        """Yield (model, inputs used, frames) such that each frame that can be predicted appears once."""
+    def assignments(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[Assignment]:
+        """Assign training data to the frames in which a marker is to be predicted.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+        marker : int
+            Index of the marker.
+        frames : np.ndarray
+            Frames (n,) to predict, ascending.
+
+        Yields
+        ------
+        Assignment
+            Each frame that can be predicted is in one of them.
+        """
         candidates = self._candidates(scene, marker, frames)
-        if len(candidates) < 3 or len(frames) == 0:
+        if len(candidates) < MIN_ANCHORS or len(frames) == 0:
             return
         present = scene.present[np.ix_(frames, candidates)]
-        # A frame's anchors are its first present candidates; frames that share them share a model.
+        # A frame's anchors are its first observed candidates; frames that share them share training data.
         leading = present & (np.cumsum(present, axis=1) <= self.options.anchors)
-        for anchors, rows in group_rows(leading):
-            if anchors.sum() < 3:
+        for first, rows in group_rows(leading):
+            if first.sum() < MIN_ANCHORS:
                 continue
-            often, ever = present[rows].all(axis=0), present[rows].any(axis=0)
-            model = self._fit(scene, marker, candidates, np.flatnonzero(anchors), often, ever)
-            if model is None:
+            data = self._training_set(scene, marker, candidates, np.flatnonzero(first), present[rows])
+            if data is None:
                 continue
-            seen = scene.present[np.ix_(frames[rows], model.inputs)]
-            for used, members in group_rows(seen):
-                yield model, used, frames[rows][members]
+            observed = scene.present[np.ix_(frames[rows], data.inputs)]
+            for used, members in group_rows(observed):
+                yield Assignment(data, used, frames[rows][members])
 
     def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
-        """Neighbours to use for these frames: steadiest first, but those that are there throughout come before."""
+        """Neighbours to use for these frames: in the mesh's order, but those that are often missing come last."""
         ranked = np.asarray(scene.neighbours[marker], int)
         ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.min_training_frames]
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
         share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
-        return ranked[np.argsort(share < 0.9, kind="stable")][: 2 * self.options.inputs]
+        candidates: np.ndarray = ranked[np.argsort(share < OFTEN, kind="stable")][: 2 * self.options.inputs]
+        return candidates
 
-    def _fit(
-        self,
-        scene: Scene,
-        marker: int,
-        candidates: np.ndarray,
-        anchors: np.ndarray,
-        throughout: np.ndarray,
-        ever: np.ndarray,
-    ) -> RidgeModel | None:
-        """Train in the frame of `anchors` (positions in candidates); None where they share too few frames.
+    def _training_set(
+        self, scene: Scene, marker: int, candidates: np.ndarray, first: np.ndarray, present: np.ndarray
+    ) -> TrainingSet | None:
+        """Training data in the frame of the first anchors and, if these have too little extent, of further ones.
 
-        throughout, ever: (candidates,), which are seen in all and in any of the frames to predict.
+        first: places of the anchors in candidates. present: (frames to predict, candidates). None for too few frames.
         """
-        chosen = list(anchors)
-        together, shape = self._shape(scene, marker, candidates[chosen])
-        if shape is None:
+        chosen = list(first)
+        anchors = self._anchors(scene, marker, candidates[chosen])
+        if anchors is None:
             return None
-        for extra in np.flatnonzero(throughout):
-            if width(shape) >= self.options.min_anchor_extent_mm or len(chosen) >= self.options.anchors + 3:
+        for extra in np.flatnonzero(present.all(axis=0)):
+            wide = width(anchors.shape) >= self.options.min_anchor_extent_mm
+            if wide or len(chosen) >= self.options.anchors + EXTRA_ANCHORS:
                 break
             if extra not in chosen:
-                wider, grown = self._shape(scene, marker, candidates[[*chosen, extra]])
-                if grown is not None:
-                    chosen, together, shape = [*chosen, extra], wider, grown
-        inputs = self._inputs(scene, together, candidates, chosen, ever)
-        key = self, marker, candidates[chosen].tobytes(), inputs.tobytes()
-        return scene.cached(key, partial(self._train, scene, marker, candidates[chosen], inputs, together, shape))
+                wider = self._anchors(scene, marker, candidates[[*chosen, extra]])
+                if wider is not None:
+                    chosen, anchors = [*chosen, extra], wider
+        others = [c for c in np.flatnonzero(present.any(axis=0)) if c not in chosen]
+        inputs = self._inputs(scene, anchors, candidates[others])
+        key = self, marker, anchors.markers.tobytes(), inputs.tobytes()
+        return scene.cached(key, partial(self._transform, scene, marker, anchors, inputs))
 
-    def _shape(self, scene: Scene, marker: int, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-        """Frames that show the marker and the anchors, and the anchors' mean shape there; None for too few frames."""
+    def _anchors(self, scene: Scene, marker: int, markers: np.ndarray) -> _Anchors | None:
+        """Anchors with their mean shape; None where too few frames show them and the marker."""
 
-        def learn() -> tuple[np.ndarray, np.ndarray | None]:
-            together = scene.present[:, marker] & scene.present[:, anchors].all(axis=1)
-            return together, _shape(scene, together, anchors, self.options.min_training_frames)
+        def compute() -> _Anchors | None:
+            observed = scene.present[:, marker] & scene.present[:, markers].all(axis=1)
+            joint = np.flatnonzero(observed)
+            if len(joint) < self.options.min_training_frames:
+                return None
+            sample = joint[np.unique(np.linspace(0, len(joint) - 1, SHAPE_FRAMES).astype(int))]
+            return _Anchors(markers, observed, mean_shape(scene.positions[np.ix_(sample, markers)]))
 
-        return scene.cached((self, "shape", marker, anchors.tobytes()), learn)
+        return scene.cached((self, "anchors", marker, markers.tobytes()), compute)
 
-    def _train(
-        self,
-        scene: Scene,
-        marker: int,
-        anchors: np.ndarray,
-        inputs: np.ndarray,
-        together: np.ndarray,
-        shape: np.ndarray,
-    ) -> RidgeModel:
-        """The training data of a model, from at most `frames` of the frames that show all that it needs."""
+    def _inputs(self, scene: Scene, anchors: _Anchors, others: np.ndarray) -> np.ndarray:
+        """The anchors, and of the other candidates the first that leave enough joint training frames."""
+        inputs, observed = list(anchors.markers), anchors.observed
+        required = max(self.options.min_training_frames, int(MIN_JOINT_SHARE * observed.sum()))
+        for candidate in others:
+            if len(inputs) >= self.options.inputs:
+                break
+            joint = observed & scene.present[:, candidate]
+            if joint.sum() >= required:
+                inputs.append(candidate)
+                observed = joint
+        return np.array(inputs)
+
+    def _transform(self, scene: Scene, marker: int, anchors: _Anchors, inputs: np.ndarray) -> TrainingSet:
+        """Local coordinates at the training frames, about their medians, with robust weights."""
         options = self.options
-        joint = np.flatnonzero(together & scene.present[:, inputs].all(axis=1))
-        # Kriging needs to know how residuals go together at every lag: evenly spaced frames would tell of a few alone.
+        joint = np.flatnonzero(anchors.observed & scene.present[:, inputs].all(axis=1))
+        # Kriging needs pairs of frames at every lag: evenly spaced frames have only multiples of one.
         training = pseudo_random_subset(joint, options.max_training_frames)
-        rotation, origin = align(scene.positions[np.ix_(training, anchors)], shape)
-        points = scene.positions[np.ix_(training, np.append(inputs, marker))] - origin[:, None]
-        local = np.einsum("nki,nij->nkj", points, rotation).reshape(len(training), -1)
+        frames = align(scene.positions[np.ix_(training, anchors.markers)], anchors.shape)
+        points = scene.positions[np.ix_(training, np.append(inputs, marker))]
+        local = frames.local(points).reshape(len(training), -1)
         centre = np.median(local, axis=0)
         local = local - centre
         weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.outlier_sigmas)
-        return RidgeModel(anchors, inputs, shape, centre, local, weights, training)
-
-    def _inputs(
-        self, scene: Scene, together: np.ndarray, candidates: np.ndarray, anchors: list[int], ever: np.ndarray
-    ) -> np.ndarray:
-        """The anchors and the next candidates that are ever seen in the frames to predict and leave enough joint training frames."""
-        inputs = list(candidates[anchors])
-        enough = max(self.options.min_training_frames, int(0.6 * together.sum()))
-        for c, candidate in enumerate(candidates):
-            if len(inputs) >= self.options.inputs:
-                break
-            if c in anchors or not ever[c]:
-                continue
-            joint = together & scene.present[:, candidate]
-            if joint.sum() >= enough:
-                inputs.append(candidate)
-                together = joint
-        return np.array(inputs)
-
-
-def _shape(scene: Scene, together: np.ndarray, markers: np.ndarray, minimum: int) -> np.ndarray | None:
-    """Mean shape of markers over at most SHAPE_FRAMES of the frames that they share; None where those are too few."""
-    joint = np.flatnonzero(together)
-    if len(joint) < minimum:
-        return None
-    sample = joint[np.unique(np.linspace(0, len(joint) - 1, SHAPE_FRAMES).astype(int))]
-    return mean_shape(scene.positions[np.ix_(sample, markers)])
+        return TrainingSet(anchors.markers, inputs, anchors.shape, centre, local, weights, training)

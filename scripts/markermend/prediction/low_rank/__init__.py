@@ -1,1 +1,1 @@
-"""Predictors by a matrix of coordinates of low rank."""
+"""Predictors by low-rank approximation of the matrix of frames by coordinates."""

@@ -1,4 +1,4 @@
-"""Iterated truncated SVD of the matrix of coordinates."""
+"""Iterated truncated singular value decomposition of the matrix of frames by coordinates."""
 
 from __future__ import annotations
 
@@ -11,33 +11,37 @@ from markermend.prediction.scene import Prediction, Scene
 
 
 class IteratedSvd:
-    """Truncated SVD of frames by coordinates, iterated until the missing samples agree with it; states no error."""
+    """Low-rank completion of the matrix of frames by coordinates as a predictor; it states no error.
+
+    Parameters
+    ----------
+    options : IteratedSvdOptions
+        Options of the choice of markers and frames, and of the completion.
+    """
 
     name = "msvd"
     continuous = False
 
     def __init__(self, options: IteratedSvdOptions) -> None:
-        """Keep the options."""
         self.options = options
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
-        """See Predictor. Frames that show no other marker are left open."""
+        """Predict a marker; frames that show no other marker stay NaN. See `Predictor.predict`."""
         options = self.options
         hidden = scene.without(marker, start, stop)
-        positions = np.full((stop - start + 2, 3), np.nan)
-        nothing = Prediction(positions, np.full(len(positions), np.nan))
+        prediction = Prediction.empty(start, stop)
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
         near = near[np.count_nonzero(hidden.present[:, near], axis=0) >= options.min_training_frames]
-        asked = np.arange(max(start - 1, 0), min(stop + 1, len(hidden.positions)))
-        asked = asked[hidden.present[np.ix_(asked, near)].any(axis=1)]
-        if len(asked) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.min_training_frames:
-            return nothing
-        centres, training = self._centres(hidden, marker, near, asked)
-        rows = np.union1d(evenly_spaced(training, options.max_training_frames), asked)
+        frames = hidden.bordered(start, stop)
+        frames = frames[hidden.present[np.ix_(frames, near)].any(axis=1)]
+        if len(frames) == 0 or np.count_nonzero(hidden.present[:, marker]) < options.min_training_frames:
+            return prediction
+        centring, training = self._centring(hidden, marker, near, frames)
+        rows = np.union1d(evenly_spaced(training, options.max_training_frames), frames)
         values = hidden.positions[np.ix_(rows, np.append(marker, near))]
-        centre = values[:, 1:][:, centres].mean(axis=1) if centres.any() else np.zeros((len(rows), 3))
-        place = np.searchsorted(rows, asked)
-        # The model is asked about the borders too: what it says there tells by how much it is off.
+        centre = values[:, 1:][:, centring].mean(axis=1) if centring.any() else np.zeros((len(rows), 3))
+        place = np.searchsorted(rows, frames)
+        # The borders are predicted too: the misfit there is what the time constraint corrects.
         values[place, 0] = np.nan
         filled, _ = complete_matrix(
             (values - centre[:, None]).reshape(len(rows), -1),
@@ -46,13 +50,15 @@ class IteratedSvd:
             tolerance=options.tolerance_mm,
             iterations=options.max_iterations,
         )
-        positions[asked - (start - 1)] = filled[place, :3] + centre[place]
-        return nothing
+        prediction.positions[frames - (start - 1)] = filled[place, :3] + centre[place]
+        return prediction
 
-    def _centres(self, scene: Scene, marker: int, near: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which neighbours (mask) centre a frame, and the frames to learn from: those that show them and the marker."""
+    def _centring(
+        self, scene: Scene, marker: int, near: np.ndarray, frames: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Which neighbours (mask) have their mean subtracted, and the training frames: those that show them all."""
         if self.options.centred:
-            throughout = near[scene.present[np.ix_(asked, near)].all(axis=0)]
+            throughout = near[scene.present[np.ix_(frames, near)].all(axis=0)]
             never_missing = throughout[scene.present[:, throughout].all(axis=0)]
             chosen, joint = jointly_observed(
                 scene,

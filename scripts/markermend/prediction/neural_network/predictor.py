@@ -1,7 +1,7 @@
-"""Neural networks: a marker from the laboratory coordinates of a few neighbours now and one frame ago (skurowski2021).
+"""Neural networks: a marker from the laboratory coordinates of a few neighbours now and one frame before.
 
-One network per marker, trained on the recording's own frames. Networks are trained side by side, whatever their markers
-and scenes; torch is imported when the first one is.
+Each marker has a network of its own, trained on the recording's own frames (skurowski2021). Networks are trained side
+by side, whatever their markers and scenes; torch is imported when the first one is.
 """
 
 from __future__ import annotations
@@ -16,11 +16,17 @@ import numpy as np
 from markermend.numerics.intervals import runs
 from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.marker_selection import evenly_spaced
-from markermend.prediction.neural_network.inputs import Scale, chosen, completed, features, stretches
+from markermend.prediction.neural_network.inputs import (
+    Standardisation,
+    choose_inputs,
+    complete_inputs,
+    features,
+    sequences,
+)
 from markermend.prediction.scene import Prediction, Scene
 
 if TYPE_CHECKING:
-    from markermend.prediction.neural_network.training import Lesson, Weights
+    from markermend.prediction.neural_network.training import TrainingSet, Weights
 
 KINDS = {
     "network_linear": "linear",
@@ -31,9 +37,23 @@ KINDS = {
 }
 """The kinds of network by the names of their predictors."""
 
+DECIMALS = 3
+"""Predictions are rounded to a thousandth of a millimetre: their last bits depend on batch and threads."""
+
 
 def cannot_train(names: Iterable[str]) -> str | None:
-    """Why the networks among the named members cannot be had, None where they can or there are none."""
+    """Explain why networks cannot be trained here.
+
+    Parameters
+    ----------
+    names : Iterable[str]
+        Names of predictors, networks or not.
+
+    Returns
+    -------
+    str | None
+        The reason; None if they can be trained or there are none.
+    """
     wanted = [name for name in names if name in KINDS]
     if not wanted or find_spec("torch") is not None:
         return None
@@ -44,19 +64,19 @@ def cannot_train(names: Iterable[str]) -> str | None:
 
 
 @dataclass(frozen=True)
-class _Network:
-    """A trained network of a marker: the scales of what goes in and comes out, the weights in z-scores."""
+class _Trained:
+    """A trained network of a marker: standardisations of its inputs and outputs, and the weights between z-scores."""
 
-    inlet: Scale
-    outlet: Scale
+    inputs: Standardisation
+    outputs: Standardisation
     weights: Weights
 
 
 @dataclass(frozen=True)
-class _Learned:
-    """What a scene taught: networks by marker and inputs; inputs by marker and which others a gap sees."""
+class _Cache:
+    """Results on a scene: networks by marker and inputs; inputs by marker and the markers observed in a gap."""
 
-    networks: dict[tuple[int, bytes], _Network] = field(default_factory=dict)
+    networks: dict[tuple[int, bytes], _Trained] = field(default_factory=dict)
     inputs: dict[tuple[int, bytes], np.ndarray] = field(default_factory=dict)
 
 
@@ -65,102 +85,116 @@ _Task = tuple[Scene, int, np.ndarray]
 
 
 class Network:
-    """Neural networks of one kind as a predictor; states no error."""
+    """Neural networks of one kind as a predictor; it states no error.
+
+    Parameters
+    ----------
+    name : str
+        One of KINDS.
+    options : NeuralNetworkOptions
+        Options of the inputs, the networks and the training.
+
+    Raises
+    ------
+    ValueError
+        If torch is not installed.
+    """
 
     continuous = False
 
     def __init__(self, name: str, options: NeuralNetworkOptions) -> None:
-        """Keep the options. Raises ValueError where torch is not installed."""
         if reason := cannot_train([name]):
             raise ValueError(reason)
         self.name, self.kind, self.options = name, KINDS[name], options
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
-        """See Trainable. A marker has a further network for gaps that see too few of its usual inputs."""
-        wanted: dict[tuple[int, int, bytes], _Task] = {}
+        """Train networks, further ones for gaps in which too few of the usual inputs are observed. See `Trainable.train`."""
+        tasks: dict[tuple[int, int, bytes], _Task] = {}
         for scene, marker in jobs:
             source = scene.measured or scene
             for start, stop in runs(~source.present[:, marker]):
                 inputs = self._inputs(source, scene, marker, start, stop)
-                if len(inputs) and (marker, inputs.tobytes()) not in self._learned(source).networks:
-                    wanted[id(source), marker, inputs.tobytes()] = source, marker, inputs
-        if wanted:
-            self._learn(list(wanted.values()))
+                if len(inputs) and (marker, inputs.tobytes()) not in self._cache(source).networks:
+                    tasks[id(source), marker, inputs.tobytes()] = source, marker, inputs
+        if tasks:
+            self._train(list(tasks.values()))
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
-        """See Predictor. Inputs that are missing are told from those that are there, where enough are."""
+        """Predict a marker; missing inputs are predicted from the others if these are enough. See `Predictor.predict`."""
         hidden = scene.without(marker, start, stop)
-        positions = np.full((stop - start + 2, 3), np.nan)
+        prediction = Prediction.empty(start, stop)
         source = hidden.measured or hidden
         inputs = self._inputs(source, hidden, marker, start, stop)
         if len(inputs):
             key = marker, inputs.tobytes()
-            if key not in self._learned(source).networks:
-                self._learn([(source, marker, inputs)])
-            frames = np.arange(max(start - 1, 0), min(stop + 1, len(scene.positions)))
-            network = self._learned(source).networks[key]
-            positions[frames - (start - 1)] = self._apply(network, source, hidden, inputs, frames)
-        return Prediction(positions, np.full(len(positions), np.nan))
+            if key not in self._cache(source).networks:
+                self._train([(source, marker, inputs)])
+            frames = hidden.bordered(start, stop)
+            network = self._cache(source).networks[key]
+            prediction.positions[frames - (start - 1)] = self._apply(network, source, hidden, inputs, frames)
+        return prediction
 
-    def _learned(self, source: Scene) -> _Learned:
-        """What a scene taught so far; what is added stays."""
-        return source.cached((self, "learned"), _Learned)
+    def _cache(self, source: Scene) -> _Cache:
+        """Results on a scene so far; what is added stays."""
+        return source.cached((self, "trained"), _Cache)
 
     def _inputs(self, source: Scene, scene: Scene, marker: int, start: int, stop: int) -> np.ndarray:
-        """The markers to predict a marker from during a gap (k,): see chosen."""
-        seen = np.logical_and.reduce(scene.present[start:stop], axis=0)
-        known, key, options = self._learned(source).inputs, (marker, seen.tobytes()), self.options
+        """The inputs of a marker in a gap (k,): see choose_inputs."""
+        observed = np.logical_and.reduce(scene.present[start:stop], axis=0)
+        known, key = self._cache(source).inputs, (marker, observed.tobytes())
         if key not in known:
-            most, least = options.inputs, options.min_inputs
-            share, frames = options.min_joint_share, options.min_training_frames
-            known[key] = chosen(source, marker, seen, most=most, minimum=least, share=share, minimum_frames=frames)
+            known[key] = choose_inputs(source, marker, observed, self.options)
         return known[key]
 
-    def _learn(self, tasks: Sequence[_Task]) -> None:
-        """Train a network for each task, and let the scenes that they learn from remember them."""
+    def _train(self, tasks: Sequence[_Task]) -> None:
+        """Train a network for each task, and cache it in its scene."""
         from markermend.prediction.neural_network.training import train
 
-        prepared = [self._lesson(*task) for task in tasks]
-        learned = train(self.kind, [lesson for lesson, _, _ in prepared], self.options)
-        for (source, marker, inputs), (_, inlet, outlet), weights in zip(tasks, prepared, learned, strict=True):
-            self._learned(source).networks[marker, inputs.tobytes()] = _Network(inlet, outlet, weights)
+        prepared = [self._training_set(*task) for task in tasks]
+        trained = train(self.kind, [data for data, _, _ in prepared], self.options)
+        for (source, marker, inputs), (_, own, outputs), weights in zip(tasks, prepared, trained, strict=True):
+            self._cache(source).networks[marker, inputs.tobytes()] = _Trained(own, outputs, weights)
 
-    def _lesson(self, source: Scene, marker: int, inputs: np.ndarray) -> tuple[Lesson, Scale, Scale]:
-        """What a network learns from, in z-scores, and the scales of its inputs and targets."""
-        from markermend.prediction.neural_network.training import GATES, Lesson
+    def _training_set(
+        self, source: Scene, marker: int, inputs: np.ndarray
+    ) -> tuple[TrainingSet, Standardisation, Standardisation]:
+        """What a network is trained on, as z-scores, and the standardisations of its inputs and targets."""
+        from markermend.prediction.neural_network.training import GATES, TrainingSet
 
         options = self.options
-        seen = source.present[:, marker] & source.present[:, inputs].all(axis=1)
-        parts = [evenly_spaced(np.flatnonzero(seen), options.max_training_frames)]
+        observed = source.present[:, marker] & source.present[:, inputs].all(axis=1)
+        parts = [evenly_spaced(np.flatnonzero(observed), options.max_training_frames)]
         if self.kind in GATES:
-            longest = (
-                len(seen) if options.max_sequence_s is None else max(2, round(options.max_sequence_s * source.rate))
-            )
-            parts = stretches(seen, longest=longest, frames=options.max_training_frames)
-        columns, middle = features(source.positions[:, inputs], np.concatenate(parts), centred=options.centred)
-        targets = source.positions[np.concatenate(parts), marker] - middle
-        inlet, outlet = Scale.of(columns), Scale.of(targets)
+            longest = len(observed)
+            if options.max_sequence_s is not None:
+                longest = max(2, round(options.max_sequence_s * source.rate))
+            parts = sequences(observed, longest=longest, frames=options.max_training_frames)
+        frames = np.concatenate(parts)
+        columns, centre = features(source.positions[:, inputs], frames, centred=options.centred)
+        targets = source.positions[frames, marker] - centre
+        own, outputs = Standardisation.of(columns), Standardisation.of(targets)
         cuts = np.cumsum([len(part) for part in parts])[:-1]
-        return Lesson(np.split(inlet.scores(columns), cuts), np.split(outlet.scores(targets), cuts)), inlet, outlet
+        data = TrainingSet(np.split(own.scores(columns), cuts), np.split(outputs.scores(targets), cuts))
+        return data, own, outputs
 
     def _apply(
-        self, network: _Network, source: Scene, scene: Scene, inputs: np.ndarray, frames: np.ndarray
+        self, network: _Trained, source: Scene, scene: Scene, inputs: np.ndarray, frames: np.ndarray
     ) -> np.ndarray:
-        """Predicted position (n, 3) at consecutive frames, NaN where too few inputs are seen."""
+        """Predicted positions (n, 3) at consecutive frames, NaN where too few inputs are observed."""
         from markermend.prediction.neural_network.training import evaluate
 
         options, reach = self.options, 1 + round(self.options.context_s * scene.rate)
         first, last = max(frames[0] - reach, 0), min(frames[-1] + 1 + reach, len(scene.positions))
-        examples = evenly_spaced(np.flatnonzero(source.present[:, inputs].all(axis=1)), options.max_training_frames)
-        near = completed(
+        complete = np.flatnonzero(source.present[:, inputs].all(axis=1))
+        examples = evenly_spaced(complete, options.max_training_frames)
+        near = complete_inputs(
             scene.positions[first:last, inputs],
             source.positions[np.ix_(examples, inputs)],
             minimum=min(options.min_inputs, len(inputs)),
         )
-        columns, middle = features(near, np.arange(last - first), centred=options.centred)
-        told = np.full((last - first, 3), np.nan)
+        columns, centre = features(near, np.arange(last - first), centred=options.centred)
+        predicted = np.full((last - first, 3), np.nan)
         for start, stop in runs(~np.isnan(columns).any(axis=1)):
-            scores = evaluate(self.kind, network.weights, network.inlet.scores(columns[start:stop]))
-            told[start:stop] = network.outlet.columns(scores) + middle[start:stop]
-        # The order of sums depends on batch and threads, and shows in the last bits: no trace of it is left.
-        return np.round(told[frames - first], 3)
+            scores = evaluate(self.kind, network.weights, network.inputs.scores(columns[start:stop]))
+            predicted[start:stop] = network.outputs.columns(scores) + centre[start:stop]
+        return np.round(predicted[frames - first], DECIMALS)

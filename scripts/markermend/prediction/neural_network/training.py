@@ -1,8 +1,8 @@
 """Small networks that are trained side by side: one batch holds the weights of all, so that all advance together.
 
-The only module that imports torch, which takes seconds: import it where networks train, and nowhere else. Networks of a
-batch do not know of each other. Where they differ in size, zeros are added that neither change an output nor a
-gradient, so each learns what it would learn alone, but for the last bits.
+This is the only module that imports torch, which takes seconds: it is imported where networks train, and nowhere else.
+Networks of a batch are independent. Where they differ in size they are padded with zeros, which change neither outputs
+nor gradients, so each learns what it would learn alone, apart from rounding.
 """
 
 from __future__ import annotations
@@ -16,44 +16,106 @@ import torch
 from markermend.options.prediction import NeuralNetworkOptions
 
 GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
-"""The recurrent kinds and how many weighted sums a recurrent unit has."""
+"""The recurrent kinds, and the number of weighted sums of a recurrent unit."""
 
 Weights = list[np.ndarray]
-"""Recurrent kinds begin with weights of the inputs (inputs, gates * units), of the former outputs (units, gates *
-units) and constants (1, gates * units), for each direction; all end with two dense layers: weights and constants of
-each."""
+"""Recurrent kinds begin, for each direction, with weights of the inputs (inputs, gates * units), weights of the former
+outputs (units, gates * units) and constants (1, gates * units); all kinds end with weights and constants of two dense
+layers."""
 
 
 @dataclass(frozen=True)
-class Lesson:
-    """What one network learns from: inputs (n, inputs) and targets (n, outputs) of one or more stretches of frames."""
+class TrainingSet:
+    """What one network is trained on: one or more sequences of frames.
+
+    Attributes
+    ----------
+    inputs : Sequence[np.ndarray]
+        Inputs (n, inputs) of each sequence.
+    targets : Sequence[np.ndarray]
+        Targets (n, outputs) of each sequence.
+    """
 
     inputs: Sequence[np.ndarray]
     targets: Sequence[np.ndarray]
 
 
-def train(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOptions) -> list[Weights]:
-    """Train one network per lesson, at most `batch` at once; source: skurowski2021 section 3.1.4.
+def train(kind: str, data: Sequence[TrainingSet], options: NeuralNetworkOptions) -> list[Weights]:
+    """Train one network per training set by gradient descent with momentum on all frames at once.
 
-    Gradient descent with momentum on all frames at once. The loss is half the squared error, summed over the outputs
-    and averaged over the frames. Each network's gradient is shortened to the length `clip` on its own.
+    The loss is half the squared error, summed over the outputs and averaged over the frames. The gradient of each
+    network is clipped on its own.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the networks: linear, tanh, lstm, gru or bilstm.
+    data : Sequence[TrainingSet]
+        Training sets.
+    options : NeuralNetworkOptions
+        Sizes of the networks and options of the training.
+
+    Returns
+    -------
+    list[Weights]
+        Weights of the trained networks.
+
+    References
+    ----------
+    skurowski2021 section 3.1.4.
     """
-    learned: list[Weights] = []
-    for first in range(0, len(lessons), options.batch_networks):
-        learned += _train_batch(kind, lessons[first : first + options.batch_networks], options)
-    return learned
+    trained: list[Weights] = []
+    for first in range(0, len(data), options.batch_networks):
+        trained += _train_batch(kind, data[first : first + options.batch_networks], options)
+    return trained
 
 
 def evaluate(kind: str, weights: Weights, inputs: np.ndarray) -> np.ndarray:
-    """Outputs (n, outputs) of one network for inputs (n, inputs) at consecutive frames."""
+    """Compute the outputs of one network at consecutive frames.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the network.
+    weights : Weights
+        Its weights.
+    inputs : np.ndarray
+        Inputs (n, inputs).
+
+    Returns
+    -------
+    np.ndarray
+        Outputs (n, outputs).
+    """
     x = torch.from_numpy(inputs[None, None])
     backwards = torch.arange(len(inputs) - 1, -1, -1)[None, None, :, None]
     with torch.no_grad():
-        return _forward(kind, [torch.from_numpy(part[None]) for part in weights], x, backwards)[0, 0].numpy()
+        outputs = _forward(kind, [torch.from_numpy(part[None]) for part in weights], x, backwards)[0, 0]
+    found: np.ndarray = outputs.numpy()
+    return found
 
 
 def initial(kind: str, inputs: int, outputs: int, options: NeuralNetworkOptions) -> Weights:
-    """First weights: Glorot's uniform ones, orthogonal ones of former outputs, constants 0 but 1 at the forget gates."""
+    """Draw the first weights of a network.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the network.
+    inputs, outputs : int
+        Numbers of inputs and outputs.
+    options : NeuralNetworkOptions
+        Sizes of the layers, and the seed.
+
+    Returns
+    -------
+    Weights
+        Uniform weights (Glorot), orthogonal ones of former outputs, constants 0, but 1 at forget gates.
+
+    References
+    ----------
+    Glorot & Bengio (2010), "Understanding the difficulty of training deep feedforward neural networks", AISTATS, eq 16.
+    """
     rng = np.random.default_rng(options.seed)
     weights: Weights = []
     size = inputs
@@ -71,23 +133,26 @@ def initial(kind: str, inputs: int, outputs: int, options: NeuralNetworkOptions)
 
 
 def _directions(kind: str) -> int:
-    """How often a recurrent layer goes through the frames."""
+    """Number of directions in which a recurrent layer processes the frames."""
     return 2 if kind == "bilstm" else 1
 
 
 def _glorot(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
     """Uniform weights of variance 2 / (rows + columns)."""
-    return rng.uniform(-1, 1, (rows, columns)) * np.sqrt(6 / (rows + columns))
+    weights: np.ndarray = rng.uniform(-1, 1, (rows, columns)) * np.sqrt(6 / (rows + columns))
+    return weights
 
 
-def _train_batch(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOptions) -> list[Weights]:
+def _train_batch(kind: str, data: Sequence[TrainingSet], options: NeuralNetworkOptions) -> list[Weights]:
     """See train."""
     device = "cuda" if torch.cuda.is_available() else "cpu"
-    begun = [initial(kind, lesson.inputs[0].shape[1], lesson.targets[0].shape[1], options) for lesson in lessons]
-    weights = [torch.from_numpy(_padded(parts)).to(device).requires_grad_() for parts in zip(*begun, strict=True)]
-    lengths = _padded([np.array([len(stretch) for stretch in lesson.inputs]) for lesson in lessons])
-    x = torch.from_numpy(_padded([_padded(lesson.inputs) for lesson in lessons])).to(device)
-    y = torch.from_numpy(_padded([_padded(lesson.targets) for lesson in lessons])).to(device)
+    first_weights = [initial(kind, own.inputs[0].shape[1], own.targets[0].shape[1], options) for own in data]
+    weights = [
+        torch.from_numpy(_padded(parts)).to(device).requires_grad_() for parts in zip(*first_weights, strict=True)
+    ]
+    lengths = _padded([np.array([len(sequence) for sequence in own.inputs]) for own in data])
+    x = torch.from_numpy(_padded([_padded(own.inputs) for own in data])).to(device)
+    y = torch.from_numpy(_padded([_padded(own.targets) for own in data])).to(device)
     place = np.arange(x.shape[2])
     inside = place < lengths[..., None]
     shares = torch.from_numpy((inside / lengths.sum(axis=1)[:, None, None])[..., None]).to(device)
@@ -103,11 +168,10 @@ def _train_batch(kind: str, lessons: Sequence[Lesson], options: NeuralNetworkOpt
             np.ascontiguousarray(part[n, : old.shape[0], : old.shape[1]].detach().cpu().numpy())
             for part, old in zip(weights, parts, strict=True)
         ]
-        for n, parts in enumerate(begun)
+        for n, parts in enumerate(first_weights)
     ]
 
 
-@torch.no_grad()
 def _descend(
     weights: Sequence[torch.Tensor],
     velocities: Sequence[torch.Tensor],
@@ -115,18 +179,19 @@ def _descend(
     rate: float,
     options: NeuralNetworkOptions,
 ) -> None:
-    """One step downhill with momentum, in place."""
-    length = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()
-    scale = options.max_gradient_norm / length.clamp(min=options.max_gradient_norm)
-    for part, velocity, gradient in zip(weights, velocities, gradients, strict=True):
-        velocity.mul_(options.momentum).add_(gradient * scale)
-        part.sub_(rate * velocity)
+    """One step of gradient descent with momentum, in place."""
+    with torch.no_grad():
+        norm = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()
+        scale = options.max_gradient_norm / norm.clamp(min=options.max_gradient_norm)
+        for part, velocity, gradient in zip(weights, velocities, gradients, strict=True):
+            velocity.mul_(options.momentum).add_(gradient * scale)
+            part.sub_(rate * velocity)
 
 
 def _forward(kind: str, weights: Sequence[torch.Tensor], x: torch.Tensor, backwards: torch.Tensor) -> torch.Tensor:
-    """Outputs (networks, stretches, frames, outputs) for x (networks, stretches, frames, inputs).
+    """Outputs (networks, sequences, frames, outputs) for x (networks, sequences, frames, inputs).
 
-    backwards: (networks, stretches, frames, 1), the frames of each stretch in reverse order.
+    backwards: (networks, sequences, frames, 1), the frames of each sequence in reverse order.
     """
     if kind in GATES:
         layer = _gru if kind == "gru" else _lstm
@@ -140,12 +205,12 @@ def _forward(kind: str, weights: Sequence[torch.Tensor], x: torch.Tensor, backwa
 
 
 def _dense(x: torch.Tensor, weights: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """A layer of each network: (networks, stretches, frames, inputs) to (networks, stretches, frames, outputs)."""
+    """A layer of each network: (networks, sequences, frames, inputs) to (networks, sequences, frames, outputs)."""
     return torch.baddbmm(constants, x.flatten(1, 2), weights).unflatten(1, x.shape[1:3])
 
 
 def _lstm(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """Long short-term memory from rest; source: skurowski2021 eq 2-7. Gates: input, forget, output, candidate."""
+    """Long short-term memory from the zero state; source: skurowski2021 eq 2-7. Gates: input, forget, output, candidate."""
     units = former.shape[1]
     output = memory = x.new_zeros(*x.shape[:2], units)
     outputs = []
@@ -159,7 +224,7 @@ def _lstm(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constant
 
 
 def _gru(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """Gated recurrent units from rest; source: skurowski2021 eq 8-11. Gates: update, reset, candidate."""
+    """Gated recurrent units from the zero state; source: skurowski2021 eq 8-11. Gates: update, reset, candidate."""
     units = former.shape[1]
     output = x.new_zeros(*x.shape[:2], units)
     outputs = []
@@ -173,7 +238,7 @@ def _gru(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants
 
 
 def _padded(arrays: Sequence[np.ndarray]) -> np.ndarray:
-    """Stack arrays of unlike shapes; what they lack is 0."""
+    """Stack arrays of different shapes, padded with zeros."""
     shape = np.max([array.shape for array in arrays], axis=0)
     out = np.zeros((len(arrays), *shape), dtype=arrays[0].dtype)
     for place, array in zip(out, arrays, strict=True):

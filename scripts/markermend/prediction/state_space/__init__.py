@@ -1,1 +1,1 @@
-"""Predictors by linear dynamical systems."""
+"""Predictors by linear dynamical systems: Kalman smoothing in a low-dimensional space of poses or of hidden states."""

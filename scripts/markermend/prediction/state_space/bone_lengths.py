@@ -1,6 +1,6 @@
-"""Soft bone lengths: distances between markers that should hold where one is missing (BoLeRO, Li et al. 2010).
+"""Soft bone lengths: distances between markers that constrain those that are missing (BoLeRO, Li et al. 2010).
 
-Between the states of a linear dynamical system and the missing markers, a length is one more measurement, though not a
+A length is one more measurement of the states of a linear dynamical system and of the missing markers, though not a
 linear one. It is linearised about the present guess and smoothed with the rest until nothing moves (Gauss-Newton).
 """
 
@@ -15,27 +15,70 @@ from markermend.prediction.marker_selection import evenly_spaced, reference_mark
 from markermend.prediction.scene import Scene
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics
 
+MIN_STEP_SHARE = 1e-3
+"""Shortest part of a Gauss-Newton step that is tried before the search ends."""
+
 
 @dataclass(frozen=True)
 class Bones:
-    """Distances between pairs of markers: pairs (bones, 2) of indices, mean lengths (bones,), their deviations (bones,)."""
+    """Distances between pairs of markers.
+
+    Attributes
+    ----------
+    pairs : np.ndarray
+        Indices of the markers (bones, 2).
+    length : np.ndarray
+        Mean distances (bones,).
+    deviation : np.ndarray
+        Their standard deviations (bones,).
+    """
 
     pairs: np.ndarray
     length: np.ndarray
     deviation: np.ndarray
 
-    def scaled(self, scale: float, least: float) -> Bones:
-        """In other units, with deviations of at least so much there."""
-        return Bones(self.pairs, self.length / scale, np.maximum(self.deviation / scale, least))
+    def rescaled(self, unit: float, min_deviation: float) -> Bones:
+        """Express the lengths in another unit.
+
+        Parameters
+        ----------
+        unit : float
+            The unit, in present units.
+        min_deviation : float
+            Least standard deviation, in the new unit.
+
+        Returns
+        -------
+        Bones
+            The same bones in the new unit.
+        """
+        return Bones(self.pairs, self.length / unit, np.maximum(self.deviation / unit, min_deviation))
 
 
-def steady_bones(
+def select_bones(
     scene: Scene, body: np.ndarray, markers: np.ndarray, *, count: int, frames: int, minimum_frames: int
 ) -> Bones:
-    """The bones to each of `markers` from so many of `body` whose distance to it varies least, in mm.
+    """Choose the bones of markers: those to the markers whose distance varies least.
 
-    body, markers: indices into the scene; the bones' pairs are indices into body. Lengths and deviations are those over
-    at most `frames` frames that show the marker; others seen with it on fewer than `minimum_frames` make no bone.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    body : np.ndarray
+        Indices of the markers (k,) that bones may connect.
+    markers : np.ndarray
+        Those of them that need bones.
+    count : int
+        Number of bones of each.
+    frames : int
+        Largest number of frames from which lengths are estimated.
+    minimum_frames : int
+        Markers observed together in fewer frames make no bone.
+
+    Returns
+    -------
+    Bones
+        The bones, mm; their pairs are places in `body`.
     """
     pairs: dict[tuple[int, int], tuple[float, float]] = {}
     place = {int(marker): number for number, marker in enumerate(body)}
@@ -44,118 +87,176 @@ def steady_bones(
         inside = np.flatnonzero(np.isin(ranked, body))[:count]
         rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
         for other, spread in zip(ranked[inside].tolist(), deviation[inside].tolist(), strict=True):
-            apart = np.linalg.norm(scene.positions[rows, other] - scene.positions[rows, marker], axis=1)
+            distance = np.linalg.norm(scene.positions[rows, other] - scene.positions[rows, marker], axis=1)
             ends = sorted((place[marker], place[other]))
-            pairs[ends[0], ends[1]] = float(np.nanmean(apart)), spread
+            pairs[ends[0], ends[1]] = float(np.nanmean(distance)), spread
     values = np.array(list(pairs.values())).reshape(-1, 2)
     return Bones(np.array(list(pairs), int).reshape(-1, 2), values[:, 0], values[:, 1])
 
 
 @dataclass(frozen=True)
-class _Tangent:
-    """The bones linearised about a guess at k frames, as measurements of the missing coordinates.
+class _Linearisation:
+    """The bones linearised about positions at k frames, as measurements of the missing coordinates.
 
-    slope: (k, bones, markers, 3), zero for markers that are seen. value: (k, bones), what slope times the coordinates
-    should be. gain: (k, markers, 3, bones), noise of the markers times slope. weight: (k, bones, bones), the inverse
+    jacobian: (k, bones, markers, 3), zero for observed markers. value: (k, bones), what jacobian times the coordinates
+    should be. gain: (k, markers, 3, bones), noise of the markers times jacobian. weight: (k, bones, bones), the inverse
     covariance of `value` about what the states expect.
     """
 
-    slope: np.ndarray
+    jacobian: np.ndarray
     value: np.ndarray
     gain: np.ndarray
     weight: np.ndarray
 
 
-class BoneLengths:
-    """The energy of states and missing markers under a linear dynamical system and bones, and its least point."""
+class BoneConstrainedSmoother:
+    """The posterior of states and missing markers under a linear dynamical system and bones, by Gauss-Newton.
+
+    Parameters
+    ----------
+    system : LinearDynamics
+        The linear dynamical system.
+    observed : np.ndarray
+        Positions (n, markers, 3), NaN = missing, in the unit of the system.
+    bones : Bones
+        The bones, in the same unit.
+    rows : np.ndarray
+        Frames (k,) at which bones with a missing end constrain it.
+    """
 
     def __init__(self, system: LinearDynamics, observed: np.ndarray, bones: Bones, rows: np.ndarray) -> None:
-        """observed: (n, markers, 3), NaN = missing. rows: frames at which bones hold where an end is missing."""
         self.system, self.bones, self.rows = system, bones, rows
         self.observed = observed[rows]
         self.missing = np.isnan(self.observed).any(axis=2)
-        self.diagonal, self.below, self.right = system.system(observed)
+        self.diagonal, self.below, self.right = system.posterior_system(observed)
 
     def energy(self, states: np.ndarray, positions: np.ndarray) -> float:
-        """Minus the log posterior, up to a constant, of states (n, d) and of positions (k, markers, 3) at the rows."""
-        pull = (self.diagonal @ states[..., None])[..., 0]
-        pull[1:] += 2 * (self.below @ states[:-1, :, None])[..., 0]
-        apart = (positions - self.system.positions(states[self.rows])) ** 2
-        noise = (apart / self.system.noise[:, None])[self.missing].sum()
+        """Compute minus the log-posterior, up to a constant.
+
+        Parameters
+        ----------
+        states : np.ndarray
+            States (n, d).
+        positions : np.ndarray
+            Positions (k, markers, 3) at the rows.
+
+        Returns
+        -------
+        float
+            Energy.
+        """
+        product = (self.diagonal @ states[..., None])[..., 0]
+        product[1:] += 2 * (self.below @ states[:-1, :, None])[..., 0]
+        square = (positions - self.system.positions(states[self.rows])) ** 2
+        noise = (square / self.system.observation_noise[:, None])[self.missing].sum()
         strain = ((self._lengths(positions)[1] - self.bones.length) / self.bones.deviation) ** 2
-        bent = strain[self._active()].sum()
-        return float(((pull - 2 * self.right) * states).sum() + noise + bent) / 2
+        strained = strain[self._active()].sum()
+        return float(((product - 2 * self.right) * states).sum() + noise + strained) / 2
 
-    def settle(self, states: np.ndarray, *, iterations: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-        """States (n, d) and positions (k, markers, 3) at the rows, of least energy near the states given.
+    def minimise(self, states: np.ndarray, *, iterations: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+        """Find the states and positions of least energy near given states; the energy never rises.
 
-        At most so many steps, until none moves a missing marker by more than the tolerance. The energy never rises.
+        Parameters
+        ----------
+        states : np.ndarray
+            First states (n, d).
+        iterations : int
+            Largest number of steps.
+        tolerance : float
+            The iteration ends when no missing marker moves by more than this.
+
+        Returns
+        -------
+        states : np.ndarray
+            States (n, d).
+        positions : np.ndarray
+            Positions (k, markers, 3) at the rows.
         """
         positions = np.where(self.missing[..., None], self.system.positions(states[self.rows]), self.observed)
         energy = self.energy(states, positions)
         for _ in range(iterations):
-            tangent = self._tangent(positions)
-            aim, _ = self._smooth(tangent)
-            expected = self.system.positions(aim[self.rows])
-            missed = tangent.value - np.einsum("kbmi,kmi->kb", tangent.slope, expected)
-            pulled = expected + np.einsum("kmib,kbc,kc->kmi", tangent.gain, tangent.weight, missed)
-            pulled = np.where(self.missing[..., None], pulled, positions)
+            step = self._step(states, positions)
             share = 1.0
             while True:  # a shorter step where the spheres bend too much for a straight one
-                tried = states + share * (aim - states), positions + share * (pulled - positions)
-                lower = self.energy(*tried)
-                if lower <= energy or share < 1e-3:
+                trial = states + share * step[0], positions + share * step[1]
+                lower = self.energy(*trial)
+                if lower <= energy or share < MIN_STEP_SHARE:
                     break
                 share /= 2
             if lower > energy:
                 break
-            moved = np.abs(tried[1] - positions).max(initial=0.0)
-            (states, positions), energy = tried, lower
+            moved = np.abs(trial[1] - positions).max(initial=0.0)
+            (states, positions), energy = trial, lower
             if moved <= tolerance:
                 break
         return states, positions
 
+    def _step(self, states: np.ndarray, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Gauss-Newton steps of states (n, d) and positions (k, markers, 3)."""
+        linear = self._linearise(positions)
+        target, _ = self._smooth(linear)
+        expected = self.system.positions(target[self.rows])
+        innovation = linear.value - np.einsum("kbmi,kmi->kb", linear.jacobian, expected)
+        corrected = expected + np.einsum("kmib,kbc,kc->kmi", linear.gain, linear.weight, innovation)
+        corrected = np.where(self.missing[..., None], corrected, positions)
+        return target - states, corrected - positions
+
     def covariance(self, positions: np.ndarray, marker: int) -> np.ndarray:
-        """Posterior covariance (k, 3, 3) of a missing marker about the settled positions (Laplace's approximation)."""
-        tangent = self._tangent(positions)
-        _, spread = self._smooth(tangent)
-        loading, noise = self.system.loading, self.system.noise[marker]
-        gain = tangent.gain[:, marker] @ tangent.weight
-        seen = loading[marker] - gain @ np.einsum("kbmi,mid->kbd", tangent.slope, loading)
-        own = noise * np.eye(3) - gain @ tangent.gain[:, marker].transpose(0, 2, 1)
-        return seen @ spread @ seen.transpose(0, 2, 1) + own
+        """Compute the posterior covariance of a missing marker about the minimum (Laplace's approximation).
+
+        Parameters
+        ----------
+        positions : np.ndarray
+            Positions (k, markers, 3) of least energy at the rows.
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            Covariances (k, 3, 3).
+        """
+        linear = self._linearise(positions)
+        _, spread = self._smooth(linear)
+        loading, noise = self.system.loading, self.system.observation_noise[marker]
+        gain = linear.gain[:, marker] @ linear.weight
+        sensitivity = loading[marker] - gain @ np.einsum("kbmi,mid->kbd", linear.jacobian, loading)
+        own = noise * np.eye(3) - gain @ linear.gain[:, marker].transpose(0, 2, 1)
+        covariance: np.ndarray = sensitivity @ spread @ sensitivity.transpose(0, 2, 1) + own
+        return covariance
 
     def _active(self) -> np.ndarray:
         """Bool (k, bones): an end is missing."""
-        return self.missing[:, self.bones.pairs].any(axis=2)
+        active: np.ndarray = self.missing[:, self.bones.pairs].any(axis=2)
+        return active
 
     def _lengths(self, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Differences (k, bones, 3) between the bones' ends, and their lengths (k, bones)."""
-        apart = positions[:, self.bones.pairs[:, 0]] - positions[:, self.bones.pairs[:, 1]]
-        return apart, np.linalg.norm(apart, axis=2)
+        difference = positions[:, self.bones.pairs[:, 0]] - positions[:, self.bones.pairs[:, 1]]
+        return difference, np.linalg.norm(difference, axis=2)
 
-    def _tangent(self, positions: np.ndarray) -> _Tangent:
-        """See _Tangent."""
-        apart, length = self._lengths(positions)
-        along = apart / np.maximum(length, 1e-12)[..., None]
-        slope = np.zeros((*length.shape, positions.shape[1], 3))
+    def _linearise(self, positions: np.ndarray) -> _Linearisation:
+        """See _Linearisation."""
+        difference, length = self._lengths(positions)
+        along = difference / np.maximum(length, 1e-12)[..., None]
+        jacobian = np.zeros((*length.shape, positions.shape[1], 3))
         each = np.arange(length.shape[1])
-        slope[:, each, self.bones.pairs[:, 0]] = along
-        slope[:, each, self.bones.pairs[:, 1]] = -along
-        slope *= self.missing[:, None, :, None]
-        value = self.bones.length - length + np.einsum("kbmi,kmi->kb", slope, positions)
-        gain = (slope * self.system.noise[:, None]).transpose(0, 2, 3, 1)
-        inner = slope.reshape(*length.shape, -1) @ gain.reshape(len(gain), -1, len(each))
+        jacobian[:, each, self.bones.pairs[:, 0]] = along
+        jacobian[:, each, self.bones.pairs[:, 1]] = -along
+        jacobian *= self.missing[:, None, :, None]
+        value = self.bones.length - length + np.einsum("kbmi,kmi->kb", jacobian, positions)
+        gain = (jacobian * self.system.observation_noise[:, None]).transpose(0, 2, 3, 1)
+        inner = jacobian.reshape(*length.shape, -1) @ gain.reshape(len(gain), -1, len(each))
         weight = np.linalg.inv(inner + np.diag(self.bones.deviation**2))
-        return _Tangent(slope, value, gain, weight)
+        return _Linearisation(jacobian, value, gain, weight)
 
-    def _smooth(self, tangent: _Tangent) -> tuple[np.ndarray, np.ndarray]:
+    def _smooth(self, linear: _Linearisation) -> tuple[np.ndarray, np.ndarray]:
         """States (n, d) given the linearised bones too, and their covariance at the rows (k, d, d)."""
-        seen = np.einsum("kbmi,mid->kbd", tangent.slope, self.system.loading)
-        weighted = seen.transpose(0, 2, 1) @ tangent.weight
-        offset = tangent.value - np.einsum("kbmi,mi->kb", tangent.slope, self.system.middle)
+        design = np.einsum("kbmi,mid->kbd", linear.jacobian, self.system.loading)
+        weighted = design.transpose(0, 2, 1) @ linear.weight
+        value = linear.value - np.einsum("kbmi,mi->kb", linear.jacobian, self.system.offset)
         diagonal, right = self.diagonal.copy(), self.right.copy()
-        diagonal[self.rows] += weighted @ seen
-        right[self.rows] += (weighted @ offset[..., None])[..., 0]
+        diagonal[self.rows] += weighted @ design
+        right[self.rows] += (weighted @ value[..., None])[..., 0]
         solved = block_tridiagonal.solve(diagonal, self.below, right)
         return solved.solution, solved.inverse_diagonal[self.rows]
