@@ -57,7 +57,7 @@ class DistanceModel:
         DistanceModel
             Without references where none is seen often enough.
         """
-        ranked, _ = reference_markers(scene, marker, frames=options.max_frames, minimum_frames=options.min_frames)
+        ranked, _ = reference_markers(scene, marker, max_frames=options.max_frames, min_frames=options.min_frames)
         chosen = ranked[: max(options.references, options.spacing_references)]
         densities = []
         for reference in chosen:

@@ -42,7 +42,7 @@ class GlobalRegression:
         hidden = scene.without(marker, start, stop)
         frames, prediction = hidden.bordered(start, stop), Prediction.empty(start, stop)
         ranked, deviation = reference_markers(
-            hidden, marker, frames=options.max_training_frames, minimum_frames=options.min_training_frames
+            hidden, marker, max_frames=options.max_training_frames, min_frames=options.min_training_frames
         )
         steady = deviation < options.max_distance_deviation_mm
         references = ranked[steady | (np.arange(len(ranked)) < options.min_inputs)]

@@ -58,7 +58,7 @@ def pseudo_random_subset(frames: np.ndarray, count: int) -> np.ndarray:
     return chosen
 
 
-def reference_markers(scene: Scene, marker: int, *, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
+def reference_markers(scene: Scene, marker: int, *, max_frames: int, min_frames: int) -> tuple[np.ndarray, np.ndarray]:
     """Rank a marker's neighbours by the standard deviation of their distance to it.
 
     Parameters
@@ -67,9 +67,9 @@ def reference_markers(scene: Scene, marker: int, *, frames: int, minimum_frames:
         What is observed.
     marker : int
         Index of the marker.
-    frames : int
+    max_frames : int
         Largest number of frames from which deviations are estimated.
-    minimum_frames : int
+    min_frames : int
         Neighbours observed together with the marker in fewer frames are left out.
 
     Returns
@@ -83,19 +83,19 @@ def reference_markers(scene: Scene, marker: int, *, frames: int, minimum_frames:
     ----------
     tits2018 eq 1.
     """
-    key = "reference markers", marker, frames, minimum_frames
-    return scene.cached(key, partial(_rank_by_deviation, scene, marker, frames, minimum_frames))
+    key = "reference markers", marker, max_frames, min_frames
+    return scene.cached(key, partial(_rank_by_deviation, scene, marker, max_frames, min_frames))
 
 
-def _rank_by_deviation(scene: Scene, marker: int, frames: int, minimum_frames: int) -> tuple[np.ndarray, np.ndarray]:
+def _rank_by_deviation(scene: Scene, marker: int, max_frames: int, min_frames: int) -> tuple[np.ndarray, np.ndarray]:
     """See reference_markers."""
     near = np.asarray(scene.neighbours[marker], int)
     observed = scene.present[:, marker]
     joint = np.count_nonzero(scene.present[:, near] & observed[:, None], axis=0)
-    near = near[joint >= minimum_frames]
+    near = near[joint >= min_frames]
     if len(near) == 0:
         return near, np.zeros(0)
-    rows = evenly_spaced(np.flatnonzero(observed), frames)
+    rows = evenly_spaced(np.flatnonzero(observed), max_frames)
     distance = np.linalg.norm(scene.positions[np.ix_(rows, near)] - scene.positions[rows, marker][:, None], axis=2)
     known = ~np.isnan(distance)
     count = np.maximum(known.sum(axis=0), 1)
@@ -108,7 +108,7 @@ def _rank_by_deviation(scene: Scene, marker: int, frames: int, minimum_frames: i
 
 
 def jointly_observed(
-    scene: Scene, marker: int, ranked: np.ndarray, *, share: float, minimum_frames: int
+    scene: Scene, marker: int, ranked: np.ndarray, *, min_share: float, min_frames: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Choose markers that are observed together with a marker in enough frames to learn from.
 
@@ -122,9 +122,9 @@ def jointly_observed(
         Index of the marker.
     ranked : np.ndarray
         Indices of candidates (n,), the best first.
-    share : float
+    min_share : float
         Least share of the marker's frames that shows all chosen markers.
-    minimum_frames : int
+    min_frames : int
         Least number of such frames.
 
     Returns
@@ -135,8 +135,8 @@ def jointly_observed(
         The frames, ascending, that show the marker and all chosen ones; none likewise.
     """
     joint = scene.present[:, marker].copy()
-    required = max(minimum_frames, int(np.ceil(share * np.count_nonzero(joint))))
-    if np.count_nonzero(joint) < minimum_frames:
+    required = max(min_frames, int(np.ceil(min_share * np.count_nonzero(joint))))
+    if np.count_nonzero(joint) < min_frames:
         return np.zeros(0, int), np.zeros(0, int)
     chosen = []
     for candidate in np.asarray(ranked, int).tolist():

@@ -122,7 +122,7 @@ class _TriangleModel(ABC):
         """Triples of references: the best three, then those that need the fourth, and so on."""
         options = self.options
         ranked, _ = reference_markers(
-            scene, marker, frames=options.max_training_frames, minimum_frames=options.min_training_frames
+            scene, marker, max_frames=options.max_training_frames, min_frames=options.min_training_frames
         )
         for places in sorted(combinations(range(min(len(ranked), options.references)), 3), key=lambda p: p[::-1]):
             yield ranked[list(places)]

@@ -22,7 +22,7 @@ def body(walker):
 
 def test_the_steadiest_markers_are_the_references(body):
     own = options(references=2, spacing_references=4)
-    ranked, _ = reference_markers(scene(body), 9, frames=own.max_frames, minimum_frames=own.min_frames)
+    ranked, _ = reference_markers(scene(body), 9, max_frames=own.max_frames, min_frames=own.min_frames)
     model = DistanceModel.estimate(scene(body), 9, own)
     assert model.references.tolist() == ranked[:4].tolist()
     for reference, density in zip(model.references, model.densities, strict=True):

@@ -21,34 +21,36 @@ def moving(shape, frames=50, seed=3):
 def test_rigid_motion_is_found_exactly(markers):
     template = SHAPE[:markers] - SHAPE[:markers].mean(axis=0)
     points, turns, places = moving(template)
-    rotation, origin = align(points, template)
-    assert np.allclose(rotation, turns.as_matrix(), atol=1e-9)
-    assert np.allclose(origin, places)
-    assert np.allclose(np.einsum("nki,nij->nkj", points - origin[:, None], rotation), template)
+    frames = align(points, template)
+    assert np.allclose(frames.axes, turns.as_matrix(), atol=1e-9)
+    assert np.allclose(frames.origin, places)
+    assert np.allclose(frames.local(points), template)
+    assert np.allclose(frames.local(points[:, 1]), template[1])
+    assert np.allclose(frames.laboratory(frames.local(points[:, 1])), points[:, 1])
 
 
 def test_a_mirrored_shape_is_never_met_by_a_reflection():
     template = SHAPE - SHAPE.mean(axis=0)
-    rotation, _ = align(moving(template * [1, 1, -1])[0], template)
-    assert np.allclose(np.linalg.det(rotation), 1)
+    frames = align(moving(template * [1, 1, -1])[0], template)
+    assert np.allclose(np.linalg.det(frames.axes), 1)
 
 
 def test_agrees_with_scipy_on_noisy_points():
     template = SHAPE - SHAPE.mean(axis=0)
     points = moving(template)[0] + np.random.default_rng(5).normal(0, 2, (50, 4, 3))
-    rotation, origin = align(points, template)
+    found = align(points, template)
     for frame in (0, 20, 49):
-        expected, _ = Rotation.align_vectors(points[frame] - origin[frame], template)
-        assert np.allclose(rotation[frame], expected.as_matrix(), atol=1e-6)
+        expected, _ = Rotation.align_vectors(points[frame] - found.origin[frame], template)
+        assert np.allclose(found.axes[frame], expected.as_matrix(), atol=1e-6)
 
 
 def test_points_on_a_line_still_give_rotations():
     line = np.array([[-50.0, 0, 0], [0, 0, 0], [50, 0, 0]])
     points, _, _ = moving(line)
-    rotation, origin = align(points, line)
-    assert np.allclose(rotation @ rotation.transpose(0, 2, 1), np.eye(3), atol=1e-9)
-    assert np.allclose(np.linalg.det(rotation), 1)
-    assert np.allclose(np.einsum("nki,nij->nkj", points - origin[:, None], rotation), line, atol=1e-9)
+    frames = align(points, line)
+    assert np.allclose(frames.axes @ frames.axes.transpose(0, 2, 1), np.eye(3), atol=1e-9)
+    assert np.allclose(np.linalg.det(frames.axes), 1)
+    assert np.allclose(frames.local(points), line, atol=1e-9)
 
 
 def test_the_mean_shape_is_the_shape_and_bears_outliers():
@@ -89,5 +91,6 @@ def test_points_without_extent_still_get_a_rotation():
 def test_alignment_equals_kabsch_frame_by_frame():
     template = SHAPE - SHAPE.mean(axis=0)
     points = moving(template)[0] + np.random.default_rng(6).normal(0, 5, (50, 4, 3))
-    for found, expected in zip(align(points, template), naive.kabsch(points, template), strict=True):
-        assert np.allclose(found, expected, atol=1e-9)
+    found, (rotations, origins) = align(points, template), naive.kabsch(points, template)
+    assert np.allclose(found.axes, rotations, atol=1e-9)
+    assert np.allclose(found.origin, origins)

@@ -29,7 +29,7 @@ def test_equals_least_squares(walker):
     seen = scene(positions)
     options = predictor("linear_regression").options
     hidden = seen.without(9, 300, 350)
-    ranked, deviation = reference_markers(hidden, 9, frames=options.max_training_frames, minimum_frames=60)
+    ranked, deviation = reference_markers(hidden, 9, max_frames=options.max_training_frames, min_frames=60)
     found = GlobalRegression(options).predict(seen, 9, 300, 350).positions[1:-1]
     expected = twin(hidden.positions, 9, ranked[deviation < 50], 300, 350)
     assert np.abs(found - expected).max() < 0.1

@@ -31,7 +31,7 @@ def test_pseudo_random_frames_are_of_even_density_and_at_every_distance():
 
 def test_deviations_are_those_of_the_distance(walker):
     positions = walker.recording.positions[:400]
-    ranked, deviation = reference_markers(scene(positions), 9, frames=1000, minimum_frames=60)
+    ranked, deviation = reference_markers(scene(positions), 9, max_frames=1000, min_frames=60)
     for reference, value in zip(ranked[:5], deviation[:5], strict=True):
         assert value == pytest.approx(np.linalg.norm(positions[:, 9] - positions[:, reference], axis=1).std())
     assert (np.diff(deviation) >= 0).all()
@@ -40,7 +40,7 @@ def test_deviations_are_those_of_the_distance(walker):
 def test_markers_that_are_rarely_observed_are_no_references():
     positions = rigid_body(frames=200)
     positions[50:, 3] = np.nan
-    ranked, _ = reference_markers(scene(positions), 0, frames=1000, minimum_frames=60)
+    ranked, _ = reference_markers(scene(positions), 0, max_frames=1000, min_frames=60)
     assert sorted(ranked.tolist()) == [1, 2, 4, 5]
 
 
@@ -49,10 +49,10 @@ def test_a_marker_that_would_leave_too_few_joint_frames_is_left_out():
     positions[:70, 1] = np.nan
     positions[130:, 2] = np.nan
     seen = scene(positions)
-    chosen, frames = jointly_observed(seen, 0, np.array([1, 2, 3]), share=0.5, minimum_frames=60)
+    chosen, frames = jointly_observed(seen, 0, np.array([1, 2, 3]), min_share=0.5, min_frames=60)
     assert chosen.tolist() == [1, 3]
     assert frames.tolist() == list(range(70, 200))
-    chosen, frames = jointly_observed(seen, 0, np.array([1, 2, 3]), share=0.1, minimum_frames=60)
+    chosen, frames = jointly_observed(seen, 0, np.array([1, 2, 3]), min_share=0.1, min_frames=60)
     assert chosen.tolist() == [1, 2, 3] and frames.tolist() == list(range(70, 130))
-    chosen, frames = jointly_observed(seen, 0, np.array([1]), share=0.0, minimum_frames=201)
+    chosen, frames = jointly_observed(seen, 0, np.array([1]), min_share=0.0, min_frames=201)
     assert len(chosen) == len(frames) == 0

@@ -4,7 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.prediction.reference_triangle import LocalInterpolation, grnn, quadratic, triangle
+from markermend.prediction.reference_triangle import (
+    LocalInterpolation,
+    _Case,
+    kernel_regression,
+    quadratic_regression,
+    triangle,
+)
 from support.fillings import predictor, rigid_body, scene
 
 
@@ -31,22 +37,22 @@ def test_the_frame_is_that_of_the_paper():
     found = triangle(points)
     for frame in range(20):
         axes = naive_frame(points[frame])
-        assert np.allclose(found.axes[frame], axes)
+        assert np.allclose(found.frames.axes[frame], axes)
         local = (points[frame] - points[frame, 0]) @ axes
         assert np.allclose(local[1], [found.shape[frame, 0], 0, 0], atol=1e-9)
         assert np.allclose(local[2], [found.shape[frame, 1], 0, found.shape[frame, 2]], atol=1e-9)
-    assert np.allclose(found.laboratory(found.local(points[:, 2])), points[:, 2])
+    assert np.allclose(found.frames.laboratory(found.frames.local(points[:, 2])), points[:, 2])
 
 
 def test_grnn_equals_its_formula():
     rng = np.random.default_rng(1)
     inputs, target, wanted = rng.normal(size=(40, 3)), rng.normal(size=(40, 3)), rng.normal(size=(7, 3))
-    assert np.allclose(grnn(inputs, target, wanted, smoothness=0.3), naive_grnn(inputs, target, wanted, 0.3))
+    assert np.allclose(kernel_regression(inputs, target, wanted, width=0.3), naive_grnn(inputs, target, wanted, 0.3))
 
 
 def test_grnn_far_from_all_training_gives_the_nearest():
     inputs, target = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[5.0, 5, 5], [7, 7, 7]])
-    assert np.allclose(grnn(inputs, target, np.array([[90.0, 0, 0]]), smoothness=0.3), 7)
+    assert np.allclose(kernel_regression(inputs, target, np.array([[90.0, 0, 0]]), width=0.3), 7)
 
 
 def test_quadratic_regression_finds_a_quadratic_exactly():
@@ -56,7 +62,7 @@ def test_quadratic_regression_finds_a_quadratic_exactly():
     def truth(x):
         return np.stack([1 + x[:, 0] * x[:, 1], x[:, 2] ** 2 - 3 * x[:, 0], 2 + x.sum(axis=1)], axis=1)
 
-    assert np.allclose(quadratic(inputs, truth(inputs), wanted, ridge=0.0), truth(wanted))
+    assert np.allclose(quadratic_regression(inputs, truth(inputs), wanted, ridge=0.0), truth(wanted))
 
 
 def test_local_interpolation_is_straight_in_the_frame(walker):
@@ -64,8 +70,9 @@ def test_local_interpolation_is_straight_in_the_frame(walker):
     seen = scene(positions)
     model = predictor("local_interpolation")
     found = model.predict(seen, 7, 200, 260).positions
-    triple = next(t for t in model._triples(seen, 7) if len(model._training(seen, 7, t, seen.present[:, 7])))
-    local = triangle(positions[199:261][:, triple]).local(found)
+    cases = (_Case(seen, 7, triple, seen.present[:, 7], 200, 260) for triple in model._triples(seen, 7))
+    triple = next(case.references for case in cases if len(model._training(case)))
+    local = triangle(positions[199:261][:, triple]).frames.local(found)
     share = np.linspace(0, 1, 62)[:, None]
     assert np.allclose(local, local[0] + share * (local[-1] - local[0]), atol=1e-6)
     assert np.allclose(found[[0, -1]], positions[[199, 260], 7])

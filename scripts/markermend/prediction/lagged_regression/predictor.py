@@ -183,7 +183,7 @@ class LaggedRegression(ABC):
     def _joint(self, scene: Scene, marker: int, ranked: np.ndarray) -> np.ndarray:
         """Those of the ranked markers that leave enough training frames."""
         share, minimum = self.options.min_joint_share, self.options.min_training_frames
-        return jointly_observed(scene, marker, ranked, share=share, minimum_frames=minimum)[0]
+        return jointly_observed(scene, marker, ranked, min_share=share, min_frames=minimum)[0]
 
     def _assignments(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Inputs and the frames that they are to predict: the usual inputs first, then what else is observed."""

@@ -64,8 +64,8 @@ class IteratedSvd:
                 scene,
                 marker,
                 never_missing if len(never_missing) else throughout,
-                share=self.options.min_joint_share,
-                minimum_frames=self.options.min_training_frames,
+                min_share=self.options.min_joint_share,
+                min_frames=self.options.min_training_frames,
             )
             if len(chosen):
                 return np.isin(near, chosen), joint

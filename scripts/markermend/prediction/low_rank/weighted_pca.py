@@ -94,8 +94,8 @@ class WeightedPca:
             scene,
             marker,
             np.concatenate([ranked, others]),
-            share=options.min_joint_share,
-            minimum_frames=options.min_training_frames,
+            min_share=options.min_joint_share,
+            min_frames=options.min_training_frames,
         )
         return chosen[np.isin(chosen, ranked)], [marker, *chosen[np.isin(chosen, others)]], joint
 

@@ -110,7 +110,7 @@ def choose_inputs(scene: Scene, marker: int, observed: np.ndarray, options: Neur
     choices = []
     for ranked in (near, near[observed[near]]):
         together, _ = jointly_observed(
-            scene, marker, ranked, share=options.min_joint_share, minimum_frames=options.min_training_frames
+            scene, marker, ranked, min_share=options.min_joint_share, min_frames=options.min_training_frames
         )
         choices.append(together[: options.inputs])
         if np.count_nonzero(observed[choices[-1]]) >= options.min_inputs:

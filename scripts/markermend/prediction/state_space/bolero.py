@@ -89,7 +89,7 @@ class Bolero:
         seldom = scene.present[slice(*gap), near].mean(axis=0) < SELDOM
         near = near[np.argsort(seldom, kind="stable")][: options.neighbours]
         ranked, _ = reference_markers(
-            scene, marker, frames=options.max_bone_frames, minimum_frames=options.min_training_frames
+            scene, marker, max_frames=options.max_bone_frames, min_frames=options.min_training_frames
         )
         ends = ranked[enough[ranked]][: options.bones]
         return np.concatenate([[marker], near, ends[~np.isin(ends, near)]])
@@ -128,8 +128,8 @@ class Bolero:
             window.body,
             window.body[missing],
             count=options.bones,
-            frames=options.max_bone_frames,
-            minimum_frames=options.min_training_frames,
+            max_frames=options.max_bone_frames,
+            min_frames=options.min_training_frames,
         )
         if len(bones.length) == 0:
             return system.positions(states.mean[rows])[:, 0], system.position_covariance(states.covariance[rows], 0)

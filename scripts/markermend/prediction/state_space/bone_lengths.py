@@ -56,7 +56,7 @@ class Bones:
 
 
 def select_bones(
-    scene: Scene, body: np.ndarray, markers: np.ndarray, *, count: int, frames: int, minimum_frames: int
+    scene: Scene, body: np.ndarray, markers: np.ndarray, *, count: int, max_frames: int, min_frames: int
 ) -> Bones:
     """Choose the bones of markers: those to the markers whose distance varies least.
 
@@ -70,9 +70,9 @@ def select_bones(
         Those of them that need bones.
     count : int
         Number of bones of each.
-    frames : int
+    max_frames : int
         Largest number of frames from which lengths are estimated.
-    minimum_frames : int
+    min_frames : int
         Markers observed together in fewer frames make no bone.
 
     Returns
@@ -83,9 +83,9 @@ def select_bones(
     pairs: dict[tuple[int, int], tuple[float, float]] = {}
     place = {int(marker): number for number, marker in enumerate(body)}
     for marker in markers.tolist():
-        ranked, deviation = reference_markers(scene, marker, frames=frames, minimum_frames=minimum_frames)
+        ranked, deviation = reference_markers(scene, marker, max_frames=max_frames, min_frames=min_frames)
         inside = np.flatnonzero(np.isin(ranked, body))[:count]
-        rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
+        rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), max_frames)
         for other, spread in zip(ranked[inside].tolist(), deviation[inside].tolist(), strict=True):
             distance = np.linalg.norm(scene.positions[rows, other] - scene.positions[rows, marker], axis=1)
             ends = sorted((place[marker], place[other]))

@@ -115,7 +115,7 @@ class KalmanSmoother:
         prediction = Prediction.empty(start, stop)
         near = np.asarray(hidden.neighbours[marker], int)[: options.neighbours]
         chosen, joint = jointly_observed(
-            hidden, marker, near, share=options.min_joint_share, minimum_frames=options.min_training_frames
+            hidden, marker, near, min_share=options.min_joint_share, min_frames=options.min_training_frames
         )
         context = max(2, round(options.context_s * scene.rate))
         window = np.arange(max(start - 1 - context, 0), min(stop + 1 + context, len(scene.positions)))

@@ -1,38 +1,14 @@
-"""The loose predictors: who a marker is predicted from, the rows of inputs, and what each can and cannot learn."""
-
-from dataclasses import replace
+"""Lagged regressions: the inputs of a marker, their rows, and what each can and cannot learn."""
 
 import numpy as np
 import pytest
 
-from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork, moving_average
+from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
 from markermend.prediction.scene import Scene, Trainable
 from markermend.repair.methods import METHODS, predicted
-from support.fillings import predictor
+from support.lagged import limb, quick, scene
 
 BOTH = ["polynomial", "replicated_network"]
-
-
-def limb(frames=1500, markers=6, rate=100.0, seed=0):
-    """Markers that swing together; marker 0 also depends on the square of another's place. (frames, markers, 3), mm."""
-    rng = np.random.default_rng(seed)
-    t = np.arange(frames)[:, None] / rate
-    path = np.stack([200 * np.sin(2.2 * t), 150 * np.sin(1.3 * t + 1), 80 * np.cos(3.1 * t)], axis=2)
-    own = rng.uniform(0.8, 1.2, (markers, 3)) * path + rng.uniform(-300, 300, (markers, 3))
-    own[:, 0, 0] += (own[:, 1, 0] - 100) ** 2 / 1000
-    return own
-
-
-def scene(positions, segment_mates=None, rate=100.0):
-    others = [np.delete(np.arange(positions.shape[1]), m) for m in range(positions.shape[1])]
-    return Scene(positions, rate, others, segment_mates=segment_mates)
-
-
-def quick(name, **changed):
-    """A loose predictor with default settings, but few steps of training."""
-    made = predictor(name)
-    few = {"max_iterations": 150} if name == "replicated_network" else {}
-    return type(made)(replace(made.options, **few, **changed))
 
 
 @pytest.mark.parametrize(("name", "within"), [("polynomial", 0.01), ("replicated_network", 6.0)])
@@ -44,18 +20,14 @@ def test_a_polynomial_relation_is_learned(name, within):
     assert np.ptp(positions[:, 0], axis=0).min() > 100
 
 
-def test_a_straight_line_does_not_learn_it():
-    assert np.abs(quick("polynomial", max_power=1).residuals(scene(limb()), np.array([0]))[:, 0, 0]).max() > 2
-
-
 @pytest.mark.parametrize("name", BOTH)
 def test_siblings_and_parent_are_the_inputs_and_nearest_stand_in_for_them(name):
     positions = limb()
     named = scene(positions, segment_mates=[np.array([4, 2])] * 6)
-    assert quick(name)._usual(named, 0).tolist() == [2, 4]
-    assert quick(name, neighbours=3)._usual(scene(positions), 0).tolist() == [1, 2, 3]
+    assert quick(name)._usual_inputs(named, 0).tolist() == [2, 4]
+    assert quick(name, neighbours=3)._usual_inputs(scene(positions), 0).tolist() == [1, 2, 3]
     positions[200:, 4] = np.nan
-    assert quick(name)._usual(scene(positions, segment_mates=[np.array([4, 2])] * 6), 0).tolist() == [1, 2]
+    assert quick(name)._usual_inputs(scene(positions, segment_mates=[np.array([4, 2])] * 6), 0).tolist() == [1, 2]
 
 
 def test_rows_hold_now_and_before_and_what_was_not_seen_before_is_as_now():
@@ -67,19 +39,6 @@ def test_rows_hold_now_and_before_and_what_was_not_seen_before_is_as_now():
     assert np.array_equal(now, positions[[0, 5, 6, 7], 1])
     assert np.array_equal(before, positions[[0, 5, 4, 5], 1])  # two frames are 0.01 s; frame 3 is missing
     assert np.array_equal(earlier, positions[[0, 1, 2, 5], 1])
-
-
-def test_the_network_sees_the_average_of_what_is_seen_of_its_marker():
-    course = np.arange(50.0)[:, None] * [1, 2, 3]
-    course[20:30] = np.nan
-    average = moving_average(course, 6)
-    for n in range(50):
-        around = course[max(n - 3, 0) : n + 4]
-        if np.isfinite(around).any():
-            assert np.allclose(average[n], np.nanmean(around, axis=0))
-    assert np.isfinite(average[23:27]).all()
-    assert np.all(np.diff(average[21:29, 0]) > 0)
-    assert np.isnan(moving_average(np.full((5, 3), np.nan), 3)).all()
 
 
 @pytest.mark.parametrize("name", BOTH)
@@ -97,24 +56,17 @@ def test_many_markers_at_once_are_as_each_alone(name):
 def test_a_network_that_was_trained_is_not_trained_again(monkeypatch):
     network, seen, trained = quick("replicated_network"), scene(limb(frames=400)), []
     assert isinstance(network, Trainable)
-    learn = ReplicatedNetwork.learn
+    fit = ReplicatedNetwork.fit
 
     def counted(self, tasks):
         trained.append(len(tasks))
-        return learn(self, tasks)
+        return fit(self, tasks)
 
-    monkeypatch.setattr(ReplicatedNetwork, "learn", counted)
+    monkeypatch.setattr(ReplicatedNetwork, "fit", counted)
     network.train([(seen, marker) for marker in range(4)])
     network.train([(seen, marker) for marker in range(5)])
     network.residuals(seen)
     assert trained == [4, 1, 1]
-
-
-def test_the_beginning_is_random_by_seed_and_the_same_again():
-    positions = limb(frames=300)
-    first, again, other = (quick("replicated_network", seed=seed).residuals(scene(positions)) for seed in (1, 1, 2))
-    assert np.array_equal(first, again)
-    assert not np.allclose(first, other)
 
 
 @pytest.mark.parametrize("name", BOTH)
@@ -127,7 +79,7 @@ def test_measured_samples_are_learned_from_where_there_are_enough(name):
     measured = Scene(gapped, 100.0, others, segment_mates=others)
     both = Scene(filled, 100.0, others, measured=measured, segment_mates=others)
     method = quick(name)
-    assert np.allclose(method._task(both, 1, np.array([2, 3])).target, positions[np.r_[0:100, 300:600], 1])
+    assert np.allclose(method._training_set(both, 1, np.array([2, 3])).target, positions[np.r_[0:100, 300:600], 1])
     assert np.isfinite(method.predict(both, 1, 150, 160).positions).all()
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.options.prediction import GaussianProcessOptions
 from markermend.prediction.local_ridge.gaussian_process import train
-from markermend.prediction.local_ridge.model import ridge_regression
+from markermend.prediction.local_ridge.model import ridge_coefficients
 from support.fillings import predictor, scene
 
 OPTIONS = GaussianProcessOptions(
@@ -21,23 +21,23 @@ def training(curved, seed=5):
     return inputs, target - target.mean(axis=0), rng.uniform(0.3, 1, 120)
 
 
-def plain(inputs, target, weights, asked, kernel):
+def plain(inputs, target, weights, at, kernel):
     """Gaussian process regression, entry by entry."""
 
     def covariance(a, b):
-        radial = kernel.amplitude * np.exp(-np.sum((a - b) ** 2) / (2 * kernel.reach_mm**2))
+        radial = kernel.amplitude * np.exp(-np.sum((a - b) ** 2) / (2 * kernel.length_mm**2))
         return 1e4 + kernel.linear * np.dot(a, b) + radial
 
     between = np.array([[covariance(a, b) for b in inputs] for a in inputs]) + np.diag(1 / weights)
-    across = np.array([[covariance(a, b) for b in inputs] for a in asked])
+    across = np.array([[covariance(a, b) for b in inputs] for a in at])
     return across @ np.linalg.solve(between, target)
 
 
 def test_it_equals_plain_kernel_regression_also_without_a_block():
     inputs, target, weights = training(1.0)
     process = train(inputs, target, weights, ridge=0.1, options=OPTIONS)
-    asked = inputs[:7] + 3.0
-    assert np.allclose(process.predict(asked), plain(inputs, target, weights, asked, process.kernel), atol=1e-5)
+    at = inputs[:7] + 3.0
+    assert np.allclose(process.predict(at), plain(inputs, target, weights, at, process.kernel), atol=1e-5)
     block = np.arange(120) // 30
     found = process.left_out(inputs, block, block)
     for b in range(4):
@@ -52,10 +52,10 @@ def test_without_the_radial_part_it_is_the_ridge():
         max_training_frames=100, length_scales=(1.0,), variance_ratios=(0.0,), validation_blocks=4
     )
     process = train(inputs, target, weights, ridge=0.1, options=options)
-    beta = ridge_regression(inputs, target, weights, 0.1)
-    asked = inputs[:9] + 5.0
-    expected = np.concatenate([np.ones((9, 1)), asked], axis=1) @ beta
-    assert np.allclose(process.predict(asked), expected, atol=1e-3)
+    beta = ridge_coefficients(inputs, target, weights, 0.1)
+    at = inputs[:9] + 5.0
+    expected = np.concatenate([np.ones((9, 1)), at], axis=1) @ beta
+    assert np.allclose(process.predict(at), expected, atol=1e-3)
 
 
 def test_it_follows_a_curve_and_chooses_what_errs_least():
@@ -65,7 +65,7 @@ def test_it_follows_a_curve_and_chooses_what_errs_least():
     )
     kept = np.arange(120) % 3 != 0
     process = train(inputs[kept], target[kept], weights[kept], ridge=0.1, options=options)
-    straight = np.concatenate([np.ones((40, 1)), inputs[~kept]], axis=1) @ ridge_regression(
+    straight = np.concatenate([np.ones((40, 1)), inputs[~kept]], axis=1) @ ridge_coefficients(
         inputs[kept], target[kept], weights[kept], 0.1
     )
     curved = process.predict(inputs[~kept])
@@ -75,7 +75,7 @@ def test_it_follows_a_curve_and_chooses_what_errs_least():
 
 def test_nothing_to_try_is_refused():
     inputs, target, weights = training(0.0)
-    with pytest.raises(ValueError, match="no length"):
+    with pytest.raises(ValueError, match="no length scale"):
         train(inputs, target, weights, ridge=0.1, options=GaussianProcessOptions(100, (), (1.0,), 4))
 
 

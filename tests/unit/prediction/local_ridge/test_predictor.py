@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.prediction.local_ridge.model import RidgeModel, ridge_regression
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from support.fillings import predictor, rigid_body, scene
 
@@ -57,20 +56,6 @@ def test_stated_errors_are_of_the_right_size(ridge, walker):
             distance = np.linalg.norm(found.positions - positions[start - 1 : start + 61, marker], axis=1)
             inside.append((distance < 2.795 * found.error)[1:-1])
     assert 0.65 < np.mean(inside) < 1
-
-
-def test_residuals_left_out_equal_training_again_without_the_block():
-    rng = np.random.default_rng(7)
-    local = rng.normal(size=(90, 9))
-    block = np.sort(rng.integers(0, 5, 90))
-    weights = rng.uniform(0.2, 1, 90)
-    model = RidgeModel(np.arange(3), np.arange(2), np.zeros((3, 3)), np.zeros(9), local, weights, np.arange(90))
-    found = model.left_out(np.array([True, True]), 0.1, block)
-    for b in range(5):
-        kept, rows = block != b, block == b
-        beta = ridge_regression(local[kept, :6], local[kept, 6:], weights[kept], 0.1)
-        expected = local[rows, 6:] - np.concatenate([np.ones((rows.sum(), 1)), local[rows, :6]], axis=1) @ beta
-        assert np.allclose(found[rows], expected)
 
 
 def test_too_few_frames_or_neighbours_give_nothing(ridge):

@@ -15,12 +15,11 @@ from markermend.options.flags import write_flags
 from markermend.planning import config as planning_config
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network import predictor
-from markermend.prediction.neural_network.inputs import chosen, completed, features, stretches
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene, Trainable
 from markermend.storage import change_file, mesh_file, stage_files
-from support.fillings import fill_options, neighbours, predictor_options, restored, rigid_body
+from support.fillings import fill_options, neighbours, predictor_options, restored
 from support.paths import PROJECT
 from support.treated import weights
 
@@ -42,42 +41,6 @@ def hidden(positions, *gaps):
     for marker, start, stop in gaps:
         gapped[start:stop, marker] = np.nan
     return Scene(gapped, 100.0, neighbours(positions))
-
-
-def test_inputs_are_positions_now_and_a_frame_ago():
-    positions = np.arange(4 * 2 * 3, dtype=float).reshape(4, 2, 3) ** 2
-    columns, middle = features(positions, np.array([0, 2]), centred=False)
-    assert not middle.any()
-    assert columns[1].tolist() == [*positions[2, 0], *positions[1, 0], *positions[2, 1], *positions[1, 1]]
-    assert columns[0].tolist() == [*positions[0, 0], *positions[0, 0], *positions[0, 1], *positions[0, 1]]
-    columns, middle = features(positions, np.array([0, 2]), centred=True)
-    assert np.allclose(middle[1], positions[2].mean(axis=0))
-    assert np.allclose(columns[1, 3:6], positions[1, 0] - middle[1])
-
-
-def test_missing_inputs_are_told_from_enough_others():
-    truth = rigid_body(frames=300, markers=5)
-    gapped = truth.copy()
-    gapped[100:120, 0] = np.nan
-    gapped[110:130, 1:3] = np.nan
-    examples = truth[~np.isnan(gapped).any(axis=(1, 2))]
-    told = completed(gapped, examples, minimum=3)
-    assert np.isnan(told[110:120, :3]).all()
-    told[110:120] = truth[110:120]
-    assert np.isfinite(told).all()
-    assert np.abs(told[100:110] - truth[100:110]).max() < 0.01
-    assert np.array_equal(told[200:], truth[200:])
-
-
-def test_stretches_are_whole_even_and_about_as_many_frames_as_wanted():
-    seen = np.ones(1000, bool)
-    seen[[300, 305]] = False
-    pieces = stretches(seen, longest=100, frames=10_000)
-    assert np.array_equal(np.concatenate(pieces), np.flatnonzero(seen))
-    assert all((np.diff(piece) == 1).all() and len(piece) <= 100 for piece in pieces)
-    fewer = stretches(seen, longest=100, frames=400)
-    assert 300 <= sum(map(len, fewer)) <= 500
-    assert fewer[0][0] == 0 and fewer[-1][-1] == 999
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -163,7 +126,7 @@ def test_a_gap_in_which_the_usual_inputs_are_missing_has_others(person):
     one.train([(seen, 3)])
     assert np.isfinite(one.predict(seen, 3, 100, 140).positions).all()
     assert np.isfinite(one.predict(seen, 3, 300, 330).positions).all()
-    inputs = {inputs for _, inputs in one._learned(seen).networks}
+    inputs = {inputs for _, inputs in one._cache(seen).networks}
     assert len(inputs) == 2
 
 
@@ -196,7 +159,7 @@ def test_recurrent_networks_look_beyond_the_gap(person):
             moved = seen.positions.copy()
             moved[frames] += 300.0
             other = Scene(moved, 100.0, seen.neighbours)
-            other.cached((one, "learned"), partial(one._learned, seen))
+            other.cached((one, "trained"), partial(one._cache, seen))
             again = one.predict(other, 3, 100, 140).positions
             assert np.array_equal(usual, again) != bool(matters)
 
@@ -255,13 +218,3 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
     learned, torch = stage(tmp_path, ["network_linear"])
     assert len(learned) == 2 and torch
     assert {name for change in learned for name in weights(change)} == {"network_linear"}
-
-
-def test_siblings_and_parent_marker_are_the_first_inputs(person):
-    seen = hidden(person, (3, 100, 140))
-    related = replace(seen, segment_mates=[np.array([11, 9]) for _ in range(12)])
-    limits = {"most": 4, "minimum": 3, "share": 0.6, "minimum_frames": 60}
-    there = np.ones(12, bool)
-    near = neighbours(person)[3]
-    assert chosen(related, 3, there, **limits).tolist() == [11, 9, *near[~np.isin(near, (9, 11))][:2]]
-    assert chosen(seen, 3, there, **limits).tolist() == near[:4].tolist()

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from markermend.options.prediction import NeuralNetworkOptions
-from markermend.prediction.neural_network.training import GATES, Lesson, evaluate, initial, train
+from markermend.prediction.neural_network.training import GATES, TrainingSet, evaluate, initial, train
 
 KINDS = ("linear", "tanh", "lstm", "gru", "bilstm")
 OPTIONS = NeuralNetworkOptions(
@@ -25,13 +25,13 @@ OPTIONS = NeuralNetworkOptions(
 )
 
 
-def lesson(seed, *, inputs=6, lengths=(20,), size=1.0):
+def training_set(seed, *, inputs=6, lengths=(20,), size=1.0):
     """Smooth inputs, and targets that depend on them now and before."""
     rng = np.random.default_rng(seed)
     x = [np.cumsum(rng.standard_normal((length, inputs)), axis=0) / 4 for length in lengths]
     mixing = rng.standard_normal((inputs, 3))
     y = [size * np.tanh((part + np.roll(part, 1, axis=0)) @ mixing / inputs) for part in x]
-    return Lesson(x, y)
+    return TrainingSet(x, y)
 
 
 class GatedUnits(nn.Module):
@@ -115,7 +115,11 @@ def trained_twin(kind, task, options):
 @pytest.mark.parametrize("kind", KINDS)
 def test_networks_of_a_batch_equal_twins_trained_alone(kind):
     """Unlike numbers of inputs, of stretches and of frames; some gradients are clipped and some are not."""
-    tasks = [lesson(1), lesson(2, inputs=9, lengths=(15,), size=0.2), lesson(3, inputs=3, lengths=(12, 7, 1))]
+    tasks = [
+        training_set(1),
+        training_set(2, inputs=9, lengths=(15,), size=0.2),
+        training_set(3, inputs=3, lengths=(12, 7, 1)),
+    ]
     for task, weights in zip(tasks, train(kind, tasks, OPTIONS), strict=True):
         twin = trained_twin(kind, task, OPTIONS)
         with torch.no_grad():
@@ -125,7 +129,7 @@ def test_networks_of_a_batch_equal_twins_trained_alone(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_no_network_depends_on_its_batch(kind):
-    tasks = [lesson(seed, inputs=3 + seed, lengths=(10 + seed, 7)) for seed in range(5)]
+    tasks = [training_set(seed, inputs=3 + seed, lengths=(10 + seed, 7)) for seed in range(5)]
     together = train(kind, tasks, OPTIONS)
     for task, weights in zip(tasks, together, strict=True):
         (alone,) = train(kind, [task], OPTIONS)
@@ -143,7 +147,7 @@ def test_no_network_depends_on_its_batch(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_networks_learn(kind):
-    task = lesson(4, lengths=(20, 20))
+    task = training_set(4, lengths=(20, 20))
     options = replace(OPTIONS, epochs=100, learning_rate=0.2, learning_rate_factor=1.0)
     errors = []
     for weights in (initial(kind, 6, 3, options), train(kind, [task], options)[0]):
@@ -155,11 +159,11 @@ def test_networks_learn(kind):
 def test_the_gradient_of_each_network_is_clipped_on_its_own():
     """The first step is the learning rate times the gradient, which is as long as `clip` or as it was."""
     options = replace(OPTIONS, epochs=1, max_gradient_norm=0.01)
-    wild, calm = lesson(1, size=1000.0), lesson(1, size=1000.0)
+    wild, calm = training_set(1, size=1000.0), training_set(1, size=1000.0)
     start = initial("tanh", 6, 3, options)
     near = [evaluate("tanh", start, x) + 1e-4 for x in calm.inputs]
     steps = []
-    for weights in train("tanh", [wild, Lesson(calm.inputs, near)], options):
+    for weights in train("tanh", [wild, TrainingSet(calm.inputs, near)], options):
         steps.append(np.sqrt(sum(((a - b) ** 2).sum() for a, b in zip(weights, start, strict=True))))
     assert steps[0] == pytest.approx(options.learning_rate * options.max_gradient_norm)
     assert 0 < steps[1] < 0.5 * options.learning_rate * options.max_gradient_norm

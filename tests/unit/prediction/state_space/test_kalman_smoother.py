@@ -4,31 +4,31 @@ import numpy as np
 import pytest
 
 from markermend.filling.constraints import constrain_time
-from markermend.prediction.state_space.kalman_smoother import steady_motion
+from markermend.prediction.state_space.kalman_smoother import constant_velocity_model
 from support.fillings import predictor, scene
 
 
 def small_motion(seed=3):
-    """A steady motion, and what it is made of."""
+    """A constant-velocity model, and its parameters."""
     rng = np.random.default_rng(seed)
     parts = {
         "loading": rng.normal(size=(4, 3, 2)),
-        "middle": rng.normal(size=(4, 3)) * 10,
-        "noise": rng.uniform(0.1, 1, 4),
-        "drive": rng.uniform(0.5, 2, 2),
-        "start": np.array([50.0, 80.0]),
-        "start_velocity": np.array([3.0, 2.0]),
+        "offset": rng.normal(size=(4, 3)) * 10,
+        "observation_noise": rng.uniform(0.1, 1, 4),
+        "acceleration": rng.uniform(0.5, 2, 2),
+        "position_variance": np.array([50.0, 80.0]),
+        "velocity_variance": np.array([3.0, 2.0]),
     }
-    return steady_motion(**parts), parts
+    return constant_velocity_model(**parts), parts
 
 
 def dense_conditional(parts, observed, marker):
     """Posterior by conditioning the joint Gaussian of all states and observations."""
     frames, _, _ = observed.shape
-    size = len(parts["drive"])
+    size = len(parts["acceleration"])
     step = np.kron([[1, 1], [0, 1]], np.eye(size))
-    push = np.kron([[1 / 3, 1 / 2], [1 / 2, 1]], np.diag(parts["drive"]))
-    first = np.diag(np.concatenate([parts["start"], parts["start_velocity"]]))
+    push = np.kron([[1 / 3, 1 / 2], [1 / 2, 1]], np.diag(parts["acceleration"]))
+    first = np.diag(np.concatenate([parts["position_variance"], parts["velocity_variance"]]))
     covariance = np.zeros((frames, 2 * size, frames, 2 * size))
     marginal = first
     for t in range(frames):
@@ -41,8 +41,8 @@ def dense_conditional(parts, observed, marker):
     joint = np.einsum("mka,tasb,nlb->tmksnl", parts["loading"], place, parts["loading"])
     joint = joint.reshape(observed.size, -1)
     known = ~np.isnan(observed).reshape(-1)
-    noise = np.tile(np.repeat(parts["noise"], 3), frames)
-    mean = np.tile(parts["middle"].reshape(-1), frames)
+    noise = np.tile(np.repeat(parts["observation_noise"], 3), frames)
+    mean = np.tile(parts["offset"].reshape(-1), frames)
     gain = np.linalg.solve((joint + np.diag(noise))[np.ix_(known, known)], joint[known]).T
     posterior = mean + gain @ (observed.reshape(-1) - mean)[known]
     variance = np.diag(joint - gain @ joint[known]) + noise
@@ -61,7 +61,7 @@ def test_smoothing_equals_the_dense_conditional():
     expected, spread = dense_conditional(parts, observed, 1)
     assert np.array_equal(observed, before, equal_nan=True)
     assert np.allclose(system.positions(states.mean)[:, 1], expected)
-    assert np.allclose(np.diagonal(system.spread(states.covariance, 1), axis1=1, axis2=2), spread)
+    assert np.allclose(np.diagonal(system.position_covariance(states.covariance, 1), axis1=1, axis2=2), spread)
 
 
 @pytest.mark.parametrize("left", [0, 2])

@@ -1,0 +1,41 @@
+"""The replicated network: its moving average, its scaling, and its random start."""
+
+import numpy as np
+
+from markermend.prediction.lagged_regression.predictor import TrainingSet
+from markermend.prediction.lagged_regression.replicated_network import Scaling, moving_average
+from support.lagged import limb, quick, scene
+
+
+def test_the_network_sees_the_average_of_what_is_seen_of_its_marker():
+    course = np.arange(50.0)[:, None] * [1, 2, 3]
+    course[20:30] = np.nan
+    average = moving_average(course, 6)
+    for n in range(50):
+        around = course[max(n - 3, 0) : n + 4]
+        if np.isfinite(around).any():
+            assert np.allclose(average[n], np.nanmean(around, axis=0))
+    assert np.isfinite(average[23:27]).all()
+    assert np.all(np.diff(average[21:29, 0]) > 0)
+    assert np.isnan(moving_average(np.full((5, 3), np.nan), 3)).all()
+
+
+def test_the_beginning_is_random_by_seed_and_the_same_again():
+    positions = limb(frames=300)
+    first, again, other = (quick("replicated_network", seed=seed).residuals(scene(positions)) for seed in (1, 1, 2))
+    assert np.array_equal(first, again)
+    assert not np.allclose(first, other)
+
+
+def test_features_are_powers_of_scores_and_the_plain_average():
+    rng = np.random.default_rng(5)
+    rows = rng.normal(50, 20, (200, 9))
+    rows[:, 2] = 7.0
+    training = TrainingSet(rows, rng.normal(10, 3, (200, 3)), np.arange(200), 0)
+    scaling = Scaling(training, 2)
+    features, targets = scaling.data(training, np.ones(200, bool))
+    assert features.shape == (200, scaling.width) == (200, 2 * 6 + 3)
+    assert np.allclose(features.mean(axis=0), 0, atol=1e-9)
+    deviations = features.std(axis=0)
+    assert np.allclose(np.delete(deviations, [2, 8]), 1) and deviations[[2, 8]].max() == 0
+    assert np.allclose(targets.std(axis=0), 1)

@@ -1,0 +1,64 @@
+"""Choice of anchors and inputs: each frame once, anchors that span a frame, and enough frames to train on."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from markermend.options.prediction import LocalRidgeOptions
+from markermend.prediction.local_ridge.inputs import InputSelection
+from support.fillings import rigid_body, scene
+
+OPTIONS = replace(LocalRidgeOptions(), anchors=3, inputs=5)
+
+
+def assign(positions, marker=0, frames=None, options=OPTIONS):
+    """The assignments of a marker; all frames if none are named."""
+    seen = scene(positions)
+    rows = np.arange(len(positions)) if frames is None else frames
+    return seen, list(InputSelection(options).assignments(seen, marker, rows))
+
+
+def test_each_frame_is_predicted_once_from_inputs_that_are_observed():
+    positions = rigid_body(frames=300, markers=8)
+    positions[20:40, 1] = np.nan
+    positions[30:50, 2] = np.nan
+    seen, found = assign(positions)
+    assert np.array_equal(np.sort(np.concatenate([each.rows for each in found])), np.arange(300))
+    for each in found:
+        needed = [*each.data.anchors, *each.data.inputs[each.used]]
+        assert seen.present[np.ix_(each.rows, needed)].all() and 0 not in needed
+
+
+def test_training_frames_show_the_marker_and_all_its_inputs():
+    positions = rigid_body(frames=300, markers=8)
+    positions[20:40, 0] = np.nan
+    seen, found = assign(positions, frames=np.arange(20, 40))
+    for each in found:
+        assert seen.present[np.ix_(each.data.training, [0, *each.data.inputs])].all()
+        assert each.data.local.shape == (len(each.data.training), 3 * len(each.data.inputs) + 3)
+        assert np.allclose(np.median(each.data.local, axis=0), 0, atol=1e-9)
+
+
+def test_anchors_on_a_line_are_widened_by_further_ones():
+    body = rigid_body(frames=200, markers=8)
+    body[:, 2] = (body[:, 1] + body[:, 3]) / 2
+    seen = replace(scene(body), neighbours=[np.array([1, 2, 3, 4, 5, 6, 7])] + [np.zeros(0, int)] * 7)
+    narrow, wide = (
+        next(InputSelection(replace(OPTIONS, min_anchor_extent_mm=extent)).assignments(seen, 0, np.arange(200)))
+        for extent in (0.0, 15.0)
+    )
+    assert narrow.data.anchors.tolist() == [1, 2, 3]
+    assert wide.data.anchors.tolist()[:4] == [1, 2, 3, 4]
+
+
+def test_a_neighbour_that_is_often_missing_comes_last():
+    body = rigid_body(frames=200, markers=8)
+    body[50:150, 1] = np.nan
+    seen = replace(scene(body), neighbours=[np.array([1, 2, 3, 4, 5, 6, 7])] + [np.zeros(0, int)] * 7)
+    (found,) = InputSelection(OPTIONS).assignments(seen, 0, np.arange(60, 80))
+    assert found.data.anchors.tolist() == [2, 3, 4]
+
+
+def test_two_neighbours_or_too_few_frames_give_nothing():
+    assert assign(rigid_body(frames=200, markers=3))[1] == []
+    assert assign(rigid_body(frames=OPTIONS.min_training_frames - 1, markers=6))[1] == []
