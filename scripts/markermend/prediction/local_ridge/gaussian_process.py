@@ -202,7 +202,8 @@ class _GaussianRegression:
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """See Regression."""
-        return self.process.predict(inputs) + self.data.centre[-3:]
+        local: np.ndarray = self.process.predict(inputs) + self.data.centre[-3:]
+        return local
 
     def left_out(self, block: np.ndarray) -> np.ndarray:
         """See Regression."""

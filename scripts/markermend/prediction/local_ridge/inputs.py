@@ -106,13 +106,13 @@ class InputSelection:
 
     def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
         """Neighbours to use for these frames: in the mesh's order, but those that are often missing come last."""
-        ranked = np.asarray(scene.neighbours[marker], int)
+        ranked: np.ndarray = np.asarray(scene.neighbours[marker], int)
         ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.min_training_frames]
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
         share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
-        candidates: np.ndarray = ranked[np.argsort(share < OFTEN, kind="stable")][: 2 * self.options.inputs]
-        return candidates
+        ranked = ranked[np.argsort(share < OFTEN, kind="stable")]
+        return ranked[: 2 * self.options.inputs]
 
     def _training_set(
         self, scene: Scene, marker: int, candidates: np.ndarray, first: np.ndarray, present: np.ndarray

@@ -77,7 +77,8 @@ class WeightedPca:
         found = reconstruct(
             known, incomplete, 3 * len(gaps), weights=weights, explained=options.explained_singular_values
         )
-        return found[:, :3] + centres[1]
+        positions: np.ndarray = found[:, :3] + centres[1]
+        return positions
 
     def _columns(
         self, scene: Scene, marker: int, observed: np.ndarray, missing: np.ndarray

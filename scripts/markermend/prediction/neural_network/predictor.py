@@ -197,4 +197,5 @@ class Network:
         for start, stop in runs(~np.isnan(columns).any(axis=1)):
             scores = evaluate(self.kind, network.weights, network.inputs.scores(columns[start:stop]))
             predicted[start:stop] = network.outputs.columns(scores) + centre[start:stop]
-        return np.round(predicted[frames - first], DECIMALS)
+        rounded: np.ndarray = np.round(predicted[frames - first], DECIMALS)
+        return rounded

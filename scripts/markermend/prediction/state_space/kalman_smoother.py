@@ -180,7 +180,8 @@ def _acceleration(trajectory: np.ndarray, lag: int) -> np.ndarray:
         # In the middle of n frames between known states the variance is the acceleration's times n^3 / 192.
         variance = 192 * _mean_square(_bridging_misfit(trajectory, lag)) / (2 * lag) ** 3
         lag //= 2
-    return np.nan_to_num(variance)
+    known: np.ndarray = np.nan_to_num(variance)
+    return known
 
 
 def _bridging_misfit(trajectory: np.ndarray, lag: int) -> np.ndarray:
