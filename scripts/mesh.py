@@ -21,7 +21,8 @@ STAGE.writes("mesh", "meshes")
 
 def work(call: Any) -> str:
     recordings = read_subject(call.markers, max_frames=call.options.max_frames)
-    supplied = [own for path in call.mesh_files for own in user_mesh.read(path)]
+    files = [(mesh_file.read_user_file(path), path.name) for path in call.mesh_files]
+    supplied = [own for content, name in files for own in user_mesh.parse_file(content, name)]
     meshes = inference.infer_meshes(recordings, supplied=supplied, options=call.options)
     call.facts["inputs"]["markers"].sort()
     mesh_file.write(call.mesh, meshes, call.facts)

@@ -59,7 +59,7 @@ from markermend.options.mesh import MeshOptions
 from markermend.options.repair import RepairOptions
 from markermend.repair.repair import RepairedRecording
 from markermend.repair.repair import repair as repair_findings
-from markermend.storage import atomic, originals_file
+from markermend.storage import atomic, mesh_file, originals_file
 from markermend.storage.folder_names import printable
 
 if TYPE_CHECKING:
@@ -242,7 +242,8 @@ def infer_mesh(
     """
     own = (options or Options.read()).mesh
     thinned = [pair_statistics.thin(recording, frames=own.max_frames) for recording in recordings]
-    supplied = [mesh for path in mesh_files for mesh in user_mesh.read(Path(path))]
+    files = [(mesh_file.read_user_file(Path(path)), Path(path).name) for path in mesh_files]
+    supplied = [mesh for content, name in files for mesh in user_mesh.parse_file(content, name)]
     meshes = inference.infer_meshes(thinned, supplied=supplied, options=own)
     if len(meshes) != 1:
         groups = "; ".join(", ".join(mesh.recordings) for mesh in meshes)

@@ -1,11 +1,9 @@
-"""A mesh that the user supplies: its file, and what is wrong with it."""
+"""A mesh that the user supplies: what it holds, and what is wrong with it."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from markermend.core.recording import BadRecording
@@ -38,13 +36,15 @@ class UserMesh:
         return tuple(marker for part in self.members for marker in part)
 
 
-def read(path: Path) -> list[UserMesh]:
-    """Read the meshes of a user's file.
+def parse_file(content: Any, file: str) -> list[UserMesh]:
+    """Check the meshes of a user's file.
 
     Parameters
     ----------
-    path : Path
-        A JSON file with one mesh, or a whole mesh.json.
+    content : Any
+        JSON value of the file: one mesh, or a whole mesh.json.
+    file : str
+        Name of the file, for messages.
 
     Returns
     -------
@@ -54,16 +54,12 @@ def read(path: Path) -> list[UserMesh]:
     Raises
     ------
     BadRecording
-        Where the file is malformed, with the place.
+        Where the content is malformed, with the place.
     """
-    try:
-        value = json.loads(path.read_text(encoding="utf-8-sig"))
-    except (ValueError, OSError) as error:
-        raise BadRecording(f"mesh file {path.name}: {error}: give a JSON file") from error
-    entries = value.get("meshes", [value]) if isinstance(value, dict) else None
+    entries = content.get("meshes", [content]) if isinstance(content, dict) else None
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise BadRecording(f"mesh file {path.name}: holds no JSON object with the key 'segments'")
-    return [parse(entry, path.name) for entry in entries]
+        raise BadRecording(f"mesh file {file}: holds no JSON object with the key 'segments'")
+    return [parse(entry, file) for entry in entries]
 
 
 def parse(entry: Mapping[str, Any], file: str) -> UserMesh:

@@ -1,7 +1,8 @@
-"""The file mesh.json: the meshes of a subject."""
+"""The file mesh.json, the meshes of a subject, and the mesh files of users."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -75,3 +76,27 @@ def write(path: Path, meshes: Sequence[Mesh], facts: dict[str, Any]) -> None:
     """
     ordered = sorted(meshes, key=lambda mesh: mesh.recordings)
     atomic.write_json(path, {"meshes": [mesh.as_json() for mesh in ordered], "facts": facts})
+
+
+def read_user_file(path: Path) -> Any:
+    """Read a mesh file that a user wrote.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Any
+        Its JSON value, not checked.
+
+    Raises
+    ------
+    BadRecording
+        Where it is no JSON file.
+    """
+    try:
+        return json.loads(path.read_text(encoding="utf-8-sig"))
+    except (ValueError, OSError) as error:
+        raise BadRecording(f"mesh file {path.name}: {error}: give a JSON file") from error

@@ -7,11 +7,17 @@ from markermend.core.recording import BadRecording
 from markermend.mesh import user_mesh
 from markermend.mesh.inference import infer_mesh, infer_meshes
 from markermend.options.mesh import MeshOptions
+from markermend.storage import mesh_file
 from support.bodies import recording, subject
 
 OPTIONS = MeshOptions()
 UPPER = {"name": "upper", "markers": ["0a", "0b", "0c", "0d", "1a", "1b"], "parent": None, "parent_marker": None}
 LOWER = {"name": "lower", "markers": ["1c", "1d", "2a", "2b", "2c", "2d"], "parent": 0, "parent_marker": "1a"}
+
+
+def read(path):
+    """The meshes of a user's file."""
+    return user_mesh.parse_file(mesh_file.read_user_file(path), path.name)
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +97,7 @@ def test_an_inferred_mesh_can_be_supplied_again(body, tmp_path):
     inferred = infer_mesh([recording(*body)], options=OPTIONS)
     path = tmp_path / "mesh.json"
     path.write_text(json.dumps({"meshes": [inferred.as_json()]}))
-    (own,) = user_mesh.read(path)
+    (own,) = read(path)
     assert infer_mesh([recording(*body)], supplied=own, options=OPTIONS) == inferred
 
 
@@ -120,7 +126,7 @@ def test_a_malformed_mesh_is_refused_with_the_place(segments, reason, tmp_path):
     path = tmp_path / "own.json"
     path.write_text(json.dumps({"segments": segments}))
     with pytest.raises(BadRecording, match=r"^mesh file own\.json: ") as error:
-        user_mesh.read(path)
+        read(path)
     assert reason in str(error.value)
 
 
@@ -129,4 +135,4 @@ def test_a_file_that_is_no_mesh_is_refused(text, tmp_path):
     path = tmp_path / "own.json"
     path.write_bytes(text.encode("latin-1"))
     with pytest.raises(BadRecording, match=r"own\.json"):
-        user_mesh.read(path)
+        read(path)
