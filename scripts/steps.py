@@ -16,7 +16,7 @@ STAGE = detector.stage("steps", __doc__, StepsOptions, finds="steps")
 
 def work(call: Any) -> str:
     given, recorded_under = detector.arguments(call)
-    found, left = detect_steps(**given)
+    found, left = detector.selected(detect_steps, call.options)(**given)
     detector.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
     return f"{detector.result(found)}; {len(left)} open steps"
 

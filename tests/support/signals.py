@@ -8,7 +8,7 @@ from markermend.command.detector import chosen
 from markermend.core import events
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
-from markermend.detection.published import noise, peaks, steps
+from markermend.detection.published import noise, peaks, slow, steps
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps
 from markermend.numerics import interpolation, intervals
@@ -21,6 +21,12 @@ from markermend.prediction.scene import Scene
 RATES = (50.0, 100.0, 200.0)
 RIDGE = LocalRidge(LocalRidgeOptions())
 DETECTORS = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
+PUBLISHED = {
+    "peaks": peaks.detect_peaks,
+    "noise": noise.detect_noise,
+    "steps": steps.detect_steps,
+    "slow": slow.detect_slow,
+}
 NOTHING = {"peaks": [], "noise": [], "steps": []}
 
 
@@ -60,13 +66,11 @@ def detect(recording, preset="default", only=tuple(DETECTORS), options=None):
     claimed = np.zeros(recording.positions.shape, bool)
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
     for stage in only:
-        result = DETECTORS[stage](
-            scene,
-            markers=recording.markers,
-            earlier=claimed,
-            options=options or options_of(stage, preset),
-            predictor=RIDGE,
-        )
+        given = {"markers": recording.markers, "earlier": claimed, "options": options or options_of(stage, preset)}
+        if preset == "default":
+            result = DETECTORS[stage](scene, **given, predictor=RIDGE)
+        else:
+            result = PUBLISHED[stage](scene, **given)
         found[stage], left = result if stage == "steps" else (result, left)
         claimed = claimed | events.coordinates(found[stage], recording.frames, recording.markers)
     return found, left

@@ -13,6 +13,12 @@ from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.options.detection import LabelsOptions
+from markermend.options.published import (
+    PublishedNoiseOptions,
+    PublishedPeaksOptions,
+    PublishedSlowOptions,
+    PublishedStepsOptions,
+)
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
@@ -60,8 +66,58 @@ def chosen(options: Any) -> Any:
     Any
         The same for the preset `default` or where there are no presets, else those that the field of its name holds.
     """
-    preset = getattr(options, "preset", "default")
-    return options if preset == "default" else getattr(options, preset)
+    return getattr(options, options.preset) if is_published(options) else options
+
+
+def is_published(options: Any) -> bool:
+    """Tell whether the options ask for the published detector, which looks at each coordinate by itself.
+
+    Parameters
+    ----------
+    options : Any
+        The options of a stage.
+
+    Returns
+    -------
+    bool
+        False for the detector against the neighbours, and where there are no presets.
+    """
+    return getattr(options, "preset", "default") != "default"
+
+
+def selected(detect: Callable[..., Any], options: Any) -> Callable[..., Any]:
+    """Select the detector that the preset names; the published ones are imported only here.
+
+    Parameters
+    ----------
+    detect : callable
+        The detector against the neighbours.
+    options : Any
+        The options of the stage.
+
+    Returns
+    -------
+    callable
+        The same, or the published detector of the class of artifacts.
+    """
+    own = chosen(options)
+    if isinstance(own, PublishedPeaksOptions):
+        from markermend.detection.published.peaks import detect_peaks
+
+        return detect_peaks
+    if isinstance(own, PublishedNoiseOptions):
+        from markermend.detection.published.noise import detect_noise
+
+        return detect_noise
+    if isinstance(own, PublishedStepsOptions):
+        from markermend.detection.published.steps import detect_steps
+
+        return detect_steps
+    if isinstance(own, PublishedSlowOptions):
+        from markermend.detection.published.slow import detect_slow
+
+        return detect_slow
+    return detect
 
 
 def arguments(call: Any) -> tuple[dict[str, Any], list[Event]]:
@@ -128,8 +184,8 @@ def inputs(
         "scene": scene(recording, mesh, positions),
         "markers": recording.markers,
         "earlier": events.coordinates(artifacts, recording.frames, recording.markers),
-        "predictor": _predictor(options),
         "options": chosen(options),
+        **_predictor(options),
     }
     return given, exchanges if as_recorded else []
 
@@ -163,7 +219,7 @@ def find(
         )
         return found
     given, recorded_under = inputs(recording, mesh, earlier, options=options)
-    result = detect(**given)
+    result = selected(detect, options)(**given)
     return restate(result[0] if isinstance(result, tuple) else result, recorded_under)
 
 
@@ -206,13 +262,15 @@ def restate(found: list[Event], recorded_under: Sequence[Event]) -> list[Event]:
     return labels.follow(found, found_under=(), stated_under=recorded_under) if recorded_under else found
 
 
-def _predictor(options: Any) -> Any:
-    """The predictor whose residual is judged: local_ridge, unless the published detector of slow changes names another."""
-    if hasattr(chosen(options), "predictor"):
+def _predictor(options: Any) -> dict[str, Any]:
+    """The predictor whose residual is judged: local_ridge, or that which the published detector of slow changes names."""
+    if not is_published(options):
+        return {"predictor": LocalRidge(options.predictors.local_ridge)}
+    if isinstance(chosen(options), PublishedSlowOptions):
         from markermend.detection.published import slow
 
-        return slow.predictor(chosen(options), options.predictors)
-    return LocalRidge(options.predictors.local_ridge)
+        return {"predictor": slow.make_predictor(chosen(options), options.predictors)}
+    return {}
 
 
 def write(call: Any, found: list[Event], recorded_under: Sequence[Event], facts: dict[str, Any]) -> None:
@@ -269,6 +327,6 @@ def search(call: Any, detect: Callable[..., list[Event]]) -> str:
         Where the recording was set aside.
     """
     given, recorded_under = arguments(call)
-    found = detect(**given)
+    found = selected(detect, call.options)(**given)
     write(call, found, recorded_under, {})
     return result(found)

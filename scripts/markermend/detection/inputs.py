@@ -1,4 +1,4 @@
-"""What the four detectors share: a scene without what is already explained."""
+"""What the detectors share: a scene without what is already explained."""
 
 from __future__ import annotations
 
@@ -9,10 +9,20 @@ import numpy as np
 from markermend.prediction.scene import Scene
 
 
-def without(scene: Scene, claimed: np.ndarray) -> Scene:
-    """The scene without samples of which any coordinate is claimed: neither inputs, nor training, nor judged.
+def without_claimed(scene: Scene, claimed: np.ndarray) -> Scene:
+    """Hide the samples of which any coordinate is claimed: they are neither inputs nor training, nor judged.
 
-    claimed: bool, like the scene's positions.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed. Not modified.
+    claimed : np.ndarray
+        Bool, like the positions.
+
+    Returns
+    -------
+    Scene
+        The scene without them.
     """
     positions = scene.positions.copy()
     positions[claimed.any(axis=2)] = np.nan

@@ -1,4 +1,4 @@
-"""Isolated peaks: a marker is elsewhere for a few samples and back again (skurowski2022 3.4.2)."""
+"""Isolated peaks: a marker is elsewhere for a few samples and back again (skurowski2022 3.4.2), as its neighbours show."""
 
 from __future__ import annotations
 
@@ -8,53 +8,78 @@ import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.detection.neighbour import pulses, residual_windows
-from markermend.detection.neighbour.residual_windows import Courses
-from markermend.detection.published import coordinatewise
-from markermend.detection.published.peaks import find_peaks
+from markermend.detection import inputs
+from markermend.detection.neighbour import attribution, pulses, residual_windows
+from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
+from markermend.detection.neighbour.window_detector import WindowDetector
+from markermend.numerics import intervals
+from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import PeaksOptions
-from markermend.options.published import PublishedPeaksOptions
 from markermend.prediction.scene import ResidualSource, Scene
 
 
 def detect_peaks(
-    scene: Scene,
-    *,
-    markers: Sequence[str],
-    earlier: np.ndarray,
-    options: PublishedPeaksOptions | PeaksOptions,
-    predictor: ResidualSource,
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: PeaksOptions, predictor: ResidualSource
 ) -> list[Event]:
     """Find the isolated peaks of a recording.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. options: of one of the two detectors. predictor: source of the residuals, used by the
-    detector against the neighbours alone.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found where it is missing.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions.
+    options : PeaksOptions
+        The options.
+    predictor : ResidualSource
+        Predicts each marker from its neighbours.
+
+    Returns
+    -------
+    list[Event]
+        Disjoint events, sorted.
     """
-    rate = scene.rate
-    if isinstance(options, PublishedPeaksOptions):
-        return coordinatewise.detect(
-            scene,
-            lambda signal, _: find_peaks(signal, rate=rate, options=options),
-            markers=markers,
-            earlier=earlier,
-            bridge_s=options.slope_window_s,
-        )
-
-    maps, length = pulses.of_longest(rate, options)
-
-    def judge(course: Courses, m: int) -> list[Event]:
-        found = pulses.find(course, m, rate=rate, options=options)
-        return [Event(markers[m], one.start, one.stop, one.score, events.carrying(one.off)) for one in found]
-
-    found, _ = residual_windows.detect(
-        scene,
-        markers=markers,
-        earlier=earlier,
-        options=options,
-        maps=maps,
-        length=length,
+    found, _ = attribution.attribute(
+        PeakDetector(inputs.without_claimed(scene, earlier), markers, options),
         predictor=predictor,
-        judge=judge,
+        rounds=options.attribution_rounds,
+        neighbours=options.attribution_neighbours,
     )
-    return found
+    return events.tidy(found)
+
+
+class PeakDetector(WindowDetector):
+    """Finds pulses of up to a few samples in the residuals.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed, without what earlier detectors claimed.
+    markers : Sequence[str]
+        Names of the markers.
+    options : PeaksOptions
+        The options.
+    """
+
+    def __init__(self, scene: Scene, markers: Sequence[str], options: PeaksOptions) -> None:
+        super().__init__(scene, markers, options)
+        self.options = options
+        self._longest = intervals.samples(options.max_duration_s, scene.rate)
+        self._context = residual_windows.context_samples(scene.rate, options, fewest=pulses.MIN_CONTEXT)
+
+    @property
+    def window(self) -> int:
+        """Samples in the window of the longest pulse."""
+        return self._longest + 2 * self._context
+
+    def central_filter(self, covariance: WindowCovariance) -> WindowFilters:
+        """Make the filter of the longest pulse; see `WindowDetector.central_filter`."""
+        return pulses.pulse_filters(covariance, self._longest, self.window, (self._context,))
+
+    def judge(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the pulses of one marker; see `Detector.judge`."""
+        found = pulses.find_pulses(statistics, marker, rate=self.scene.rate, options=self.options)
+        name = self.markers[marker]
+        return [Event(name, one.start, one.stop, one.score, events.carrying(one.deviation)) for one in found]

@@ -1,8 +1,8 @@
-"""What frozen positions and noisy tails have in common: samples in the file that nobody measured, and that tells.
+"""The discrepancy between samples and their prediction: it shows which samples in the file nobody measured.
 
-Where a marker was out of sight, a capture program may repeat its last position, or let the samples next to the gap wander
-off. Both look like measurements. What gives them away is that the neighbours and the marker's own course around them say
-otherwise.
+Where a marker was out of sight, a capture program may repeat its last position, or let the samples beside the gap wander
+off. Both look like measurements, but disagree with the prediction from the neighbours and from the marker's own trajectory
+around them.
 """
 
 from __future__ import annotations
@@ -15,36 +15,79 @@ from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.prediction.scene import Predictor, Scene
 
-Place = tuple[int, int, int]
+Stretch = tuple[int, int, int]
 """A stretch of one marker: its index, and the half-open interval."""
 
 
-def hiding(scene: Scene, places: Sequence[Place]) -> Scene:
-    """The scene without any of the places: none of them vouches for another."""
-    covered = np.zeros(scene.positions.shape, bool)
-    for m, start, stop in places:
-        covered[start:stop, m] = True
-    return inputs.without(scene, covered)
+def hide_stretches(scene: Scene, stretches: Sequence[Stretch]) -> Scene:
+    """Hide suspected stretches, so that none of them supports another.
 
+    Parameters
+    ----------
+    scene : Scene
+        What is observed. Not modified.
+    stretches : Sequence[Stretch]
+        The stretches.
 
-def disagreement(
-    scene: Scene, hidden: Scene, place: Place, *, predictor: Predictor, sigmas: float, floor_mm: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """How far the samples of a place are from where they should be, in units of what can be told.
-
-    hidden: the scene without the place. Returns the distance (n,) in units of `sigmas` standard deviations of the
-    prediction (per axis) or of `floor_mm`, whichever is more, and the difference (n, 3), mm; 0 where nothing can be
-    told or nothing is measured.
+    Returns
+    -------
+    Scene
+        The scene without them.
     """
-    m, start, stop = place
+    covered = np.zeros(scene.positions.shape, bool)
+    for m, start, stop in stretches:
+        covered[start:stop, m] = True
+    return inputs.without_claimed(scene, covered)
+
+
+def discrepancy(
+    scene: Scene, hidden: Scene, stretch: Stretch, *, predictor: Predictor, sigmas: float, floor_mm: float
+) -> np.ndarray:
+    """Measure how far the samples of a stretch are from their prediction.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    hidden : Scene
+        The scene without the stretch.
+    stretch : Stretch
+        The stretch.
+    predictor : Predictor
+        The predictor.
+    sigmas : float
+        Threshold in standard deviations of the prediction, per axis.
+    floor_mm : float
+        Smallest threshold, mm.
+
+    Returns
+    -------
+    np.ndarray
+        Distances (n,) in units of the threshold; 0 where there is no prediction, or nothing is observed.
+    """
+    m, start, stop = stretch
     prediction = predictor.predict(hidden, m, start, stop)
     difference = scene.positions[start:stop, m] - prediction.positions[1:-1]
-    level = np.maximum(sigmas * prediction.error[1:-1], floor_mm)
-    size = np.linalg.norm(difference, axis=1) / level
-    known = np.isfinite(size)
-    return np.where(known, size, 0.0), np.where(known[:, None], difference, 0.0)
+    threshold = np.maximum(sigmas * prediction.error[1:-1], floor_mm)
+    distance = np.linalg.norm(difference, axis=1) / threshold
+    return np.where(np.isfinite(distance), distance, 0.0)
 
 
-def event(marker: str, start: int, stop: int, score: np.ndarray) -> Event:
-    """The finding over [start, stop): all axes, since the sample as a whole was not measured."""
+def unmeasured_event(marker: str, start: int, stop: int, score: np.ndarray) -> Event:
+    """Make the event of samples that nobody measured: on all axes, since each sample is wrong as a whole.
+
+    Parameters
+    ----------
+    marker : str
+        Name of the marker.
+    start, stop : int
+        The stretch, [start, stop).
+    score : np.ndarray
+        Discrepancies, in units of the threshold.
+
+    Returns
+    -------
+    Event
+        The event, with the largest discrepancy as its score.
+    """
     return Event(marker, start, stop, float(max(1.0, score.max())))

@@ -1,15 +1,14 @@
-"""Slow changes: a marker drifts away from where its neighbours say it should be, and comes back (skurowski2022 3.5).
+"""Slow changes: a marker drifts away from where its neighbours predict it, and comes back (skurowski2022 3.5).
 
-Natural motion leaves residuals as large as the drift. What tells them apart is time (a drift rises and falls within a
-second or so, from rest to rest), and what the body is doing: where its pose is novel, or it moves fast, or the neighbours
-fit badly as well, more is to be expected.
+Natural motion leaves residuals as large as the drift. Two things set a drift apart: its duration (it rises and falls within
+a second or so, from baseline to baseline), and the local scale, which is larger where the pose has high leverage, where
+the body moves fast, and where the neighbours fit badly as well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,78 +16,169 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_attribution import Company
-from markermend.detection.neighbour.drift_candidates import Matches, bar, frames, measure
-from markermend.detection.published import slow
+from markermend.detection.neighbour.drift_attribution import DriftAttribution
+from markermend.detection.neighbour.drift_candidates import DriftScorer, DriftScores
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection import SlowOptions
-from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
 
-def judge_slow(matches: Matches, marker: int, *, name: str, rate: float, options: SlowOptions) -> list[Event]:
-    """Find the slow changes of one marker: the bumps that stand out, the clearest first, each with room about it.
-
-    A bump that is altogether plain may be the tip of a longer one: it lasts as long as it takes to come to rest.
-    """
-    score, length, residual = matches.score[:, marker], matches.length[:, marker], matches.residual[:, marker]
-    tops = [start + int(score[start:stop].argmax()) for start, stop in runs(score > 1)]
-    shortest, found = intervals.samples(options.min_duration_s, rate), list[Event]()
-    taken = np.zeros(len(score), bool)
-    for top in sorted(tops, key=lambda top: -score[top]):
-        plain = score[top] >= options.obvious_factor
-        lengths = [n for n in frames(options, rate) if n == length[top] or (plain and n > length[top])]
-        spans = [drift_shape.extent(residual, top, n, flank=options.flank_fraction) for n in lengths]
-        start, stop = next((span for span in spans if stands_out(residual, *span, options=options)), spans[0])
-        if taken[start:stop].any():
-            continue
-        side = int(options.flank_fraction * (stop - start))
-        taken[max(0, start - side) : stop + side] = True
-        if (
-            stands_out(residual, start, stop, options=options)
-            and score[top] >= bar(score, start, stop, rate=rate, options=options)
-            and (score[top] >= options.high_scale_factor or matches.noise[top, marker] <= options.high_scale_mm)
-            and stop - start >= shortest
-        ):
-            change = drift_shape.risen(residual, start, stop, flank=options.flank_fraction)
-            found.append(Event(name, start, stop, float(score[top]), events.carrying(change[None])))
-    return found
-
-
-def stands_out(residual: np.ndarray, start: int, stop: int, *, options: SlowOptions) -> bool:
-    """Whether a residual (frames, 3) rises high enough in [start, stop), from rest to rest."""
-    least = max(
-        options.floor_mm,
-        drift_shape.unrest(residual, start, stop, flank=options.flank_fraction) / options.max_baseline_fraction,
-    )
-    return drift_shape.height(residual, start, stop, flank=options.flank_fraction) >= least
-
-
 def detect_slow(
-    scene: Scene,
-    *,
-    markers: Sequence[str],
-    earlier: np.ndarray,
-    options: PublishedSlowOptions | SlowOptions,
-    predictor: Any,
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: SlowOptions, predictor: LocalRidge
 ) -> list[Event]:
     """Find the slow changes of a recording.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. options: of one of the two detectors. predictor: a ResidualSource for the one of single
-    coordinates, a LocalRidge for the other, which changes its options.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found where it is missing.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions.
+    options : SlowOptions
+        The options.
+    predictor : LocalRidge
+        Predicts each marker from its neighbours; some of its options are changed.
+
+    Returns
+    -------
+    list[Event]
+        Disjoint events, sorted.
     """
-    if isinstance(options, PublishedSlowOptions):
-        return slow.detect(scene, markers=markers, earlier=earlier, options=options, predictor=predictor)
-    rest = inputs.without(scene, earlier)
+    rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
-    matches = measure(rest, *source.scaled_residuals(rest, blocks=options.leverage_blocks), options=options)
-    company = Company(rest, matches, options, source)
-    found = []
-    for m, name in enumerate(markers):
-        for event in judge_slow(matches, m, name=name, rate=rest.rate, options=options):
-            if company.upholds(m, event):
-                found.append(event)
+    scorer = DriftScorer(rest.rate, options)
+    scores = scorer.score(rest, *source.scaled_residuals(rest, blocks=options.leverage_blocks))
+    finder, attribution = DriftFinder(scorer, scores), DriftAttribution(rest, scores, scorer, source)
+    found = [
+        event for m, name in enumerate(markers) for event in finder.find(m, name=name) if attribution.is_own(m, event)
+    ]
     return events.tidy(found)
+
+
+@dataclass(frozen=True)
+class DriftFinder:
+    """Finds the drifts of each marker by their scores.
+
+    Attributes
+    ----------
+    scorer : DriftScorer
+        By which they were scored.
+    scores : DriftScores
+        The scores.
+    """
+
+    scorer: DriftScorer
+    scores: DriftScores
+
+    @property
+    def options(self) -> SlowOptions:
+        """The options."""
+        return self.scorer.options
+
+    def find(self, marker: int, *, name: str) -> list[Event]:
+        """Find the drifts of one marker, the clearest first; none reaches into the flanks of a clearer one.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        name : str
+            Its name.
+
+        Returns
+        -------
+        list[Event]
+            The drifts.
+        """
+        score, residual, flank = (
+            self.scores.score[:, marker],
+            self.scores.residual[:, marker],
+            self.options.flank_fraction,
+        )
+        peaks = [start + int(score[start:stop].argmax()) for start, stop in runs(score > 1)]
+        found, taken = list[Event](), np.zeros(len(score), bool)
+        for peak in sorted(peaks, key=lambda peak: -score[peak]):
+            start, stop = self.extent(marker, peak)
+            if taken[start:stop].any():
+                continue
+            side = int(flank * (stop - start))
+            taken[max(0, start - side) : stop + side] = True
+            if self.is_drift(marker, peak, start, stop):
+                change = drift_shape.displacement(residual, start, stop, flank=flank)
+                found.append(Event(name, start, stop, float(score[peak]), events.carrying(change[None])))
+        return found
+
+    def extent(self, marker: int, peak: int) -> tuple[int, int]:
+        """Fit where the drift at a peak of the score begins and ends.
+
+        An obvious one may be the tip of a longer drift: it lasts as long as it takes to return to the baseline.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        peak : int
+            Frame of the peak.
+
+        Returns
+        -------
+        tuple[int, int]
+            The drift, [start, stop).
+        """
+        own, residual = self.scores.length[peak, marker], self.scores.residual[:, marker]
+        obvious = self.scores.score[peak, marker] >= self.options.obvious_factor
+        lengths = [length for length in self.scorer.lengths if length == own or (obvious and length > own)]
+        spans = [drift_shape.fit_extent(residual, peak, n, flank=self.options.flank_fraction) for n in lengths]
+        return next((span for span in spans if self.rises_from_baseline(residual, *span)), spans[0])
+
+    def is_drift(self, marker: int, peak: int, start: int, stop: int) -> bool:
+        """Tell whether what stands out at a peak of the score is a drift.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        peak : int
+            Frame of the peak.
+        start, stop : int
+            Its extent, [start, stop).
+
+        Returns
+        -------
+        bool
+            Whether it rises from the baseline, is distinct from what the marker does elsewhere, clear enough where the
+            local scale is high, and long enough.
+        """
+        options, score = self.options, self.scores.score[:, marker]
+        return bool(
+            self.rises_from_baseline(self.scores.residual[:, marker], start, stop)
+            and score[peak] >= self.scorer.required_score(score, start, stop)
+            and (
+                score[peak] >= options.high_scale_factor or self.scores.scale_mm[peak, marker] <= options.high_scale_mm
+            )
+            and stop - start >= intervals.samples(options.min_duration_s, self.scorer.rate)
+        )
+
+    def rises_from_baseline(self, residual: np.ndarray, start: int, stop: int) -> bool:
+        """Tell whether a residual rises high enough in an interval, from baseline to baseline.
+
+        Parameters
+        ----------
+        residual : np.ndarray
+            Residual (frames, 3), mm, NaN = missing.
+        start, stop : int
+            The interval, [start, stop).
+
+        Returns
+        -------
+        bool
+            Whether it does.
+        """
+        flank = self.options.flank_fraction
+        deviation = drift_shape.baseline_deviation(residual, start, stop, flank=flank)
+        lowest = max(self.options.floor_mm, deviation / self.options.max_baseline_fraction)
+        return drift_shape.height(residual, start, stop, flank=flank) >= lowest

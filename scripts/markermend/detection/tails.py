@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs, prediction_discrepancy
-from markermend.detection.prediction_discrepancy import Place
+from markermend.detection.prediction_discrepancy import Stretch
 from markermend.numerics.intervals import runs, samples
 from markermend.options.detection import TailsOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
@@ -19,87 +20,128 @@ from markermend.prediction.scene import Scene
 def detect_tails(
     scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: TailsOptions, predictor: LocalRidge
 ) -> list[Event]:
-    """Find noisy tails on either side of gaps.
+    """Find the noisy tails on either side of gaps.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing. earlier: bool, like positions, what other detectors
-    claimed: that makes no gap, but where it touches one, a tail may end there. A marker that drifts into a gap without
-    any sudden change is not told from one that moves. Nothing is found at the ends of a recording.
+    A marker that drifts into a gap without any sudden change cannot be told from one that moves.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found at the ends of the recording.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions: it is no gap, but where it touches one a tail may end.
+    options : TailsOptions
+        The options.
+    predictor : LocalRidge
+        Predicts each marker from its neighbours and its own trajectory.
+
+    Returns
+    -------
+    list[Event]
+        Disjoint events, sorted.
     """
-    believed = inputs.without(scene, earlier)
-    suspects = _suspects(scene, believed, options, predictor)
-    hidden = prediction_discrepancy.hiding(believed, [place for place, _ in suspects])
+    unclaimed = inputs.without_claimed(scene, earlier)
+    suspects = _suspects(scene, unclaimed, options, predictor)
+    hidden = prediction_discrepancy.hide_stretches(unclaimed, [one.stretch for one in suspects])
     found = []
-    for (m, start, stop), side in suspects:
-        score, _ = prediction_discrepancy.disagreement(
-            believed,
+    for suspect in suspects:
+        score = prediction_discrepancy.discrepancy(
+            unclaimed,
             hidden,
-            (m, start, stop),
+            suspect.stretch,
             predictor=predictor,
             sigmas=options.threshold_sigmas,
             floor_mm=options.floor_mm,
         )
-        weak = score[::side] >= options.half_fraction  # towards the gap
-        length = len(weak) - int(np.argmax(weak))
-        if score.max() >= 1 and weak[-length:].mean() >= 0.5:
-            tail = (stop - length, stop) if side > 0 else (start, start + length)
-            found.append(prediction_discrepancy.event(markers[m], *tail, score))
+        high = score[:: suspect.side] >= options.half_fraction  # towards the gap
+        length = len(high) - int(np.argmax(high))
+        if score.max() >= 1 and high[-length:].mean() >= 0.5:
+            m, start, stop = suspect.stretch
+            tail = (stop - length, stop) if suspect.side > 0 else (start, start + length)
+            found.append(prediction_discrepancy.unmeasured_event(markers[m], *tail, score))
     return events.tidy(found)
 
 
-def _suspects(scene: Scene, believed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[tuple[Place, int]]:
-    """From the first sudden change beside a gap up to the gap, each with the side on which the gap is."""
+@dataclass(frozen=True)
+class _Border:
+    """Where a run of samples of a marker meets a gap, which begins (side 1) or ends (side -1) at a frame."""
+
+    marker: int
+    frame: int
+    side: int
+
+    def samples(self, count: int) -> np.ndarray:
+        """Give the last frames before the gap in order, or the first after it in reverse: towards the gap."""
+        return self.frame - self.side * np.arange(count, 0, -1) - (self.side < 0)
+
+    def stretch(self, length: int) -> Stretch:
+        """Give the stretch of so many samples beside the gap."""
+        if self.side > 0:
+            return self.marker, self.frame - length, self.frame
+        return self.marker, self.frame, self.frame + length
+
+
+@dataclass(frozen=True)
+class _Suspect:
+    """A stretch that may be a tail, from its first sudden change up to the gap, before (side 1) or after (side -1) it."""
+
+    stretch: Stretch
+    side: int
+
+
+def _suspects(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[_Suspect]:
+    """The stretches from the first sudden change beside a gap up to it."""
     lengths = options.max_duration_s, options.min_seen_before_s, options.scale_window_s
-    longest, before, activity = (max(2, samples(length, scene.rate)) for length in lengths)
-    borders = list(_borders(scene.present, believed.present, longest + before))
-    residual = predictor.residuals(believed, np.unique([m for m, *_ in borders]).astype(int))
+    longest, before, around = (max(2, samples(length, scene.rate)) for length in lengths)
+    borders = list(_borders(scene.present, unclaimed.present, longest + before))
+    residual = predictor.residuals(unclaimed, np.unique([border.marker for border in borders]).astype(int))
     size = np.linalg.norm(np.diff(residual, axis=0), axis=2)
-    overall = [_median(own) for own in size.T]
-    out = []
-    for m, frame, side in borders:
-        # Towards the gap: what is in order, then what may be a tail.
-        rows = frame - side * np.arange(longest + before, 0, -1) - (side < 0)
-        near = slice(max(0, rows.min() - activity), rows.max() + activity)
-        usual = max(_median(size[near, m]), overall[m])
-        begin = _onset(believed.positions[rows, m], residual[rows, m], before, options.onset_factor * usual)
-        if begin is not None:
-            length = longest - begin
-            out.append(((m, frame - length, frame) if side > 0 else (m, frame, frame + length), side))
-    return out
+    overall = [_known_median(own) for own in size.T]
+    suspects = []
+    for border in borders:
+        m, rows = border.marker, border.samples(longest + before)
+        near = slice(max(0, rows.min() - around), rows.max() + around)
+        usual = max(_known_median(size[near, m]), overall[m])
+        onset = _onset(unclaimed.positions[rows, m], residual[rows, m], before, options.onset_factor * usual)
+        if onset is not None:
+            suspects.append(_Suspect(border.stretch(longest - onset), border.side))
+    return suspects
 
 
-def _borders(present: np.ndarray, believed: np.ndarray, shortest: int) -> Iterator[tuple[int, int, int]]:
-    """Where runs of believed samples meet a gap, as (marker, frame, side): side 1 where the gap begins at that frame, -1
-    where it ends there. Runs that are too short to tell are left out."""
+def _borders(present: np.ndarray, unclaimed: np.ndarray, shortest: int) -> Iterator[_Border]:
+    """The borders of runs of unclaimed samples with gaps, without runs shorter than so many samples."""
     for m in range(present.shape[1]):
-        holes = [(start, stop) for start, stop in runs(~believed[:, m]) if not present[start:stop, m].all()]
+        holes = [(start, stop) for start, stop in runs(~unclaimed[:, m]) if not present[start:stop, m].all()]
         begins, ends = {start for start, _ in holes}, {stop for _, stop in holes}
-        for start, stop in runs(believed[:, m]):
+        for start, stop in runs(unclaimed[:, m]):
             if stop - start >= shortest:
-                yield from [(m, start, -1)] if start in ends else []
-                yield from [(m, stop, 1)] if stop in begins else []
+                yield from [_Border(m, start, -1)] if start in ends else []
+                yield from [_Border(m, stop, 1)] if stop in begins else []
 
 
-def _onset(course: np.ndarray, residual: np.ndarray, before: int, level: float) -> int | None:
+def _onset(trajectory: np.ndarray, residual: np.ndarray, before: int, level: float) -> int | None:
     """After how many of the samples that follow the first `before` something sudden begins; None if nothing does.
 
-    course, residual: (n, 3), mm. Sudden is what bends the course by more than `level` mm from one frame to the next, and
-    the residual alike: a neighbour's artifact or gap changes only the residual, motion that goes on as it did bends the
-    course little. It begins where both leave together for the first time.
+    trajectory, residual: (n, 3), mm. Sudden is what bends both by more than `level` mm from one frame to the next: a
+    neighbour's artifact or gap changes the residual alone, and natural motion bends the trajectory little. It begins where
+    both first depart together.
     """
-    change, motion = np.diff(residual, axis=0)[before - 1 :], np.diff(course, axis=0)
-    bend = _shared(np.diff(motion, axis=0)[before - 2 :], change) > level
-    away = _shared((motion - np.median(motion[: before - 1], axis=0))[before - 1 :], change) > level
+    change, motion = np.diff(residual, axis=0)[before - 1 :], np.diff(trajectory, axis=0)
+    bend = _common_part(np.diff(motion, axis=0)[before - 2 :], change) > level
+    away = _common_part((motion - np.median(motion[: before - 1], axis=0))[before - 1 :], change) > level
     return int(np.argmax(bend | away)) if bend.any() else None
 
 
-def _shared(motion: np.ndarray, change: np.ndarray) -> np.ndarray:
+def _common_part(motion: np.ndarray, change: np.ndarray) -> np.ndarray:
     """How much of each change of the residual (n, 3) the motion makes as well, mm; 0 where either is unknown."""
     length = np.linalg.norm(change, axis=1)
     along = np.einsum("na,na->n", motion, change) / np.maximum(length, 1e-9)
     return np.nan_to_num(np.clip(along, 0, length))
 
 
-def _median(values: np.ndarray) -> float:
+def _known_median(values: np.ndarray) -> float:
     """Median of what is known, 0 without any."""
     known = values[~np.isnan(values)]
     return float(np.median(known)) if len(known) else 0.0

@@ -1,60 +1,17 @@
-"""Steps: exactly these intervals on a known signal, open steps, and the synthetic walker."""
+"""Steps against the neighbours: exactly these intervals and open steps on the synthetic walker."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from markermend.detection.published import steps
 from markermend.options.detection import StepsOptions
-from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, options_of, put
+from support.signals import detect, put
 
 PLACES = [("LWRA", 100, 150), ("C7", 400, 425), ("RKNE", 700, 860), ("RASI", 900, 908)]
 
 
-@pytest.mark.parametrize("rate", RATES)
-@pytest.mark.parametrize("width", [15, 25, 35, 50, 150, 199])
-def test_rectangles_are_steps_and_nothing_else(rate, width):
-    signal, start = motion(rate), frames(700, rate)
-    stop = start + frames(width, rate)
-    signal[start:stop] -= 10
-    assert detect_signal(signal, rate) == ({**NOTHING, "steps": [(start, stop)]}, [])
-
-
-@pytest.mark.parametrize("rate", RATES)
-def test_too_long_a_rectangle_is_two_open_steps(rate):
-    signal, start = motion(rate), frames(700, rate)
-    stop = start + frames(201, rate)
-    signal[start:stop] += 10
-    assert detect_signal(signal, rate) == (NOTHING, [start, stop])
-
-
-@pytest.mark.parametrize("rate", RATES)
-def test_one_edge_alone_is_an_open_step(rate):
-    signal, start = motion(rate), frames(700, rate)
-    signal[start:] += 10
-    assert detect_signal(signal, rate) == (NOTHING, [start])
-
-
-def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
-    unequal, gap = motion(100.0), motion(100.0)
-    unequal[700:730] += 30
-    unequal[730:] += 20
-    gap[700:730] += 30
-    gap[715:717] = np.nan
-    for signal in (unequal, gap):
-        mask, _, alone = steps.find_steps(signal, rate=100.0, options=options_of("steps", "coordinates"))
-        assert not mask.any()
-        assert alone.tolist() == [700, 730]
-
-
-def test_the_published_shortest_step_is_longer():
-    signal = motion(100.0)
-    signal[700:715] += 10
-    assert not steps.find_steps(signal, rate=100.0, options=options_of("steps", "paper"))[0][700:715].any()
-
-
-def test_found_on_the_walker_and_not_blamed_on_neighbours(walker):
+def test_found_on_the_walker_and_not_attributed_to_neighbours(walker):
     recording = put(walker.recording, PLACES, lambda length: np.ones((length, 1)) * [8, 3, -6])
     found, left = detect(recording, only=("steps",))
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == sorted(PLACES)
@@ -73,7 +30,7 @@ def test_three_siblings_that_step_at_once(walker, siblings):
     assert left == []
 
 
-def test_an_open_step_of_the_walker_is_told_with_its_size(walker):
+def test_an_open_step_of_the_walker_has_its_size(walker):
     recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
     found, left = detect(recording, only=("steps",))
     assert found["steps"] == []
@@ -82,21 +39,14 @@ def test_an_open_step_of_the_walker_is_told_with_its_size(walker):
     assert step.size_mm == pytest.approx(15, rel=0.2)
 
 
-def test_coordinates_tell_open_steps_of_markers(walker):
-    recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [30, 0, 40])
-    _, left = detect(recording, preset="coordinates", only=("steps",))
-    [step] = [step for step in left if (step.marker, step.frame) == ("C7", 700)]
-    assert step.size_mm == pytest.approx(50, rel=0.1)
-
-
-def test_a_step_that_motion_hides_is_told_by_jumps_that_cancel(walker):
+def test_a_step_that_motion_hides_is_found_by_jumps_that_cancel(walker):
     t = np.arange(60) / 60
     drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the course beside it, smoothly
     found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
 
 
-def test_two_jumps_tell_a_step_that_neither_tells_alone(walker):
+def test_two_jumps_are_a_step_together_where_neither_is_alone(walker):
     places = [("LELB", 560, 600), ("RKNE", 700, 760)]
     recording = put(walker.recording, places, lambda length: np.ones((length, 1)) * [2.9, 1.1, -2.2])
     found, left = detect(recording, only=("steps",))

@@ -1,4 +1,4 @@
-"""What the neighbours of a marker tell about a slow change: do they agree, whoever is seen, and is it one of them?"""
+"""Attribution of drifts: whether one belongs to the marker in whose residual it is, or to one of its neighbours."""
 
 from __future__ import annotations
 
@@ -8,106 +8,207 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_candidates import Matches, bar
+from markermend.detection.neighbour.drift_candidates import DriftScorer, DriftScores
 from markermend.numerics import intervals, robust
 from markermend.options.detection import SlowOptions
 from markermend.prediction.scene import ScaledResidualSource, Scene
 
 RIGID_MM = 0.1
-"""Deviation of distances that is taken for granted: rounded positions of a rigid body have that much."""
+"""Deviation of distances that every segment is granted, mm: rounded positions of a rigid body have as much."""
 
-
-BRIEF = 8
-"""A part in so many of an event is brief next to it."""
+BRIEF_SHARE = 8
+"""A time is brief next to a drift if it is at most one part in this many of it."""
 
 
 @dataclass(frozen=True, eq=False)
-class Company:
-    """The nearest neighbours of each marker, and what is known of them.
+class DriftAttribution:
+    """Decides whether drifts are the marker's own.
 
-    scene: nothing that earlier detectors claimed. matches: how clearly bumps stand out in it. predictor: as for the matches.
+    Attributes
+    ----------
+    scene : Scene
+        What is observed, without what earlier detectors claimed.
+    scores : DriftScores
+        The scores of drifts in it.
+    scorer : DriftScorer
+        By which they were scored.
+    predictor : ScaledResidualSource
+        Source of their residuals.
     """
 
     scene: Scene
-    matches: Matches
-    options: SlowOptions
+    scores: DriftScores
+    scorer: DriftScorer
     predictor: ScaledResidualSource
 
-    def near(self, marker: int) -> np.ndarray:
-        """The neighbours that are asked about a marker, the nearest first."""
+    @property
+    def options(self) -> SlowOptions:
+        """The options."""
+        return self.scorer.options
+
+    def is_own(self, marker: int, event: Event) -> bool:
+        """Tell whether a drift is the marker's own.
+
+        It must remain without all neighbours that are observed intermittently. Of each neighbour that deviates as well
+        and may have dragged the marker along: the drift remains without it; or, as on a rigid segment where the residual
+        of neither can be computed without the other, the marker's distances to the others change more than that
+        neighbour's.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        bool
+            Whether it is.
+        """
+        intermittent = self.intermittent_neighbours(marker, event)
+        deviating = np.setdiff1d(self.deviating_neighbours(marker, event), intermittent)
+        if len(intermittent) and not self.remains_without(intermittent, marker, event):
+            return False
+        return all(
+            self.remains_without(np.append(intermittent, neighbour), marker, event)
+            or self.distances_change_more(marker, neighbour, event)
+            for neighbour in deviating.tolist()
+        )
+
+    def nearest(self, marker: int) -> np.ndarray:
+        """List the neighbours to which a drift of a marker may be attributed.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            Their indices, the nearest first.
+        """
         return np.asarray(self.scene.neighbours[marker], int)[: self.options.attribution_neighbours]
 
-    def seen(self, event: Event, markers: np.ndarray) -> np.ndarray:
-        """Whether markers are seen (frames, markers), from before an event to after it."""
-        margin = int(self.options.flank_fraction * (event.stop - event.start))
-        return self.scene.present[max(event.start - margin, 0) : event.stop + margin, markers]
+    def intermittent_neighbours(self, marker: int, event: Event) -> np.ndarray:
+        """List the neighbours that are observed for a part of the time from before a drift to after it.
 
-    def transient(self, marker: int, event: Event) -> np.ndarray:
-        """The neighbours that are seen for a part of the time only, from before an event of a marker to after it.
+        A prediction from other neighbours deviates by other amounts, so that the residual changes where they come and go.
+        Brief absences and brief presences do not count: they make no drift.
 
-        A prediction from other neighbours is off by other amounts: where they come and go, the level says nothing. What
-        is brief, next to the event too, does not count: it makes no slow change.
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        np.ndarray
+            Their indices.
         """
-        near, brief = self.near(marker), intervals.samples(self.options.bridged_gap_s, self.scene.rate)
-        brief = min(brief, (event.stop - event.start) // BRIEF)
-        seen = self.seen(event, near)
+        near, brief = self.nearest(marker), intervals.samples(self.options.bridged_gap_s, self.scene.rate)
+        brief = min(brief, (event.stop - event.start) // BRIEF_SHARE)
+        seen = self._observed(event, near)
         count = np.count_nonzero(seen, axis=0)
         return near[(count < len(seen) - brief) & (count > brief)]
 
-    def upholds(self, marker: int, event: Event) -> bool:
-        """Whether an event is the marker's own: neither made by neighbours that come and go, nor by one that is off as well.
+    def deviating_neighbours(self, marker: int, event: Event) -> np.ndarray:
+        """List the neighbours whose residuals deviate as well during a drift.
 
-        The marker must still be off without all of the first. Of each of the second, which may have dragged it along:
-        the marker is still off without it; or, as on a rigid segment, where nothing tells without either, the marker's
-        distances to the others are disturbed more than that neighbour's.
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        np.ndarray
+            Their indices.
         """
-        transient, suspects = self.transient(marker, event), self.suspects(marker, event)
-        if len(transient) and not self.off_without(transient, marker, event):
-            return False
-        return all(
-            self.off_without(np.append(transient, suspect), marker, event)
-            or self.more_disturbed(marker, suspect, event)
-            for suspect in np.setdiff1d(suspects, transient).tolist()
-        )
-
-    def suspects(self, marker: int, event: Event) -> np.ndarray:
-        """The neighbours that are off as well during an event of a marker."""
-        near, flank = self.near(marker), self.options.flank_fraction
+        near, flank = self.nearest(marker), self.options.flank_fraction
         own, *heights = (
-            drift_shape.height(self.matches.residual[:, m], event.start, event.stop, flank=flank)
+            drift_shape.height(self.scores.residual[:, m], event.start, event.stop, flank=flank)
             for m in (marker, *near)
         )
-        off = np.nan_to_num(heights) > self.options.suspect_fraction * own
-        return near[off | (self.matches.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)]
+        high = np.nan_to_num(heights) > self.options.suspect_fraction * own
+        return near[high | (self.scores.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)]
 
-    def off_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
-        """Whether a bump stands out on a marker during an event though some neighbours are hidden."""
+    def remains_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
+        """Tell whether a drift of a marker remains when some neighbours are hidden.
+
+        Parameters
+        ----------
+        hidden : np.ndarray
+            Indices of the neighbours.
+        marker : int
+            Index of the marker.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        bool
+            Whether it does.
+        """
         positions = self.scene.positions.copy()
         positions[:, hidden] = np.nan  # throughout: a looser prediction needs its own scale
         rest = replace(self.scene, positions=positions)
-        residual, wider = self.predictor.scaled_residuals(rest, np.array([marker]), blocks=self.options.leverage_blocks)
-        score = self.matches.judge_anew(
-            residual[:, marker], wider[:, marker], marker=marker, rate=rest.rate, options=self.options
+        residual, factors = self.predictor.scaled_residuals(
+            rest, np.array([marker]), blocks=self.options.leverage_blocks
         )
-        needed = bar(score, event.start, event.stop, rate=rest.rate, options=self.options)
-        return bool(score[event.start : event.stop].max() > self.options.remaining_fraction * needed)
+        score = self.scorer.rescore(self.scores, residual[:, marker], factors[:, marker], marker=marker)
+        required = self.scorer.required_score(score, event.start, event.stop)
+        return bool(score[event.start : event.stop].max() > self.options.remaining_fraction * required)
 
-    def more_disturbed(self, one: int, other: int, event: Event) -> bool:
-        """Whether a marker's distances to the neighbours of two rise or fall clearly more during an event than the other's do.
+    def distances_change_more(self, one: int, other: int, event: Event) -> bool:
+        """Tell whether a marker's distances to the neighbours of two change clearly more during a drift than the other's.
 
-        Each counts in units of its own usual deviation, so that a rigid segment decides. That between the two tells
-        nothing.
+        Parameters
+        ----------
+        one, other : int
+            Indices of the markers. The distance between the two does not count.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        bool
+            Whether they do.
         """
-        company = np.setdiff1d(np.union1d(self.near(one), self.near(other)), [one, other])
-        company = company[self.seen(event, company).all(axis=0)]
-        return self.options.suspect_fraction * self.disturbance(one, company, event) > self.disturbance(
-            other, company, event
-        )
+        around = np.setdiff1d(np.union1d(self.nearest(one), self.nearest(other)), [one, other])
+        around = around[self._observed(event, around).all(axis=0)]
+        own, others = self.distance_change(one, around, event), self.distance_change(other, around, event)
+        return self.options.suspect_fraction * own > others
 
-    def disturbance(self, marker: int, company: np.ndarray, event: Event) -> float:
-        """How much the distances of a marker to others change during an event: root of the sum of squares, in usual deviations."""
+    def distance_change(self, marker: int, around: np.ndarray, event: Event) -> float:
+        """Measure how much the distances of a marker to others change during a drift.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        around : np.ndarray
+            Indices of the others.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        float
+            Root of the summed squares, each change in units of that distance's own deviation: a rigid segment decides.
+        """
         positions = self.scene.positions
-        distance = np.linalg.norm(positions[:, company] - positions[:, [marker]], axis=2)
-        usual = np.array([robust.mad_std(own) for own in distance.T]) + RIGID_MM
-        change = drift_shape.risen(distance, event.start, event.stop, flank=self.options.flank_fraction)
-        return float(np.linalg.norm(change / usual))
+        distance = np.linalg.norm(positions[:, around] - positions[:, [marker]], axis=2)
+        deviation = np.array([robust.mad_std(own) for own in distance.T]) + RIGID_MM
+        change = drift_shape.displacement(distance, event.start, event.stop, flank=self.options.flank_fraction)
+        return float(np.linalg.norm(change / deviation))
+
+    def _observed(self, event: Event, markers: np.ndarray) -> np.ndarray:
+        """Whether markers are observed, bool (frames, markers), from before a drift to after it."""
+        margin = int(self.options.flank_fraction * (event.stop - event.start))
+        return self.scene.present[max(event.start - margin, 0) : event.stop + margin, markers]

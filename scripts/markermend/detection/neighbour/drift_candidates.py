@@ -1,4 +1,7 @@
-"""How clearly do slow changes stand out, on each marker and at each moment, from what is to be expected there?"""
+"""Scores of drifts: how clearly a raised-cosine pulse of each length stands out in the residual of each marker.
+
+The responses of matched filters are compared with their local scale, which is fitted to the motion of the body.
+"""
 
 from __future__ import annotations
 
@@ -13,137 +16,236 @@ from markermend.numerics.intervals import runs
 from markermend.options.detection import SlowOptions
 from markermend.prediction.scene import Scene
 
+MIN_TEMPLATE = 5
+"""Frames of a template, at least: fewer have no shape."""
+
 
 @dataclass(frozen=True)
-class Matches:
-    """How clearly bumps stand out.
+class DriftScores:
+    """How clearly drifts stand out.
 
-    residual: (frames, markers, 3), mm. score: (frames, markers), that of the best length, in units of the threshold; 0
-    where nothing is known. length: of that bump, frames. noise: the height to expect of it, mm. expected: (lengths, frames, markers), see
-    liveliness.expected. level: (lengths, markers), the median strength.
+    Attributes
+    ----------
+    residual : np.ndarray
+        Residuals (frames, markers, 3), mm, NaN = missing.
+    score : np.ndarray
+        Response of the template that stands out most (frames, markers), in units of the threshold; 0 where unknown.
+    length : np.ndarray
+        Length of that template (frames, markers), frames.
+    scale_mm : np.ndarray
+        Local scale as the height of a drift of that length (frames, markers), mm.
+    scale : np.ndarray
+        Local scale of the responses (lengths, frames, markers).
+    level : np.ndarray
+        Median response (lengths, markers).
     """
 
     residual: np.ndarray
     score: np.ndarray
     length: np.ndarray
-    noise: np.ndarray
-    expected: np.ndarray
+    scale_mm: np.ndarray
+    scale: np.ndarray
     level: np.ndarray
 
-    def judge_anew(
-        self, residual: np.ndarray, wider: np.ndarray, *, marker: int, rate: float, options: SlowOptions
-    ) -> np.ndarray:
-        """Score (frames,) of a marker with another residual (frames, 3), mm: see `match`; what is expected, grown with its level."""
-        own, _ = match(residual, wider, frames(options, rate), rate=rate, options=options)
-        growth = np.maximum(level(own) / self.level[:, marker], 1)
-        return np.nan_to_num(own / (options.threshold_sigmas * self.expected[:, :, marker] * growth[:, None])).max(
-            axis=0
+
+@dataclass(frozen=True)
+class DriftScorer:
+    """Scores drifts of several lengths in residuals.
+
+    Attributes
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : SlowOptions
+        The options.
+    """
+
+    rate: float
+    options: SlowOptions
+
+    @property
+    def lengths(self) -> list[int]:
+        """Lengths of the templates, frames."""
+        return [max(MIN_TEMPLATE, intervals.samples(length, self.rate)) for length in self.options.durations_s]
+
+    def score(self, scene: Scene, residual: np.ndarray, factors: np.ndarray) -> DriftScores:
+        """Score drifts in the residuals of all markers.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+        residual : np.ndarray
+            Residuals (frames, markers, 3), mm, NaN = missing.
+        factors : np.ndarray
+            Factors (frames, markers) by which the leverage of the pose widens their distribution.
+
+        Returns
+        -------
+        DriftScores
+            The scores; 0 where a near neighbour is briefly missing.
+        """
+        options = self.options
+        steady = np.where(self.briefly_missing_neighbour(scene)[:, :, None], np.nan, residual)
+        each = [self.responses(steady[:, m], factors[:, m]) for m in range(residual.shape[1])]
+        smoothing = max(3, intervals.samples(options.bridged_gap_s, self.rate, odd=True))
+        motion = residual_scale.neighbour_motion(
+            scene.positions, scene.neighbours, rate=self.rate, count=options.scale_neighbours, smoothing=smoothing
+        )
+        scale = self._scale(scene, np.stack([own for own, _ in each], axis=2), motion)
+        clearest = [self._clearest(*own, scale[:, :, m]) for m, own in enumerate(each)]
+        score, length, scale_mm = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
+        level = np.stack([median_response(own) for own, _ in each], axis=1)
+        return DriftScores(residual, score, length, scale_mm, scale, level)
+
+    def rescore(self, scores: DriftScores, residual: np.ndarray, factors: np.ndarray, *, marker: int) -> np.ndarray:
+        """Score drifts in another residual of one marker, whose local scale rises with its median response.
+
+        Parameters
+        ----------
+        scores : DriftScores
+            The scores before.
+        residual : np.ndarray
+            The new residual (frames, 3), mm, NaN = missing.
+        factors : np.ndarray
+            Factors (frames,) by which the leverage of the pose widens its distribution.
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            The largest score of all templates (frames,), in units of the threshold.
+        """
+        response, _ = self.responses(residual, factors)
+        growth = np.maximum(median_response(response) / scores.level[:, marker], 1)
+        scale = self.options.threshold_sigmas * scores.scale[:, :, marker] * growth[:, None]
+        largest: np.ndarray = np.nan_to_num(response / scale).max(axis=0)
+        return largest
+
+    def responses(self, residual: np.ndarray, factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Filter the residual of one marker with the template of each length.
+
+        Parameters
+        ----------
+        residual : np.ndarray
+            Residual (frames, 3), mm, NaN = missing.
+        factors : np.ndarray
+            Factors (frames,) by which it is divided, so that its covariance is the same throughout.
+
+        Returns
+        -------
+        response : np.ndarray
+            Responses (lengths, frames), in standard deviations, NaN where unknown.
+        deviation : np.ndarray
+            Standard deviation (lengths, frames) of the height of a drift, mm.
+        """
+        options, lengths = self.options, self.lengths
+        response = np.full((len(lengths), len(residual)), np.nan, np.float32)
+        deviation = np.full(response.shape, np.nan, np.float32)
+        if np.isnan(residual).all():
+            return response, deviation
+        bridged = intervals.samples(options.bridged_gap_s, self.rate)
+        signal = interpolation.bridge_linear(residual / factors[:, None], bridged)
+        covariance = matched_filter.clipped_covariance(
+            signal,
+            sigmas=options.outlier_sigmas,
+            rate=self.rate,
+            scales_s=np.array(options.correlation_times_s),
+            max_lag_s=options.max_lag_s,
+        )
+        for number, length in enumerate(lengths):
+            template = matched_filter.design_filter(
+                covariance,
+                length=length,
+                flank=options.flank_fraction,
+                taps=options.samples_per_duration,
+                rate=self.rate,
+            )
+            response[number] = matched_filter.filter_response(signal, template)
+            deviation[number] = template.deviation * factors
+        return response, deviation
+
+    def required_score(self, score: np.ndarray, start: int, stop: int) -> float:
+        """Raise the threshold of a drift by what its marker does at other times: what it does again and again is motion.
+
+        Parameters
+        ----------
+        score : np.ndarray
+            Scores of the marker (frames,).
+        start, stop : int
+            The drift, [start, stop).
+
+        Returns
+        -------
+        float
+            The score that the drift must reach: a multiple of the second largest elsewhere, within limits.
+        """
+        elsewhere, reach = score.copy(), self.lengths[-1]
+        elsewhere[max(0, start - reach) : stop + reach] = 0
+        top = int(elsewhere.argmax())
+        elsewhere[max(0, top - reach) : top + reach] = 0
+        return float(np.clip(self.options.distinct_factor * elsewhere.max(), 1, self.options.obvious_factor))
+
+    def briefly_missing_neighbour(self, scene: Scene) -> np.ndarray:
+        """Mark where a near neighbour is missing for a short time: the prediction from the others deviates.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+
+        Returns
+        -------
+        np.ndarray
+            Bool (frames, markers).
+        """
+        brief = intervals.samples(self.options.bridged_gap_s, self.rate)
+        missing = np.zeros(scene.present.shape, bool)
+        for m, absent in enumerate(~scene.present.T):
+            for start, stop in runs(absent):
+                missing[start:stop, m] = stop - start <= brief
+        near = [np.asarray(around, int)[: self.options.attribution_neighbours] for around in scene.neighbours]
+        return np.stack([missing[:, around].any(axis=1) for around in near], axis=1)
+
+    def _scale(self, scene: Scene, response: np.ndarray, motion: np.ndarray) -> np.ndarray:
+        """Local scale of responses (lengths, frames, markers)."""
+        return np.stack(
+            [
+                residual_scale.fitted_scale(
+                    own,
+                    scene.neighbours,
+                    motion,
+                    count=self.options.scale_neighbours,
+                    window=length,
+                    min_scale=self.options.min_scale_sigmas,
+                ).astype(np.float32)
+                for own, length in zip(response, self.lengths, strict=True)
+            ]
         )
 
+    def _clearest(
+        self, response: np.ndarray, deviation: np.ndarray, scale: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Score, length and local scale in mm (frames,) of the template that stands out most; given (lengths, frames)."""
+        score = np.nan_to_num(response / (self.options.threshold_sigmas * scale))
+        first = score.argmax(axis=0)[None]
+        scale_mm = np.take_along_axis(deviation * scale, first, axis=0)[0]
+        return np.take_along_axis(score, first, axis=0)[0], np.asarray(self.lengths)[first[0]], scale_mm
 
-def match(
-    residual: np.ndarray, wider: np.ndarray, lengths: Sequence[int], *, rate: float, options: SlowOptions
-) -> tuple[np.ndarray, np.ndarray]:
-    """Strength of bumps of each length (lengths, frames) in one marker's residual, and the deviation of their height, mm.
 
-    residual: (frames, 3), mm. wider: (frames,), what it is divided by, so that its covariance is the same throughout.
+def median_response(response: np.ndarray) -> np.ndarray:
+    """Take the median of the known responses of each template.
+
+    Parameters
+    ----------
+    response : np.ndarray
+        Responses (lengths, frames), NaN = unknown.
+
+    Returns
+    -------
+    np.ndarray
+        Medians (lengths,); 1 where nothing is known.
     """
-    strength = np.full((len(lengths), len(residual)), np.nan, np.float32)
-    deviation = np.full(strength.shape, np.nan, np.float32)
-    if np.isnan(residual).all():
-        return strength, deviation
-    signal = interpolation.bridge_linear(residual / wider[:, None], intervals.samples(options.bridged_gap_s, rate))
-    covariance = matched_filter.clipped_covariance(
-        signal,
-        sigmas=options.outlier_sigmas,
-        rate=rate,
-        scales_s=np.array(options.correlation_times_s),
-        max_lag_s=options.max_lag_s,
-    )
-    for number, length in enumerate(lengths):
-        bump = matched_filter.design_filter(
-            covariance, length=length, flank=options.flank_fraction, taps=options.samples_per_duration, rate=rate
-        )
-        strength[number] = matched_filter.filter_response(signal, bump)
-        deviation[number] = bump.deviation * wider
-    return strength, deviation
-
-
-def measure(scene: Scene, residual: np.ndarray, wider: np.ndarray, *, options: SlowOptions) -> Matches:
-    """Measure how clearly bumps stand out in the residuals of all markers; wider: see `match`."""
-    rate, lengths = scene.rate, frames(options, scene.rate)
-    brief = briefly_gone(scene, options)
-    steady = np.where(brief[:, :, None], np.nan, residual)
-    each = [match(steady[:, m], wider[:, m], lengths, rate=rate, options=options) for m in range(residual.shape[1])]
-    strength = np.stack([own for own, _ in each], axis=2)
-    smooth = max(3, intervals.samples(options.bridged_gap_s, rate, odd=True))
-    moving = residual_scale.motion(
-        scene.positions, scene.neighbours, rate=rate, near=options.scale_neighbours, smooth=smooth
-    )
-    expected = np.stack(
-        [
-            residual_scale.expected(
-                own,
-                scene.neighbours,
-                moving,
-                near=options.scale_neighbours,
-                window=length,
-                least=options.min_scale_sigmas,
-            ).astype(np.float32)
-            for own, length in zip(strength, lengths, strict=True)
-        ]
-    )
-    clearest = [best(*own, expected[:, :, m], lengths, options=options) for m, own in enumerate(each)]
-    score, length, noise = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
-    return Matches(residual, score, length, noise, expected, np.stack([level(own) for own, _ in each], axis=1))
-
-
-def bar(score: np.ndarray, start: int, stop: int, *, rate: float, options: SlowOptions) -> float:
-    """How clear a bump in [start, stop) must be, given the scores (frames,) of its marker, in units of the threshold.
-
-    What the marker does at other times as well is motion.
-    """
-    elsewhere, reach = score.copy(), frames(options, rate)[-1]
-    elsewhere[max(0, start - reach) : stop + reach] = 0
-    top = int(elsewhere.argmax())
-    elsewhere[max(0, top - reach) : top + reach] = 0
-    return float(np.clip(options.distinct_factor * elsewhere.max(), 1, options.obvious_factor))
-
-
-def briefly_gone(scene: Scene, options: SlowOptions) -> np.ndarray:
-    """Bool (frames, markers): True where one of a marker's nearest neighbours is gone, but not for long.
-
-    The others predict otherwise: a bump that is none.
-    """
-    brief = intervals.samples(options.bridged_gap_s, scene.rate)
-    gone = np.zeros(scene.present.shape, bool)
-    for m, absent in enumerate(~scene.present.T):
-        for start, stop in runs(absent):
-            gone[start:stop, m] = stop - start <= brief
-    near = [np.asarray(around, int)[: options.attribution_neighbours] for around in scene.neighbours]
-    return np.stack([gone[:, around].any(axis=1) for around in near], axis=1)
-
-
-def level(strength: np.ndarray) -> np.ndarray:
-    """Median (lengths,) of what is known of strengths (lengths, frames); 1 where nothing is."""
-    return np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in strength)])
-
-
-def frames(options: SlowOptions, rate: float) -> list[int]:
-    """The lengths of the bumps to look for, in frames: long enough to have a shape."""
-    return [max(5, intervals.samples(length, rate)) for length in options.durations_s]
-
-
-def best(
-    strength: np.ndarray,
-    deviation: np.ndarray,
-    expected: np.ndarray,
-    lengths: Sequence[int],
-    *,
-    options: SlowOptions,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Score, length and expected height (frames,) of the bump that stands out most from that; given (lengths, frames)."""
-    score = np.nan_to_num(strength / (options.threshold_sigmas * expected))
-    first = score.argmax(axis=0)[None]
-    noise = np.take_along_axis(deviation * expected, first, axis=0)[0]
-    return np.take_along_axis(score, first, axis=0)[0], np.asarray(lengths)[first[0]], noise
+    known: Sequence[np.ndarray] = [own[~np.isnan(own)] for own in response]
+    return np.array([np.median(own) if len(own) else 1.0 for own in known])

@@ -1,29 +1,38 @@
-"""Edges: from one frame to the next a marker jumps, and its smooth course goes on displaced."""
+"""Edges: from one frame to the next a marker jumps, and its smooth trajectory goes on displaced."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
-from markermend.detection.neighbour.residual_windows import Contrasts, Courses
+from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import ResidualWindowOptions
 
-FEWEST = 5
-"""Samples of context on either side, at least: they tell the misfit."""
+MIN_CONTEXT = 5
+"""Samples of context on either side, at least: they estimate the noise scale."""
 
-NEAREST = 2
-"""Samples between an edge and a gap, at least: a single one tells no edge from a peak."""
+MIN_GAP_DISTANCE = 2
+"""Samples between an edge and a gap, at least: with a single one an edge cannot be told from a peak."""
 
 
 @dataclass(frozen=True)
 class Edge:
-    """A jump of a marker on the way to a frame, (3,), mm; score in units of the threshold."""
+    """A jump of a marker.
+
+    Attributes
+    ----------
+    frame : int
+        The first frame after it.
+    jump : np.ndarray
+        Its size (3,), mm.
+    score : float
+        Its size in units of the threshold.
+    """
 
     frame: int
     jump: np.ndarray
@@ -31,39 +40,70 @@ class Edge:
 
 
 @lru_cache(maxsize=64)
-def contrasts(regularity: WindowCovariance, size: int, places: tuple[int, ...]) -> Contrasts:
-    """The size of a jump at each of the places in a window, and what is usual of all beside it."""
-    precision = regularity.precision(size)
-    jump = (np.arange(size) >= np.array(places)[:, None]).astype(float)
-    across = jump @ precision
-    strength = (across * jump).sum(axis=1)
-    rest = precision - across[:, :, None] * across[:, None, :] / strength[:, None, None]
-    misfit = rest / (regularity.degrees_of_freedom(size) - 1)
-    return Contrasts(np.array(places), across / strength[:, None], strength**-0.5, misfit)
+def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ...]) -> WindowFilters:
+    """Make the matched filters of a unit step.
 
+    Parameters
+    ----------
+    covariance : WindowCovariance
+        Covariance of the residual windows.
+    size : int
+        Samples in a window.
+    offsets : tuple[int, ...]
+        First sample after the step.
 
-def central(rate: float, options: ResidualWindowOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
-    """The maps for a jump amid its context, and the length of their windows."""
-    context = residual_windows.context(rate, options, fewest=FEWEST)
-    return partial(contrasts, size=2 * context, places=(context,)), 2 * context
-
-
-def find(
-    course: Courses, marker: int, *, rate: float, options: ResidualWindowOptions, least: float = 1.0
-) -> list[Edge]:
-    """Find the edges of one marker, in time; of those that are nearer than half the context, the best.
-
-    least: a part of the threshold is enough.
+    Returns
+    -------
+    WindowFilters
+        A filter for each offset.
     """
-    context = residual_windows.context(rate, options, fewest=FEWEST)
+    precision = covariance.precision(size)
+    step = (np.arange(size) >= np.array(offsets)[:, None]).astype(float)
+    across = step @ precision
+    information = (across * step).sum(axis=1)
+    rest = precision - across[:, :, None] * across[:, None, :] / information[:, None, None]
+    misfit_form = rest / (covariance.degrees_of_freedom(size) - 1)
+    return WindowFilters(np.array(offsets), across / information[:, None], information**-0.5, misfit_form)
+
+
+def find_edges(
+    statistics: ResidualStatistics,
+    marker: int,
+    *,
+    rate: float,
+    options: ResidualWindowOptions,
+    fraction: float = 1.0,
+) -> list[Edge]:
+    """Find the edges of one marker; of those nearer to each other than half the context the strongest.
+
+    Parameters
+    ----------
+    statistics : ResidualStatistics
+        What windows are judged by.
+    marker : int
+        Index of the marker.
+    rate : float
+        Sampling rate, Hz.
+    options : ResidualWindowOptions
+        The options.
+    fraction : float, optional
+        Part of the threshold that is enough.
+
+    Returns
+    -------
+    list[Edge]
+        The edges, by frame.
+    """
+    context = residual_windows.context_samples(rate, options, fewest=MIN_CONTEXT)
     size = 2 * context
     candidates: list[Edge] = []
-    for start, stop in runs(~np.isnan(course.usual[:, marker])):
-        for span, places in residual_windows.spans(start, stop, size, context):
-            inside = tuple(place for place in places if NEAREST <= place <= size - NEAREST)
-            maps = contrasts(course.regularity, size, inside)
-            over = residual_windows.exceeding(course, marker, span, maps, options, least=least)
-            candidates += [Edge(*one) for one in zip(over.frame.tolist(), over.size, over.score.tolist(), strict=True)]
+    for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):
+        for span, offsets in residual_windows.window_spans(start, stop, size, context):
+            inside = tuple(offset for offset in offsets if MIN_GAP_DISTANCE <= offset <= size - MIN_GAP_DISTANCE)
+            filters = step_filters(statistics.covariance, size, inside)
+            over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=fraction)
+            found = zip(over.frame.tolist(), over.amplitude, over.score.tolist(), strict=True)
+            candidates += [Edge(*one) for one in found]
     kept: list[Edge] = []
     for edge in sorted(candidates, key=lambda e: (-e.score, e.frame)):
         if all(2 * abs(edge.frame - one.frame) > context for one in kept):

@@ -1,119 +1,184 @@
-"""Excursions: for a few samples a marker is off the smooth course that leads from before to after them."""
+"""Pulses: for a few samples a marker leaves the smooth trajectory that leads from before to after them (additive outliers)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
-from markermend.detection.neighbour.residual_windows import Contrasts, Courses
+from markermend.detection.neighbour.residual_windows import Exceedances, ResidualStatistics, WindowFilters
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import PeaksOptions
 
-FEWEST = 6
-"""Samples of context on either side, at least: they tell the misfit."""
+MIN_CONTEXT = 6
+"""Samples of context on either side, at least: they estimate the noise scale."""
 
 
 @dataclass(frozen=True)
-class Excursion:
-    """The samples [start, stop) of a marker that are off by `off` (stop - start, 3), mm; score in units of the threshold."""
+class Pulse:
+    """Outlying samples of a marker.
+
+    Attributes
+    ----------
+    start, stop : int
+        The samples, [start, stop).
+    score : float
+        Amplitude in units of the threshold.
+    deviation : np.ndarray
+        Their distance from what the other samples predict (stop - start, 3), mm.
+    """
 
     start: int
     stop: int
     score: float
-    off: np.ndarray
+    deviation: np.ndarray
 
 
 @lru_cache(maxsize=512)
-def contrasts(regularity: WindowCovariance, length: int, size: int, places: tuple[int, ...]) -> Contrasts:
-    """The size of a half wave of `length` samples, from each of the places on, and what is usual of the other samples."""
-    precision = regularity.precision(size)
+def pulse_filters(covariance: WindowCovariance, length: int, size: int, offsets: tuple[int, ...]) -> WindowFilters:
+    """Make the matched filters of a half wave of sine.
+
+    Parameters
+    ----------
+    covariance : WindowCovariance
+        Covariance of the residual windows.
+    length : int
+        Samples of the half wave.
+    size : int
+        Samples in a window.
+    offsets : tuple[int, ...]
+        First sample of the half wave.
+
+    Returns
+    -------
+    WindowFilters
+        A filter for each offset. The misfit is that of the samples outside of the half wave, whatever its shape.
+    """
+    precision = covariance.precision(size)
     wave = np.sin(np.pi * (np.arange(length) + 0.5) / length)
-    maps, gains, forms = [], [], []
-    for place in places:
-        inside = slice(place, place + length)
+    weights, deviations, forms = [], [], []
+    for offset in offsets:
+        inside = slice(offset, offset + length)
         across = precision[:, inside]
-        strength = wave @ across[inside] @ wave
-        maps.append(across @ wave / strength)
-        gains.append(strength**-0.5)
+        information = wave @ across[inside] @ wave
+        weights.append(across @ wave / information)
+        deviations.append(information**-0.5)
         rest = precision - across @ np.linalg.solve(across[inside], across.T)
-        forms.append(rest / (regularity.degrees_of_freedom(size) - length))
-    return Contrasts(np.array(places), np.array(maps), np.array(gains), np.array(forms))
+        forms.append(rest / (covariance.degrees_of_freedom(size) - length))
+    return WindowFilters(np.array(offsets), np.array(weights), np.array(deviations), np.array(forms))
 
 
 @lru_cache(maxsize=512)
-def apart(regularity: WindowCovariance, length: int, size: int, place: int) -> np.ndarray:
-    """Maps a window to how far `length` samples from a place on are off what the others let expect, (length, size)."""
-    across = regularity.precision(size)[place : place + length]
-    return np.linalg.solve(across[:, place : place + length], across)
+def innovation_map(covariance: WindowCovariance, length: int, size: int, offset: int) -> np.ndarray:
+    """Make the map from a window to the deviation of some samples from what the others predict.
+
+    Parameters
+    ----------
+    covariance : WindowCovariance
+        Covariance of the residual windows.
+    length : int
+        How many samples.
+    size : int
+        Samples in a window.
+    offset : int
+        The first of them.
+
+    Returns
+    -------
+    np.ndarray
+        Matrix (length, size).
+    """
+    across = covariance.precision(size)[offset : offset + length]
+    deviation: np.ndarray = np.linalg.solve(across[:, offset : offset + length], across)
+    return deviation
 
 
 @lru_cache(maxsize=512)
-def jumps(regularity: WindowCovariance, size: int) -> np.ndarray:
-    """Maps a window to the sizes of jumps at each place, in units of their standard deviation, (size - 1, size)."""
-    precision = regularity.precision(size)
-    jump = np.arange(size) >= np.arange(1, size)[:, None]
-    across = jump @ precision
-    return across / np.sqrt(np.maximum((across * jump).sum(axis=1), 1e-12))[:, None]
+def whitened_steps(covariance: WindowCovariance, size: int) -> np.ndarray:
+    """Make the map from a window to the amplitudes of steps at each place, in units of their standard deviation.
+
+    Parameters
+    ----------
+    covariance : WindowCovariance
+        Covariance of the residual windows.
+    size : int
+        Samples in a window.
+
+    Returns
+    -------
+    np.ndarray
+        Matrix (size - 1, size).
+    """
+    precision = covariance.precision(size)
+    step = np.arange(size) >= np.arange(1, size)[:, None]
+    across = step @ precision
+    whitened: np.ndarray = across / np.sqrt(np.maximum((across * step).sum(axis=1), 1e-12))[:, None]
+    return whitened
 
 
-def of_longest(rate: float, options: PeaksOptions) -> tuple[Callable[[WindowCovariance], Contrasts], int]:
-    """The maps for the longest excursion amid its context, and the length of their windows."""
-    length, context = (
-        intervals.samples(options.max_duration_s, rate),
-        residual_windows.context(rate, options, fewest=FEWEST),
-    )
-    size = length + 2 * context
-    return partial(contrasts, length=length, size=size, places=(context,)), size
+def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, options: PeaksOptions) -> list[Pulse]:
+    """Find the pulses of one marker; none has a stronger one within the context by which that is judged.
 
+    Parameters
+    ----------
+    statistics : ResidualStatistics
+        What windows are judged by.
+    marker : int
+        Index of the marker.
+    rate : float
+        Sampling rate, Hz.
+    options : PeaksOptions
+        The options.
 
-def find(course: Courses, marker: int, *, rate: float, options: PeaksOptions) -> list[Excursion]:
-    """Find the excursions of one marker, the surest first; none is nearer to a surer one than what that is judged by."""
-    context = residual_windows.context(rate, options, fewest=FEWEST)
-    candidates: list[Excursion] = []
-    for start, stop in runs(~np.isnan(course.usual[:, marker])):
-        for length in range(1, min(intervals.samples(options.max_duration_s, rate), stop - start - 2 * context) + 1):
+    Returns
+    -------
+    list[Pulse]
+        The pulses, the strongest first.
+    """
+    context = residual_windows.context_samples(rate, options, fewest=MIN_CONTEXT)
+    longest = intervals.samples(options.max_duration_s, rate)
+    candidates: list[Pulse] = []
+    for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):
+        for length in range(1, min(longest, stop - start - 2 * context) + 1):
             size = length + 2 * context
-            for span, places in residual_windows.spans(start, stop, size, context):
-                inside = tuple(place for place in places if place + length <= size)
-                maps = contrasts(course.regularity, length, size, inside)
-                candidates += _in(course, marker, span, maps, length, options)
-    kept: list[Excursion] = []
+            for span, offsets in residual_windows.window_spans(start, stop, size, context):
+                inside = tuple(offset for offset in offsets if offset + length <= size)
+                filters = pulse_filters(statistics.covariance, length, size, inside)
+                over = residual_windows.exceedances(statistics, marker, span, filters, options)
+                candidates += _pulses(over, filters, length, statistics.covariance, options)
+    kept: list[Pulse] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
             kept.append(candidate)
     return kept
 
 
-def _in(
-    course: Courses, marker: int, span: slice, maps: Contrasts, length: int, options: PeaksOptions
-) -> list[Excursion]:
-    """The excursions of a span, each cut to the samples that are off."""
-    over = residual_windows.exceeding(course, marker, span, maps, options)
-    found = []
+def _pulses(
+    over: Exceedances, filters: WindowFilters, length: int, covariance: WindowCovariance, options: PeaksOptions
+) -> Iterator[Pulse]:
+    """The pulses of some windows, each trimmed to its outlying samples, without those that a level shift explains."""
     for i, first in enumerate(over.frame.tolist()):
-        place = int(maps.place[over.map[i]])
-        each = apart(course.regularity, length, maps.length, place)
-        off = each @ over.residual[i].T
-        own = residual_windows.own_part(each @ over.positions[i].T, off)
+        offset = int(filters.offsets[over.filter[i]])
+        innovation = innovation_map(covariance, length, filters.length, offset)
+        deviation = innovation @ over.residual[i].T
+        own = residual_windows.recorded_part(innovation @ over.positions[i].T, deviation)
         inside = np.flatnonzero(own >= options.extent_fraction * own.max())
         low, high = int(inside[0]), int(inside[-1]) + 1
-        # Off up to the very border of a gap: a jump and an excursion are the same.
-        enclosed = place + low > 0 and place + high < maps.length
-        if enclosed and _jump_misfit(over.residual[i], course.regularity) <= options.max_shift_ratio * over.misfit[i]:
+        # Up to the very border of a gap a level shift and a pulse are the same.
+        enclosed = offset + low > 0 and offset + high < filters.length
+        if enclosed and _shift_misfit(over.residual[i], covariance) <= options.max_shift_ratio * over.misfit[i]:
             continue
-        found.append(Excursion(first + low, first + high, float(over.score[i]), off[low:high]))
-    return found
+        yield Pulse(first + low, first + high, float(over.score[i]), deviation[low:high])
 
 
-def _jump_misfit(window: np.ndarray, regularity: WindowCovariance) -> float:
-    """Root mean square of what the usual course with a jump, where it fits best, leaves of a window (3, n), mm."""
+def _shift_misfit(window: np.ndarray, covariance: WindowCovariance) -> float:
+    """Root mean square that the level shift which fits best leaves of a window (3, n), mm."""
     size = window.shape[1]
-    whole = np.einsum("an,nm,am->", window, regularity.precision(size), window)
-    explained = ((window @ jumps(regularity, size).T) ** 2).sum(axis=0).max()
-    return float(np.sqrt(max(whole - explained, 0) / (3 * (regularity.degrees_of_freedom(size) - 1))))
+    whole = np.einsum("an,nm,am->", window, covariance.precision(size), window)
+    explained = ((window @ whitened_steps(covariance, size).T) ** 2).sum(axis=0).max()
+    return float(np.sqrt(max(whole - explained, 0) / (3 * (covariance.degrees_of_freedom(size) - 1))))

@@ -1,7 +1,6 @@
-"""How large should a finding be expected to be, going by what the body is doing?
+"""The local scale of residuals: heteroscedastic, it rises with what the body does.
 
-Soft tissue and joints leave more of a marker unexplained when the body moves fast, or when everything about the marker
-fits badly: then the level that counts as usual rises with it.
+Soft tissue and joints leave larger residuals when the body moves fast, or when everything about a marker fits badly.
 """
 
 from __future__ import annotations
@@ -13,83 +12,151 @@ from scipy import ndimage
 
 from markermend.numerics.robust import moving_median_across_gaps
 
+NEIGHBOUR_QUANTILE = 0.5
+"""The quantile of the neighbours that is their common scale: a few that are broken must not excuse a marker."""
 
-def usual_size(
-    size: np.ndarray, neighbours: Sequence[np.ndarray], *, window: int, near: int, ratio: float
+
+def local_scale(
+    size: np.ndarray, neighbours: Sequence[np.ndarray], *, window: int, count: int, max_ratio: float
 ) -> np.ndarray:
-    """The usual size of something about each frame, (frames, markers): never below the marker's median.
+    """Estimate the usual size about each frame: the moving median, from the marker's median upwards.
 
-    It follows what the body is doing: where the moving median of the marker's sizes grows, so does it, but no more than
-    `ratio` times as much as the median of its `near` nearest neighbours' does. size: NaN = missing, and so is the
-    result.
+    Parameters
+    ----------
+    size : np.ndarray
+        Sizes (frames, markers), mm, NaN = missing.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    window : int
+        Window of the moving median, samples.
+    count : int
+        Number of nearest neighbours with which a marker is compared.
+    max_ratio : float
+        The rise of a marker counts up to this multiple of the median rise of these.
+
+    Returns
+    -------
+    np.ndarray
+        Local scale (frames, markers), mm, NaN where the size is.
     """
     overall = np.array([np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else 1.0 for own in size.T])
     overall = np.maximum(overall, 1e-3)
     local = np.stack([moving_median_across_gaps(own, window) for own in size.T], axis=1) / overall
-    livelier = np.maximum(local, 1.0)
-    filled = np.nan_to_num(livelier, nan=1.0)
+    rise = np.maximum(local, 1.0)
+    filled = np.nan_to_num(rise, nan=1.0)
     for m, around in enumerate(neighbours):
         if len(around):
-            others = np.median(filled[:, np.asarray(around, int)[:near]], axis=1)
-            livelier[:, m] = np.minimum(livelier[:, m], ratio * others)
-    return livelier * overall
+            others = np.median(filled[:, np.asarray(around, int)[:count]], axis=1)
+            rise[:, m] = np.minimum(rise[:, m], max_ratio * others)
+    scale: np.ndarray = rise * overall
+    return scale
 
 
-COMPANY = 0.5
-"""The quantile of the neighbours that tells how badly they fit: one that is broken, or a few, must not excuse a marker."""
-
-
-def motion(
-    positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, near: int, smooth: int
+def neighbour_motion(
+    positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, count: int, smoothing: int
 ) -> np.ndarray:
-    """How a marker's `near` nearest neighbours move: (2, frames, markers), speed about their mean, mm/s, and acceleration, mm/s^2.
+    """Measure how the nearest neighbours of each marker move; its own trajectory does not count.
 
-    The marker's own course does not count. positions: NaN = missing; neighbours that are missing do not count, and 0
-    where none is seen. smooth: over so many samples.
+    Parameters
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing: such neighbours do not count.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    rate : float
+        Sampling rate, Hz.
+    count : int
+        Number of nearest neighbours.
+    smoothing : int
+        Window of the moving mean of the positions, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Root mean square speed about their mean velocity, mm/s, and acceleration, mm/s^2, (2, frames, markers); 0 where no
+        neighbour is observed.
     """
     if len(positions) < 2:
         return np.zeros((2, *positions.shape[:2]))
-    smoothed = mean_over(positions, smooth)
+    smoothed = moving_mean(positions, smoothing)
     velocity = np.gradient(smoothed, axis=0) * rate
     acceleration = np.gradient(velocity, axis=0) * rate
-    out = np.zeros((2, *positions.shape[:2]))
+    motion = np.zeros((2, *positions.shape[:2]))
     for m, around in enumerate(neighbours):
-        some = np.asarray(around, int)[:near]
+        some = np.asarray(around, int)[:count]
         if len(some):
             about_mean = velocity[:, some] - _mean(velocity[:, some])[:, None]
-            out[0, :, m] = np.sqrt(_mean((about_mean**2).sum(axis=2)))
-            out[1, :, m] = np.sqrt(_mean((acceleration[:, some] ** 2).sum(axis=2)))
-    return out
+            motion[0, :, m] = np.sqrt(_mean((about_mean**2).sum(axis=2)))
+            motion[1, :, m] = np.sqrt(_mean((acceleration[:, some] ** 2).sum(axis=2)))
+    return motion
 
 
-def expected(
-    size: np.ndarray, neighbours: Sequence[np.ndarray], moving: np.ndarray, *, near: int, window: int, least: float
+def fitted_scale(
+    size: np.ndarray,
+    neighbours: Sequence[np.ndarray],
+    motion: np.ndarray,
+    *,
+    count: int,
+    window: int,
+    min_scale: float,
 ) -> np.ndarray:
-    """The size to expect (frames, markers) of what is measured of each marker.
+    """Fit the local scale to the motion of the neighbours and to their own sizes.
 
-    size: (frames, markers), NaN = missing. moving: (kinds, frames, markers), from `motion`. Fitted is the logarithm of
-    the local root mean square over `window` samples: a level for each marker, and shared by all of them one exponent,
-    not negative, for each kind of motion and for the median of the `near` nearest neighbours, each in units of its own
-    level. least: below this nothing is expected to be.
+    The logarithm of the local root mean square is fitted by a level of each marker and, shared by all, one non-negative
+    exponent of each kind of motion and of the median size of the nearest neighbours in units of their own levels.
+
+    Parameters
+    ----------
+    size : np.ndarray
+        Sizes (frames, markers), NaN = missing.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    motion : np.ndarray
+        Kinds of motion (kinds, frames, markers), see `neighbour_motion`.
+    count : int
+        Number of nearest neighbours.
+    window : int
+        Window of the local mean, samples.
+    min_scale : float
+        Smallest scale, in the unit of the sizes.
+
+    Returns
+    -------
+    np.ndarray
+        Scale (frames, markers), in the unit of the sizes.
     """
     from scipy.optimize import nnls  # slow to import
 
-    local = np.sqrt(np.maximum(mean_over(size**2, window), 1e-6))
+    local = np.sqrt(np.maximum(moving_mean(size**2, window), 1e-6))
     level = np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in local.T)])
     relative = np.nan_to_num(local / level, nan=1.0)
-    kinds = [np.ones(size.shape), *(mean_over(kind, window) + 1.0 for kind in moving)]
+    kinds = [np.ones(size.shape), *(moving_mean(kind, window) + 1.0 for kind in motion)]
     for m, around in enumerate(neighbours):
         if len(around):
-            kinds[0][:, m] = np.quantile(relative[:, np.asarray(around, int)[:near]], COMPANY, axis=1)
-    explaining = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
+            kinds[0][:, m] = np.quantile(relative[:, np.asarray(around, int)[:count]], NEIGHBOUR_QUANTILE, axis=1)
+    regressors = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
     some = slice(None, None, max(1, window // 2))
     seen = ~np.isnan(local[some])
-    exponents, _ = nnls(explaining[some][seen], np.log(relative[some][seen])) if seen.any() else (np.zeros(3), 0)
-    return np.maximum(level * np.exp(explaining @ exponents), least)
+    exponents, _ = nnls(regressors[some][seen], np.log(relative[some][seen])) if seen.any() else (np.zeros(3), 0)
+    scale: np.ndarray = np.maximum(level * np.exp(regressors @ exponents), min_scale)
+    return scale
 
 
-def mean_over(values: np.ndarray, window: int) -> np.ndarray:
-    """Moving mean along the first axis over what is not NaN; NaN where nothing is."""
+def moving_mean(values: np.ndarray, window: int) -> np.ndarray:
+    """Take the moving mean of what is known.
+
+    Parameters
+    ----------
+    values : np.ndarray
+        Values (frames, ...), NaN = missing.
+    window : int
+        Window, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Means (frames, ...); NaN where no value of the window is known.
+    """
     known = ~np.isnan(values)
     total = ndimage.uniform_filter1d(np.where(known, values, 0.0), window, axis=0)
     share = ndimage.uniform_filter1d(known.astype(float), window, axis=0)
@@ -99,4 +166,5 @@ def mean_over(values: np.ndarray, window: int) -> np.ndarray:
 def _mean(values: np.ndarray) -> np.ndarray:
     """Mean along the second axis over what is not NaN; 0 where nothing is."""
     known = ~np.isnan(values)
-    return np.where(known, values, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    mean: np.ndarray = np.where(known, values, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    return mean

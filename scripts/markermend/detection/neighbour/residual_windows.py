@@ -1,90 +1,187 @@
-"""Usual courses: how far are samples off what those about them let expect, in units of how badly that fits?
+"""Matched filters on short windows of residuals: the adaptive normalised matched filter.
 
-A marker's residual against its neighbours is regular where nothing sudden happens: how regular, each recording tells. What
-the usual course leaves of a short window is the noise scale: amid fast motion or heavy noise it leaves much and little
-counts as sudden, where all goes smoothly little is needed. What is found must be in the course as recorded too: a
-neighbour's artifact is only in the residual. Together this is the adaptive normalised matched filter (Conte, Lops, Ricci
-1995), whose false alarms do not depend on the size of the noise.
+The covariance of residual windows is estimated from each recording. What a window leaves beside the pattern in question is
+the noise scale, so that the threshold rises with the local residual scale, amid fast motion or heavy noise, and false
+alarms do not depend on it (Conte, Lops, Ricci 1995). A pattern must be in the trajectory as recorded too: the artifact of
+a neighbour is in the residual alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from markermend.core import events
-from markermend.core.events import Event
-from markermend.detection import inputs
-from markermend.detection.neighbour import attribution, residual_scale
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance, sliding_windows
+from markermend.numerics.window_covariance import WindowCovariance, sliding_windows
 from markermend.options.detection import ResidualWindowOptions
-from markermend.prediction import scene as prediction_scene
-from markermend.prediction.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class Contrasts:
-    """What is asked of windows of n samples, for each of c places in them.
+class WindowFilters:
+    """Matched filters of one pattern at c offsets in windows of n samples.
 
-    place: (c,), first sample in question. size: (c, n), maps a window to the size of what is looked for. gain: (c,), its
-    standard deviation where the misfit is 1. misfit: (c, n, n), quadratic form: mean square of what the usual course
-    leaves beside that.
+    Attributes
+    ----------
+    offsets : np.ndarray
+        First sample of the pattern in the window (c,).
+    weights : np.ndarray
+        Generalised least-squares weights (c, n) that estimate the amplitude of the pattern.
+    deviation : np.ndarray
+        Standard deviation of the amplitude (c,) where the residual mean square is 1.
+    misfit_form : np.ndarray
+        Quadratic forms (c, n, n) of the residual mean square beside the pattern.
     """
 
-    place: np.ndarray
-    size: np.ndarray
-    gain: np.ndarray
-    misfit: np.ndarray
+    offsets: np.ndarray
+    weights: np.ndarray
+    deviation: np.ndarray
+    misfit_form: np.ndarray
 
     @property
     def length(self) -> int:
         """Samples in a window."""
-        return self.size.shape[1]
+        return int(self.weights.shape[1])
 
 
 @dataclass(frozen=True)
-class Courses:
-    """What is judged: residual and positions (frames, markers, 3), mm, NaN = missing, as predicted and as recorded;
-    misfit and the usual misfit (frames, markers), mm, NaN where there is too little to judge by; and how regular the
-    residuals of the recording are.
+class ResidualStatistics:
+    """What windows are judged by.
+
+    Attributes
+    ----------
+    residual : np.ndarray
+        Residuals (frames, markers, 3), mm, NaN = missing.
+    positions : np.ndarray
+        Positions as recorded (frames, markers, 3), mm, NaN = missing.
+    misfit : np.ndarray
+        Root mean square (frames, markers), mm, that the window about a frame leaves beside the pattern; NaN in runs
+        shorter than a window.
+    local_scale : np.ndarray
+        The usual misfit about a frame (frames, markers), mm, NaN likewise.
+    covariance : WindowCovariance
+        Covariance of the residual windows of the recording.
     """
 
     residual: np.ndarray
     positions: np.ndarray
     misfit: np.ndarray
-    usual: np.ndarray
-    regularity: WindowCovariance
+    local_scale: np.ndarray
+    covariance: WindowCovariance
 
 
 @dataclass(frozen=True)
-class Exceeding:
-    """Windows that exceed the threshold: each one's residuals and positions (i, 3, n), the index of its map, the frame in
-    question (i,), the size of what was looked for (i, 3), score, and misfit (i,); mm.
+class Exceedances:
+    """Windows whose pattern exceeds the threshold.
+
+    Attributes
+    ----------
+    residual, positions : np.ndarray
+        The windows (i, 3, n), mm.
+    filter : np.ndarray
+        Index of the filter (i,).
+    frame : np.ndarray
+        First frame of the pattern (i,).
+    amplitude : np.ndarray
+        Amplitude of the pattern (i, 3), mm.
+    score : np.ndarray
+        Amplitude in units of the threshold (i,).
+    misfit : np.ndarray
+        Root mean square beside the pattern (i,), mm.
     """
 
     residual: np.ndarray
     positions: np.ndarray
-    map: np.ndarray
+    filter: np.ndarray
     frame: np.ndarray
-    size: np.ndarray
+    amplitude: np.ndarray
     score: np.ndarray
     misfit: np.ndarray
 
 
-def context(rate: float, options: ResidualWindowOptions, *, fewest: int) -> int:
-    """Samples on either side: as long as asked for, and enough to tell the misfit."""
+def window_misfit(residual: np.ndarray, window: int, form: np.ndarray) -> np.ndarray:
+    """Compute the misfit of the window about each frame of one marker.
+
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residual (frames, 3), mm, NaN = missing.
+    window : int
+        Samples in a window.
+    form : np.ndarray
+        Quadratic form (window, window).
+
+    Returns
+    -------
+    np.ndarray
+        Root mean square (frames,), mm: near a gap that of the nearest whole window, NaN in runs shorter than a window.
+    """
+    misfit = np.full(len(residual), np.nan)
+    for start, stop in runs(~np.isnan(residual[:, 0])):
+        if stop - start >= window:
+            own = root_mean_form(sliding_windows(residual[start:stop], window), form)
+            misfit[start:stop] = own[np.clip(np.arange(stop - start) - window // 2, 0, len(own) - 1)]
+    return misfit
+
+
+def root_mean_form(windows: np.ndarray, form: np.ndarray) -> np.ndarray:
+    """Take the root of a quadratic form of windows, averaged over the axes.
+
+    Parameters
+    ----------
+    windows : np.ndarray
+        Windows (i, 3, n), mm.
+    form : np.ndarray
+        One form (n, n) or one of each window (i, n, n).
+
+    Returns
+    -------
+    np.ndarray
+        Roots (i,), mm.
+    """
+    square = ((windows @ form) * windows).sum(axis=(1, 2)) / windows.shape[1]
+    root: np.ndarray = np.sqrt(np.maximum(square, 0))
+    return root
+
+
+def context_samples(rate: float, options: ResidualWindowOptions, *, fewest: int) -> int:
+    """Count the samples on either side of a pattern.
+
+    Parameters
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : ResidualWindowOptions
+        The options.
+    fewest : int
+        So many, at least, estimate the noise scale.
+
+    Returns
+    -------
+    int
+        Samples on one side.
+    """
     return max(intervals.samples(options.context_s, rate), fewest)
 
 
-def spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:
-    """Spans of frames and the places in windows of `length` that cover all of [start, stop), each frame once.
+def window_spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:
+    """Choose windows in which a pattern is looked for at each frame of a run once.
 
-    Inside, what is looked for has its context on either side; at the ends, windows stay and the place in them goes on.
+    Parameters
+    ----------
+    start, stop : int
+        The run.
+    length : int
+        Samples in a window.
+    context : int
+        Samples before the pattern, as far as the run allows.
+
+    Returns
+    -------
+    list[tuple[slice, tuple[int, ...]]]
+        Spans of frames, with the offsets of the pattern in the windows of each: in its middle all windows have the pattern
+        behind its context; at the ends the window stays and the pattern moves.
     """
     early, late = tuple(range(context)), tuple(range(context + 1, length))
     return [
@@ -94,101 +191,69 @@ def spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice,
     ]
 
 
-def own_part(recorded: np.ndarray, residual: np.ndarray) -> np.ndarray:
-    """How much of changes of the residual (..., 3) the marker itself makes, as recorded: (...)."""
-    far = np.linalg.norm(residual, axis=-1)
-    return np.clip(np.einsum("...a,...a->...", recorded, residual) / np.maximum(far, 1e-9), 0, far)
+def recorded_part(recorded: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """Compute how much of changes of the residual the marker itself makes.
 
+    Parameters
+    ----------
+    recorded, residual : np.ndarray
+        Changes (..., 3) of the trajectory and of the residual, mm.
 
-def measure(
-    scene: Scene,
-    residual: np.ndarray,
-    only: Sequence[int] | None = None,
-    was: Courses | None = None,
-    *,
-    maps: Callable[[WindowCovariance], Contrasts],
-    length: int,
-    options: ResidualWindowOptions,
-) -> Courses:
-    """Learn how regular residuals are, and measure their misfits under the first of the maps of windows of a length.
-
-    With `was`, anew for the markers `only`.
+    Returns
+    -------
+    np.ndarray
+        Component (...) of the first along the second, mm, from 0 to the length of the second.
     """
-    if was is None:
-        order, shrinkage, at_most = options.polynomial_order, options.white_noise_ratio, options.covariance_windows
-        regularity = fit_window_covariance(residual, size=length, order=order, shrinkage=shrinkage, max_windows=at_most)
-    else:
-        regularity = was.regularity
-    form = maps(regularity).misfit[0]
-    misfit = np.full(residual.shape[:2], np.nan) if was is None else was.misfit.copy()
-    for m in range(residual.shape[1]) if only is None else only:
-        misfit[:, m] = np.nan
-        for start, stop in runs(~np.isnan(residual[:, m, 0])):
-            if stop - start >= length:
-                own = _misfit(sliding_windows(residual[start:stop, m], length), form)
-                misfit[start:stop, m] = own[np.clip(np.arange(stop - start) - length // 2, 0, len(own) - 1)]
-    usual = residual_scale.usual_size(
-        misfit,
-        scene.neighbours,
-        window=intervals.samples(options.scale_window_s, scene.rate, odd=True),
-        near=options.scale_neighbours,
-        ratio=options.max_scale_ratio,
-    )
-    return Courses(residual, scene.positions, misfit, usual, regularity)
+    length = np.linalg.norm(residual, axis=-1)
+    part: np.ndarray = np.clip(np.einsum("...a,...a->...", recorded, residual) / np.maximum(length, 1e-9), 0, length)
+    return part
 
 
-def _misfit(window: np.ndarray, form: np.ndarray) -> np.ndarray:
-    """Root mean square misfit of windows (i, 3, n) under one quadratic form (n, n) or one for each (i, n, n)."""
-    square = ((window @ form) * window).sum(axis=(1, 2)) / window.shape[1]
-    return np.sqrt(np.maximum(square, 0))
-
-
-def exceeding(
-    courses: Courses, marker: int, span: slice, maps: Contrasts, options: ResidualWindowOptions, *, least: float = 1.0
-) -> Exceeding:
-    """The windows of a span of one marker's frames, without gaps, that exceed the threshold, or this part of it."""
-    residual, positions = (sliding_windows(v[span, marker], maps.length) for v in (courses.residual, courses.positions))
-    size = (residual @ maps.size.T).transpose(0, 2, 1)
-    at, which = np.nonzero((size**2).sum(axis=2) > (least * options.floor_mm) ** 2)
-    size = size[at, which]
-    own = own_part(np.einsum("ian,in->ia", positions[at], maps.size[which]), size)
-    misfit = _misfit(residual[at], maps.misfit[which])
-    frame = span.start + at + maps.place[which]
-    noise = np.hypot(misfit, courses.usual[frame, marker])
-    score = own / np.maximum(options.threshold_sigmas * noise * maps.gain[which], options.floor_mm)
-    k = score > least
-    return Exceeding(residual[at[k]], positions[at[k]], which[k], frame[k], size[k], score[k], misfit[k])
-
-
-def detect(
-    scene: Scene,
-    *,
-    markers: Sequence[str],
-    earlier: np.ndarray,
+def exceedances(
+    statistics: ResidualStatistics,
+    marker: int,
+    span: slice,
+    filters: WindowFilters,
     options: ResidualWindowOptions,
-    maps: Callable[[WindowCovariance], Contrasts],
-    length: int,
-    predictor: prediction_scene.ResidualSource,
-    judge: Callable[[Courses, int], list[Event]],
-    suspect: Callable[[Courses, int], list[Event]] | None = None,
-    open_at: Callable[[Courses, int], Sequence[int]] | None = None,
-) -> tuple[list[Event], Courses]:
-    """Find one class of artifacts on the courses of all markers, and the courses.
+    *,
+    fraction: float = 1.0,
+) -> Exceedances:
+    """Find the windows of a span of one marker whose pattern exceeds the threshold.
 
-    scene: positions (frames, markers, 3), mm, NaN = missing; nothing is found there. earlier: bool, like positions, what
-    detectors before claimed. maps, length: see measure. judge: finds on the course of a marker (index). suspect, open_at,
-    and rivals among neighbours that are judged again: see blame.find.
+    Parameters
+    ----------
+    statistics : ResidualStatistics
+        What windows are judged by.
+    marker : int
+        Index of the marker.
+    span : slice
+        Frames without a gap.
+    filters : WindowFilters
+        The filters.
+    options : ResidualWindowOptions
+        The options.
+    fraction : float, optional
+        Part of the threshold that is enough.
+
+    Returns
+    -------
+    Exceedances
+        The windows, by frame.
+
+    References
+    ----------
+    Conte, Lops, Ricci (1995), "Asymptotically optimum radar detection in compound-Gaussian clutter".
     """
-    found, courses = attribution.find(
-        inputs.without(scene, earlier),
-        measure=partial(measure, maps=maps, length=length, options=options),
-        judge=judge,
-        markers=markers,
-        predictor=predictor,
-        rounds=options.attribution_rounds,
-        reach=options.attribution_neighbours,
-        border=length // 2,
-        suspect=suspect,
-        open_at=open_at,
+    residual, positions = (
+        sliding_windows(values[span, marker], filters.length) for values in (statistics.residual, statistics.positions)
     )
-    return events.tidy(found), courses
+    amplitude = (residual @ filters.weights.T).transpose(0, 2, 1)
+    at, which = np.nonzero((amplitude**2).sum(axis=2) > (fraction * options.floor_mm) ** 2)
+    amplitude = amplitude[at, which]
+    own = recorded_part(np.einsum("ian,in->ia", positions[at], filters.weights[which]), amplitude)
+    misfit = root_mean_form(residual[at], filters.misfit_form[which])
+    frame = span.start + at + filters.offsets[which]
+    noise = np.hypot(misfit, statistics.local_scale[frame, marker])
+    score = own / np.maximum(options.threshold_sigmas * noise * filters.deviation[which], options.floor_mm)
+    k = score > fraction
+    return Exceedances(residual[at[k]], positions[at[k]], which[k], frame[k], amplitude[k], score[k], misfit[k])

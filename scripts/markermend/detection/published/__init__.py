@@ -1,1 +1,1 @@
-"""Detection coordinate by coordinate, as published (skurowski2022)."""
+"""The published detectors, which look at each coordinate by itself (skurowski2022)."""

@@ -1,4 +1,4 @@
-"""Increments of one coordinate as published: thresholds, sudden changes, and pairs of opposite ones (skurowski2022 3.4)."""
+"""Increments of one coordinate: thresholds, sudden changes, and pairs of opposite ones (skurowski2022 3.4)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,28 @@ from markermend.numerics.robust import mad_std
 
 
 def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float) -> float:
-    """What a change must exceed, mm: so many standard deviations (scale `mad`: robust ones, `std`: plain), or the floor.
+    """Compute the threshold of a sudden change.
 
-    NaN ignored. Raises ValueError for another scale.
+    Parameters
+    ----------
+    change : np.ndarray
+        Increments of any shape, mm; NaN are ignored.
+    scale : {"mad", "std"}
+        Estimator of their standard deviation: from the median absolute deviation, or the plain one.
+    sigmas : float
+        Threshold in standard deviations.
+    floor_mm : float
+        Smallest threshold, mm.
+
+    Returns
+    -------
+    float
+        The threshold, mm.
+
+    Raises
+    ------
+    ValueError
+        For another estimator.
     """
     finite = change[np.isfinite(change)]
     if scale not in ("mad", "std"):
@@ -23,9 +42,22 @@ def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float)
 
 
 def edges(change: np.ndarray, level: float | np.ndarray, reach: int) -> np.ndarray:
-    """Indices of the sudden changes in a high-passed difference: above the level and not a filter's side lobe.
+    """Find the sudden changes in high-passed increments that are no side lobe of the filter.
 
-    A change is kept where none within two samples is larger and none within `reach` is more than twice as large.
+    Parameters
+    ----------
+    change : np.ndarray
+        High-passed increments (frames,), mm, NaN = missing.
+    level : float or np.ndarray
+        The threshold, mm.
+    reach : int
+        Half the length of the filter, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Sorted frames of the changes above the threshold that none within two samples exceeds, nor any within the reach
+        by more than a factor of two.
     """
     size = per_run(np.abs, change)
     kept = (
@@ -37,12 +69,30 @@ def edges(change: np.ndarray, level: float | np.ndarray, reach: int) -> np.ndarr
 def derivative_pairs(
     change: np.ndarray, at: np.ndarray, *, shortest: int, longest: int, ratio: float
 ) -> tuple[list[tuple[int, int]], np.ndarray]:
-    """Pair opposite sudden changes (find_derivate_pairs of skurowski2022 3.4.1): intervals [n1, n2) and what is left.
+    """Pair opposite sudden changes, the nearest first.
 
-    change: (frames,), signed. at: sorted indices of its sudden changes. A pair is opposite in sign, shortest <= n2 - n1
-    <= longest samples apart with no gap between, and neither is less than `ratio` of the other. The nearest pairs come
-    first (ties: the earlier), each change is used once, pairs do not cross, and a change inside a pair belongs to it.
-    Returns the pairs in order and the indices that belong to none.
+    Parameters
+    ----------
+    change : np.ndarray
+        Increments (frames,), mm, NaN = missing.
+    at : np.ndarray
+        Sorted frames of the sudden changes.
+    shortest, longest : int
+        Shortest and longest distance of a pair, samples.
+    ratio : float
+        Neither change of a pair is less than this part of the other (0 to 1).
+
+    Returns
+    -------
+    pairs : list[tuple[int, int]]
+        Intervals [n1, n2) in order; none has a gap inside, no change is used twice, pairs do not cross (a change inside a
+        pair belongs to it), and of pairs of equal length the earlier is made first.
+    alone : np.ndarray
+        Frames of the changes that belong to no pair.
+
+    References
+    ----------
+    skurowski2022 3.4.1, find_derivate_pairs.
     """
     gaps = np.cumsum(np.isnan(change))
     within = np.searchsorted(at, at + longest, side="right") - np.arange(len(at)) - 1
@@ -61,7 +111,28 @@ def derivative_pairs(
     return sorted(pairs), at[~used]
 
 
-def difference_high_pass(signal: np.ndarray, *, window_s: float, order: int, rate: float) -> np.ndarray:
-    """Differences less their Savitzky-Golay smooth (skurowski2022 eq 26, 27), over a window that the order allows."""
+def high_passed_increments(signal: np.ndarray, *, window_s: float, order: int, rate: float) -> np.ndarray:
+    """Subtract the Savitzky-Golay smooth from the increments of a signal.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), mm, NaN = missing.
+    window_s : float
+        Window of the filter, s; longer where the order needs it.
+    order : int
+        Order of its polynomials.
+    rate : float
+        Sampling rate, Hz.
+
+    Returns
+    -------
+    np.ndarray
+        High-passed increments (frames,), mm, NaN where the signal is.
+
+    References
+    ----------
+    skurowski2022 eq 26, 27.
+    """
     window = max(intervals.samples(window_s, rate, odd=True), 2 * order + 1)
     return filters.high_pass(filters.difference(signal), window, order)

@@ -1,25 +1,77 @@
-"""Heavy noise of one coordinate as published (skurowski2022 3.4.3)."""
+"""Heavy noise of each coordinate, as published (skurowski2022 3.4.3)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from markermend.detection.published import increments
-from markermend.detection.published.increments import difference_high_pass
+from markermend.core.events import Event
+from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
 from markermend.options.published import PublishedNoiseOptions
+from markermend.prediction.scene import Scene
+
+
+def detect_noise(
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: PublishedNoiseOptions
+) -> list[Event]:
+    """Find the stretches of heavy noise of a recording.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found where it is missing.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions: it is bridged, and not found again.
+    options : PublishedNoiseOptions
+        The options.
+
+    Returns
+    -------
+    list[Event]
+        Disjoint events, sorted.
+    """
+
+    def detect(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        return find_noise(signal, rate=scene.rate, options=options)
+
+    return coordinatewise.detect_coordinatewise(
+        scene, detect, markers=markers, earlier=earlier, slope_window_s=options.slope_window_s
+    )
 
 
 def find_noise(signal: np.ndarray, *, rate: float, options: PublishedNoiseOptions) -> tuple[np.ndarray, np.ndarray]:
-    """Find the stretches of heavy noise of one coordinate (skurowski2022 eq 26-30).
+    """Find the stretches of heavy noise of one coordinate.
 
-    signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,). A stretch
-    goes from its first to its last sample that is far from what stands before it: the filter's smear does not count.
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), mm, NaN = missing; nothing is found across a gap.
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedNoiseOptions
+        The options.
+
+    Returns
+    -------
+    mask : np.ndarray
+        Samples of heavy noise, bool (frames,): each stretch goes from its first to its last sudden change, so that the
+        smear of the filter does not count.
+    score : np.ndarray
+        Size of the largest high-passed increment (frames,), in units of the threshold; 0 elsewhere.
+
+    References
+    ----------
+    skurowski2022 eq 26-30.
     """
     shortest = intervals.samples(options.min_duration_s, rate)
     element = 2 * shortest - 1
-    change = difference_high_pass(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
+    change = high_passed_increments(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
     level = increments.threshold(
         change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
     )
@@ -27,10 +79,10 @@ def find_noise(signal: np.ndarray, *, rate: float, options: PublishedNoiseOption
     raw = np.where(np.isnan(closed), np.nan, closed > level)
     areas = morphology.closing(raw, element) > 0
     plain = filters.difference(signal)
-    jump = np.abs(plain - filters.moving_median(plain, element)) > level
+    sudden = np.abs(plain - filters.moving_median(plain, element)) > level
     mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
     for start, stop in runs(areas):
-        own = start + np.flatnonzero(jump[start:stop])
+        own = start + np.flatnonzero(sudden[start:stop])
         if own.size < options.min_sudden_changes:
             continue
         span = slice(own[0], own[-1])

@@ -1,4 +1,4 @@
-"""Hills and valleys of a residual: slow changes as published, coordinate by coordinate (skurowski2022 3.5)."""
+"""Slow changes of each coordinate of a residual, as published (skurowski2022 3.5)."""
 
 from __future__ import annotations
 
@@ -20,60 +20,10 @@ from markermend.prediction.scene import ResidualSource, Scene
 from markermend.prediction.time_smoothers import MovingMedian, SavitzkyGolay
 
 PREDICTORS = ("replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge")
-"""Whose residual may be judged: the four of the paper, and the local ridge."""
+"""The predictors whose residual may be judged: the four of the paper, and the local ridge."""
 
 
-def predictor(options: PublishedSlowOptions, families: PredictorOptions) -> ResidualSource:
-    """Make the predictor that the options name; families: options of the predictors.
-
-    Raises ValueError for a name that is not in PREDICTORS.
-    """
-    if options.predictor == "replicated_network":
-        return ReplicatedNetwork(families.replicated_network)
-    if options.predictor == "polynomial":
-        return Polynomial(families.polynomial)
-    if options.predictor == "savitzky_golay":
-        return SavitzkyGolay(window_s=options.smoothing_window_s, order=options.polynomial_order)
-    if options.predictor == "moving_median":
-        return MovingMedian(window_s=options.smoothing_window_s)
-    if options.predictor == "local_ridge":
-        return LocalRidge(families.local_ridge)
-    raise ValueError(f"predictor {options.predictor!r} is none of {', '.join(PREDICTORS)}")
-
-
-def regrow(level: np.ndarray, *, lower: float, top: int) -> list[tuple[int, int]]:
-    """Hysteresis with re-growing: stretches of a level above `lower` that exceed 1 for `top` samples in a row at least.
-
-    level: (frames,), NaN = missing, at which a stretch ends.
-    """
-    tops = np.array([start for start, stop in runs(np.nan_to_num(level) > 1) if stop - start >= top], int)
-    grown = list(runs(np.nan_to_num(level) > lower))
-    return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
-
-
-def find_slow(residual: np.ndarray, *, rate: float, options: PublishedSlowOptions) -> tuple[np.ndarray, np.ndarray]:
-    """Find the hills and valleys of one coordinate of the residual (skurowski2022 3.5, steps 1-4).
-
-    residual: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask and a score, (frames,).
-    """
-    finite = residual[np.isfinite(residual)]
-    centre = float(np.median(finite)) if finite.size else 0.0
-    sigma = increments.threshold(residual, scale=options.scale_estimator, sigmas=1.0, floor_mm=1e-9)
-    level = (residual - centre) / (options.threshold_sigmas * sigma)
-    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
-    top, shortest = (
-        intervals.samples(options.min_upper_duration_s, rate),
-        intervals.samples(options.min_duration_s, rate),
-    )
-    for sign in (1, -1):
-        for start, stop in regrow(sign * level, lower=options.lower_sigmas / options.threshold_sigmas, top=top):
-            if stop - start >= shortest:
-                mask[start:stop] = True
-                score[start:stop] = (sign * level[start:stop]).max()
-    return mask, score
-
-
-def detect(
+def detect_slow(
     scene: Scene,
     *,
     markers: Sequence[str],
@@ -81,15 +31,128 @@ def detect(
     options: PublishedSlowOptions,
     predictor: ResidualSource,
 ) -> list[Event]:
-    """Find the slow changes of a recording in the residuals of its coordinates.
+    """Find the slow changes of a recording.
 
-    earlier: bool, like positions, what detectors before claimed: bridged for the predictor, and not found again.
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found where it is missing.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions: it is bridged for the predictor, and not found again.
+    options : PublishedSlowOptions
+        The options.
+    predictor : ResidualSource
+        Source of the residuals; see `make_predictor`.
+
+    Returns
+    -------
+    list[Event]
+        Disjoint events, sorted.
     """
+
+    def detect(residual: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        return find_slow(residual, rate=scene.rate, options=options)
+
     reach = intervals.samples(options.slope_window_s, scene.rate)
-    bridged = replace(scene, positions=coordinatewise.bridged(scene.positions, earlier, reach))
-    return coordinatewise.find_in_each(
-        predictor.residuals(bridged),
-        lambda residual, _: find_slow(residual, rate=scene.rate, options=options),
-        markers=markers,
-        earlier=earlier,
-    )
+    bridged = replace(scene, positions=coordinatewise.bridge_claimed(scene.positions, earlier, reach))
+    return coordinatewise.detect_each(predictor.residuals(bridged), detect, markers=markers, earlier=earlier)
+
+
+def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) -> ResidualSource:
+    """Make the predictor that the options name.
+
+    Parameters
+    ----------
+    options : PublishedSlowOptions
+        The options.
+    predictors : PredictorOptions
+        Options of the predictors.
+
+    Returns
+    -------
+    ResidualSource
+        The predictor.
+
+    Raises
+    ------
+    ValueError
+        For a name that is not among PREDICTORS.
+    """
+    if options.predictor == "replicated_network":
+        return ReplicatedNetwork(predictors.replicated_network)
+    if options.predictor == "polynomial":
+        return Polynomial(predictors.polynomial)
+    if options.predictor == "savitzky_golay":
+        return SavitzkyGolay(window_s=options.smoothing_window_s, order=options.polynomial_order)
+    if options.predictor == "moving_median":
+        return MovingMedian(window_s=options.smoothing_window_s)
+    if options.predictor == "local_ridge":
+        return LocalRidge(predictors.local_ridge)
+    raise ValueError(f"predictor {options.predictor!r} is none of {', '.join(PREDICTORS)}")
+
+
+def hysteresis(level: np.ndarray, *, lower: float, min_upper: int) -> list[tuple[int, int]]:
+    """Threshold a signal with hysteresis: stretches above a lower threshold that exceed an upper one for long enough.
+
+    Parameters
+    ----------
+    level : np.ndarray
+        Signal (frames,) in units of the upper threshold; NaN = missing, at which a stretch ends.
+    lower : float
+        The lower threshold, in the same units.
+    min_upper : int
+        Samples in a row, at least, that exceed the upper threshold.
+
+    Returns
+    -------
+    list[tuple[int, int]]
+        Half-open intervals, in order.
+
+    References
+    ----------
+    skurowski2022 3.5, re-growing.
+    """
+    tops = np.array([start for start, stop in runs(np.nan_to_num(level) > 1) if stop - start >= min_upper], int)
+    grown = list(runs(np.nan_to_num(level) > lower))
+    return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
+
+
+def find_slow(residual: np.ndarray, *, rate: float, options: PublishedSlowOptions) -> tuple[np.ndarray, np.ndarray]:
+    """Find the slow changes of one coordinate of the residual, upwards and downwards.
+
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residual (frames,), mm, NaN = missing; nothing is found across a gap.
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedSlowOptions
+        The options.
+
+    Returns
+    -------
+    mask : np.ndarray
+        Samples of slow changes, bool (frames,).
+    score : np.ndarray
+        Their largest deviation from the median (frames,), in units of the upper threshold; 0 elsewhere.
+
+    References
+    ----------
+    skurowski2022 3.5, steps 1-4.
+    """
+    finite = residual[np.isfinite(residual)]
+    centre = float(np.median(finite)) if finite.size else 0.0
+    sigma = increments.threshold(residual, scale=options.scale_estimator, sigmas=1.0, floor_mm=1e-9)
+    level = (residual - centre) / (options.threshold_sigmas * sigma)
+    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
+    min_upper = intervals.samples(options.min_upper_duration_s, rate)
+    shortest = intervals.samples(options.min_duration_s, rate)
+    lower = options.lower_sigmas / options.threshold_sigmas
+    for sign in (1, -1):
+        for start, stop in hysteresis(sign * level, lower=lower, min_upper=min_upper):
+            if stop - start >= shortest:
+                mask[start:stop] = True
+                score[start:stop] = (sign * level[start:stop]).max()
+    return mask, score

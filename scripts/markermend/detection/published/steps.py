@@ -1,4 +1,4 @@
-"""Steps of one coordinate as published (skurowski2022 3.4.4)."""
+"""Steps of each coordinate, as published (skurowski2022 3.4.4)."""
 
 from __future__ import annotations
 
@@ -9,21 +9,85 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event, OpenStep
 from markermend.detection.published import coordinatewise, increments
-from markermend.detection.published.increments import difference_high_pass
+from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals
 from markermend.options.published import PublishedStepsOptions
 from markermend.prediction.scene import Scene
 
 
+def detect_steps(
+    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: PublishedStepsOptions
+) -> tuple[list[Event], list[OpenStep]]:
+    """Find the steps of a recording, and the jumps without a counterpart.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed; nothing is found where it is missing.
+    markers : Sequence[str]
+        Names of the markers.
+    earlier : np.ndarray
+        What earlier detectors claimed, bool, like the positions: it is bridged, and not found again.
+    options : PublishedStepsOptions
+        The options.
+
+    Returns
+    -------
+    found : list[Event]
+        Disjoint events, sorted.
+    open_steps : list[OpenStep]
+        Jumps without a counterpart outside of the events, by marker and frame.
+    """
+    window = intervals.samples(options.window_s, scene.rate, odd=True)
+    size_mm: dict[tuple[str, int], float] = {}
+
+    def detect(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        mask, score, alone = find_steps(signal, rate=scene.rate, options=options)
+        change = filters.difference(signal)
+        change -= filters.moving_median(change, window)
+        for frame in alone.tolist():
+            size_mm[marker, frame] = float(np.hypot(size_mm.get((marker, frame), 0.0), change[frame]))
+        return mask, score
+
+    found = coordinatewise.detect_coordinatewise(
+        scene, detect, markers=markers, earlier=earlier, slope_window_s=options.slope_window_s
+    )
+    within = events.mask(found, len(scene.positions), markers)
+    return found, [
+        OpenStep(marker, frame, size)
+        for (marker, frame), size in sorted(size_mm.items())
+        if not within[frame, markers.index(marker)]
+    ]
+
+
 def find_steps(
     signal: np.ndarray, *, rate: float, options: PublishedStepsOptions
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Find the steps of one coordinate (skurowski2022 3.4.4): intervals between opposite jumps.
+    """Find the steps of one coordinate: intervals between opposite jumps.
 
-    signal: (frames,), mm, NaN = missing; nothing is found across a gap. Returns a mask, a score, both (frames,), and the
-    frames of jumps without a counterpart (open steps).
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), mm, NaN = missing; nothing is found across a gap.
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedStepsOptions
+        The options.
+
+    Returns
+    -------
+    mask : np.ndarray
+        Samples of steps, bool (frames,).
+    score : np.ndarray
+        Size of the smaller of the two jumps (frames,), in units of the threshold; 0 elsewhere.
+    alone : np.ndarray
+        Frames of the jumps without a counterpart.
+
+    References
+    ----------
+    skurowski2022 3.4.4.
     """
-    change = difference_high_pass(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
+    change = high_passed_increments(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
     level = increments.threshold(
         change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
     )
@@ -41,22 +105,3 @@ def find_steps(
         mask[start:stop] = True
         score[start:stop] = min(abs(change[start]), abs(change[stop])) / max(level, 1e-9)
     return mask, score, alone
-
-
-def _detect_in_coordinates(
-    scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: PublishedStepsOptions
-) -> tuple[list[Event], list[OpenStep]]:
-    """See detect_steps: coordinate by coordinate."""
-    alone: dict[tuple[str, int], float] = {}
-
-    def find(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        mask, score, left = find_steps(signal, rate=scene.rate, options=options)
-        change = filters.difference(signal)
-        change -= filters.moving_median(change, intervals.samples(options.window_s, scene.rate, odd=True))
-        for frame in left.tolist():
-            alone[marker, frame] = float(np.hypot(alone.get((marker, frame), 0.0), change[frame]))
-        return mask, score
-
-    found = coordinatewise.detect(scene, find, markers=markers, earlier=earlier, bridge_s=options.slope_window_s)
-    within = events.mask(found, len(scene.positions), markers)
-    return found, [OpenStep(*at, size) for at, size in sorted(alone.items()) if not within[at[1], markers.index(at[0])]]

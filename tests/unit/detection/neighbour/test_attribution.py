@@ -1,119 +1,147 @@
-"""Whose artifact is it: markers that are each predicted as the mean of the others that are seen."""
+"""Attribution: markers that are each predicted as the mean of the others that are observed."""
+
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 
 from markermend.core.events import Event
-from markermend.detection.neighbour import attribution
+from markermend.detection.neighbour.attribution import attribute
 from markermend.prediction.scene import Scene
+from support.naive import attribution as naive
+from support.predictors import MeanOfOthers, NeedsFrames
 
 MARKERS, SPAN, BESIDE = "ABCDE", slice(10, 20), [8, 9, 20, 21]
 EVENT, OPEN = 4.0, 2.0
-"""Levels above which a marker has an event, or something open, mm."""
+"""Displacements above which a marker has an event, or something unexplained, mm."""
 
 
-class MeanOfOthers:
-    def residuals(self, scene, markers=None):
-        out = np.full(scene.positions.shape, np.nan)
-        for m in range(len(scene.neighbours)) if markers is None else markers:
-            others = scene.positions[:, scene.neighbours[m]]
-            seen = ~np.isnan(others[:, :, 0])
-            alone = seen.sum(axis=1) == 0
-            out[:, m] = scene.positions[:, m] - np.nansum(others, axis=1) / np.maximum(seen.sum(axis=1), 1)[:, None]
-            out[alone, m] = np.nan
-        return out
+@dataclass
+class Displaced:
+    """Finds markers that are displaced in the span, by residual and trajectory."""
+
+    scene: Scene
+    markers: str
+    border: int = 0
+    suspected: list = field(default_factory=list)
+    explains: bool = True
+
+    def measure(self, residual):
+        return residual
+
+    def update(self, statistics, residual, markers):
+        return residual
+
+    def displacement(self, statistics, m):
+        moved = [v[SPAN, m, 0].mean() - v[BESIDE, m, 0].mean() for v in (statistics, self.scene.positions)]
+        return float(np.nan_to_num(np.clip(moved[0], 0, max(moved[1], 0))))
+
+    def judge(self, statistics, m):
+        displacement = self.displacement(statistics, m)
+        return [Event(self.markers[m], SPAN.start, SPAN.stop, displacement, "x")] if displacement > EVENT else []
+
+    def suspect(self, statistics, m):
+        return self.judge(statistics, m) if self.suspected is None else self.suspected[m : m + 1]
+
+    def unexplained(self, statistics, m):
+        return () if self.explains or self.displacement(statistics, m) <= OPEN else (SPAN.start, SPAN.stop)
 
 
-class NeedsFrames(MeanOfOthers):
-    """Tells nothing at all of a marker unless all others are seen in most frames."""
-
-    def residuals(self, scene, markers=None):
-        out = super().residuals(scene, markers)
-        for m, near in enumerate(scene.neighbours):
-            if scene.present[:, near].all(axis=1).mean() < 0.9:
-                out[:, m] = np.nan
-        return out
-
-
-def level(measured, m):
-    """How far a marker itself is off in the span, mm."""
-    residual, positions = (values[SPAN, m, 0].mean() - values[BESIDE, m, 0].mean() for values in measured)
-    return float(np.nan_to_num(np.clip(residual, 0, max(positions, 0))))
-
-
-def judge(measured, m):
-    off = level(measured, m)
-    return [Event(MARKERS[m], SPAN.start, SPAN.stop, off, "x")] if off > EVENT else []
-
-
-def nothing(measured, m):
-    return []
-
-
-def found(*levels, at=0, border=0, suspect=nothing, open_at=None, rounds=2, predictor=None):
-    """Markers with an event where some are off their places in the span."""
+def found(*levels, at=0, rounds=2, predictor=None, **more):
+    """Markers with an event where some are displaced in the span."""
     positions = np.zeros((30, len(levels), 3))
     positions[:, :, 0] = at
     positions[SPAN, :, 0] += levels
     scene = Scene(positions, 100.0, [np.delete(np.arange(len(levels)), m) for m in range(len(levels))])
-    events, _ = attribution.find(
-        scene,
-        measure=lambda scene, residual, only, was: (residual, positions),
-        judge=judge,
-        markers=MARKERS[: len(levels)],
-        predictor=predictor or MeanOfOthers(),
-        rounds=rounds,
-        reach=len(levels) - 1,
-        border=border,
-        suspect=suspect,
-        open_at=open_at,
-    )
+    detector = Displaced(scene, MARKERS[: len(levels)], **more)
+    events, _ = attribute(detector, predictor=predictor or MeanOfOthers(), rounds=rounds, neighbours=len(levels) - 1)
     return sorted(event.marker for event in events)
 
 
-def open_at(measured, m):
-    return [SPAN.start, SPAN.stop] if level(measured, m) > OPEN else []
-
-
 @pytest.mark.parametrize("levels", [(12, 0, 0), (-12, 0, 0), (12, 1, -2)])
-def test_neighbours_are_not_to_blame(levels):
-    assert found(*levels, open_at=open_at) == (["A"] if levels[0] > 0 else [])
+def test_no_event_is_attributed_to_neighbours(levels):
+    assert found(*levels, explains=False) == (["A"] if levels[0] > 0 else [])
 
 
-def test_what_a_neighbour_hides_is_found_where_something_is_open():
+def test_what_a_neighbour_hides_is_found_where_something_is_unexplained():
     assert found(12, 9, 0) == ["A"]
-    assert found(12, 9, 0, open_at=open_at) == ["A", "B"]
-    assert found(12, 7, 0, open_at=open_at) == ["A"]
+    assert found(12, 9, 0, explains=False) == ["A", "B"]
+    assert found(12, 7, 0, explains=False) == ["A"]
 
 
-def test_rivals_may_both_be_right():
+def test_both_of_two_that_compete_may_be_right():
     assert found(20, 18, 0) == ["A", "B"]
 
 
 def test_what_several_hide_from_one_another_is_found_where_all_are_suspected():
     levels = (20, 19, 11, 0, 0)
     assert found(*levels) == ["A", "B"]
-    assert found(*levels, suspect=judge) == found(*levels, suspect=None) == ["A", "B", "C"]
+    assert found(*levels, suspected=None) == ["A", "B", "C"]
 
 
 def test_a_marker_is_not_left_without_any_neighbour_to_judge_it_by():
     levels = (30, 9, 6)
     assert found(*levels) == ["A"]
-    assert found(*levels, suspect=judge) == ["A"]
-    assert found(*levels, suspect=judge, border=3) == ["A"]
+    assert found(*levels, suspected=None) == ["A"]
+    assert found(*levels, suspected=None, border=3) == ["A"]
 
 
 def test_a_marker_is_not_left_with_too_few_frames_to_learn_from():
     levels = (30, 9, 0, 0)
-    assert found(*levels, suspect=judge, rounds=0, predictor=NeedsFrames()) == found(*levels, rounds=0) == ["A"]
+    assert found(*levels, suspected=None, rounds=0, predictor=NeedsFrames()) == found(*levels, rounds=0) == ["A"]
 
 
 def test_suspicion_alone_is_no_event():
     both = [Event(name, SPAN.start, SPAN.stop, 9.0) for name in "AB"]
-    assert found(12, 12, 12, 12, suspect=lambda measured, m: both[m : m + 1]) == []
+    assert found(12, 12, 12, 12, suspected=both) == []
 
 
-def test_a_neighbour_that_goes_takes_what_is_beside_with_it():
-    given = {"at": (0, 0, -100), "suspect": judge}
+def test_a_hidden_neighbour_takes_the_samples_beside_with_it():
+    given = {"at": (0, 0, -100), "suspected": None}
     assert found(12, 0, 12, **given) == ["C"]
     assert found(12, 0, 12, **given, border=2) == ["A", "C"]
+
+
+@dataclass
+class Jumps:
+    """Finds runs of frames in which residual and trajectory are displaced alike, at any place, in random cases."""
+
+    scene: Scene
+    markers: str
+    border: int
+
+    def measure(self, residual):
+        return residual
+
+    def update(self, statistics, residual, markers):
+        return residual
+
+    def judge(self, statistics, m):
+        return naive.displaced_runs(statistics[:, m, 0], self.scene.positions[:, m, 0], self.markers[m], level=3.0)
+
+    def suspect(self, statistics, m):
+        return naive.displaced_runs(statistics[:, m, 0], self.scene.positions[:, m, 0], self.markers[m], level=5.0)
+
+    def unexplained(self, statistics, m):
+        weak = naive.displaced_runs(statistics[:, m, 0], self.scene.positions[:, m, 0], self.markers[m], level=1.5)
+        return [frame for event in weak for frame in (event.start, event.stop)]
+
+
+@pytest.mark.parametrize("predictor", [MeanOfOthers(), NeedsFrames()])
+@pytest.mark.parametrize("seed", range(40))
+def test_as_the_rule_says_word_by_word(seed, predictor):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(3, 6))
+    positions = np.zeros((24, count, 3))
+    for m in range(count):
+        for _ in range(int(rng.integers(0, 3))):
+            start = int(rng.integers(0, 20))
+            positions[start : start + int(rng.integers(1, 8)), m, 0] += rng.uniform(2, 20)
+    positions[rng.random((24, count)) < 0.03] = np.nan
+    neighbours = [rng.permutation(np.delete(np.arange(count), m)) for m in range(count)]
+    scene = Scene(positions, 100.0, neighbours)
+    detector = Jumps(scene, MARKERS[:count], border=int(rng.integers(0, 3)))
+    rounds, reach = int(rng.integers(0, 4)), int(rng.integers(1, count))
+    events, _ = attribute(detector, predictor=predictor, rounds=rounds, neighbours=reach)
+    expected = naive.attribute(detector, predictor, rounds=rounds, reach=reach)
+    assert sorted(events, key=lambda event: event.order) == expected

@@ -8,17 +8,17 @@ from markermend.detection.neighbour import residual_scale
 RATE = 100.0
 
 
-def test_usual_size_follows_the_marker_no_further_than_its_neighbours():
+def test_the_local_scale_follows_the_marker_no_further_than_its_neighbours():
     size = np.ones((300, 3))
     size[100:200, 0] = 50
     size[100:200, 2] = 4
     near = [np.array([1, 2]), np.array([2]), np.array([1])]
-    usual = residual_scale.usual_size(size, near, window=21, near=2, ratio=3)
+    usual = residual_scale.local_scale(size, near, window=21, count=2, max_ratio=3)
     assert usual[50].tolist() == [1, 1, 1]
     assert usual[150].tolist() == [7.5, 1, 3]
 
 
-def test_more_is_expected_where_the_neighbours_fit_badly_or_move_fast():
+def test_the_fitted_scale_rises_where_the_neighbours_fit_badly_or_move_fast():
     rng = np.random.default_rng(3)
     near = [np.delete(np.arange(6), m) for m in range(6)]
     lively = np.where((np.arange(2000) // 250) % 2, 4.0, 1.0)
@@ -26,13 +26,15 @@ def test_more_is_expected_where_the_neighbours_fit_badly_or_move_fast():
     still = np.zeros((2, 2000, 6))
     moving = np.broadcast_to(100 * lively[:, None], (2, 2000, 6))
     for kinds in (still, moving):
-        found = residual_scale.expected(size, near, kinds, near=5, window=50, least=0.1)
+        found = residual_scale.fitted_scale(size, near, kinds, count=5, window=50, min_scale=0.1)
         ratio = np.median(found[lively > 1]) / np.median(found[lively == 1])
         assert 3 < ratio < 5
     broken = size.copy()
     broken[600:650, 0] += 50
-    again = residual_scale.expected(broken, near, moving, near=5, window=50, least=0.1)
-    assert again[625, 0] < 1.5 * residual_scale.expected(size, near, moving, near=5, window=50, least=0.1)[625, 0]
+    again = residual_scale.fitted_scale(broken, near, moving, count=5, window=50, min_scale=0.1)
+    assert (
+        again[625, 0] < 1.5 * residual_scale.fitted_scale(size, near, moving, count=5, window=50, min_scale=0.1)[625, 0]
+    )
 
 
 def test_motion_is_that_of_the_neighbours():
@@ -42,7 +44,7 @@ def test_motion_is_that_of_the_neighbours():
     positions[:, 1, 1] = 300 * t
     positions[50:60, 2] = np.nan
     near = [np.array([1, 2]), np.array([0, 2]), np.array([], int)]
-    speed, acceleration = residual_scale.motion(positions, near, rate=RATE, near=2, smooth=5)
+    speed, acceleration = residual_scale.neighbour_motion(positions, near, rate=RATE, count=2, smoothing=5)
     assert speed[100, 0] == pytest.approx(150) and acceleration[100, 0] == pytest.approx(0, abs=1e-6)
     assert acceleration[100, 1] == pytest.approx(2000 / np.sqrt(2))
     assert not speed[:, 2].any() and np.isfinite(speed).all()

@@ -1,4 +1,4 @@
-"""Usual courses: what they leave of a window, what an excursion and an edge are off them, and which windows exceed."""
+"""Matched filters on residual windows, against generalised least squares window by window."""
 
 from dataclasses import replace
 
@@ -6,112 +6,108 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour import edges, pulses, residual_windows
-from markermend.numerics import window_covariance
-from markermend.prediction.scene import Scene
-from support.signals import RATES, options_of
-
-PEAKS, STEPS = options_of("peaks", "default"), options_of("steps", "default")
+from markermend.numerics.window_covariance import WindowCovariance
+from support.naive import residual_windows as naive
+from support.residuals import PEAKS, STEPS, peak_statistics, rough, step_statistics
 
 
-def measured(residual, positions, rate, own):
-    """The courses of one marker (frames, 3)."""
-    scene = Scene(positions[:, None], rate, [np.zeros(0, int)])
-    maps, length = edges.central(rate, own) if own is STEPS else pulses.of_longest(rate, own)
-    return residual_windows.measure(scene, residual[:, None], maps=maps, length=length, options=own)
+def coloured(frames, seed):
+    """A residual whose samples are correlated, with some sudden changes."""
+    rng = np.random.default_rng(seed)
+    noise = rng.normal(0, 1, (frames + 4, 3))
+    residual = sum(noise[k : k + frames] for k in range(5)) / 3
+    residual[60:63] += [9, -4, 2]
+    residual[90:] += [5, 5, -7]
+    return residual
 
 
-def rough(frames, seed):
-    return np.random.default_rng(seed).normal(0, 0.05, (frames, 3))
+@pytest.mark.parametrize("seed", range(3))
+def test_steps_exceed_as_generalised_least_squares_says(seed):
+    residual = coloured(150, seed)
+    positions = residual + np.random.default_rng(seed).normal(0, 0.5, residual.shape)
+    low = replace(STEPS, threshold_sigmas=1.2, floor_mm=0.5)
+    statistics = step_statistics(residual, positions, 100.0, low)
+    size = 2 * residual_windows.context_samples(100.0, low, fewest=edges.MIN_CONTEXT)
+    offsets = (2, size // 2, size - 3)
+    filters = edges.step_filters(statistics.covariance, size, offsets)
+    found = residual_windows.exceedances(statistics, 0, slice(10, 140), filters, low)
+    expected = {}
+    for start in range(10, 140 - size + 1):
+        for number, offset in enumerate(offsets):
+            window, recorded = residual[start : start + size], positions[start : start + size]
+            pattern = (np.arange(size) >= offset).astype(float)
+            part, deviation, misfit = naive.statistic(window, recorded, pattern, statistics.covariance)
+            noise = np.hypot(misfit, statistics.local_scale[start + offset, 0])
+            score = part / max(1.2 * noise * deviation, 0.5)
+            if score > 1:
+                expected[start + offset, number] = score
+    assert len(expected) > 5
+    scores = dict(zip(zip(found.frame.tolist(), found.filter.tolist(), strict=True), found.score.tolist(), strict=True))
+    assert scores == pytest.approx(expected)
 
 
-def independent(size, order):
-    """The regularity of independent noise on a polynomial of an order."""
-    return window_covariance.WindowCovariance(np.eye(size), order)
+@pytest.mark.parametrize("length", [1, 3, 5])
+def test_pulses_exceed_as_generalised_least_squares_says(length):
+    residual = coloured(150, 7)
+    low = replace(PEAKS, threshold_sigmas=1.5, floor_mm=0.5)
+    statistics = peak_statistics(residual, residual, 100.0, low)
+    size = length + 2 * residual_windows.context_samples(100.0, low, fewest=pulses.MIN_CONTEXT)
+    offset = (size - length) // 2
+    filters = pulses.pulse_filters(statistics.covariance, length, size, (offset,))
+    found = residual_windows.exceedances(statistics, 0, slice(0, 150), filters, low)
+    expected = {}
+    for start in range(150 - size + 1):
+        pattern = np.zeros(size)
+        pattern[offset : offset + length] = np.sin(np.pi * (np.arange(length) + 0.5) / length)
+        window, inside = residual[start : start + size], range(offset, offset + length)
+        part, deviation, misfit = naive.statistic(window, window, pattern, statistics.covariance, free=inside)
+        score = part / max(1.5 * np.hypot(misfit, statistics.local_scale[start + offset, 0]) * deviation, 0.5)
+        if score > 1:
+            expected[start + offset] = score
+    assert len(expected) > 2
+    assert dict(zip(found.frame.tolist(), found.score.tolist(), strict=True)) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize("place", [0, 3, 6, 12])
-def test_without_regularity_excursions_are_off_a_fitted_polynomial(place):
-    window = np.random.default_rng(1).normal(0, 1, 16)
-    usual, inside = independent(16, 3), np.arange(place, place + 4)
-    others = np.setdiff1d(np.arange(16), inside)
-    fit = np.polyfit(others, window[others], 3)
-    off = window - np.polyval(fit, np.arange(16))
-    np.testing.assert_allclose(pulses.apart(usual, 4, 16, place) @ window, off[inside])
-    maps = pulses.contrasts(usual, 4, 16, (place,))
-    basis = np.linalg.qr(np.vander(np.linspace(-1, 1, 16), 4))[0]
-    unit = 1 - (basis[8] ** 2).sum()  # how well the middle sample follows from the others
-    assert window @ maps.misfit[0] @ window == pytest.approx((off[others] ** 2).sum() / unit / (16 - 4 - 4))
+def test_the_misfit_about_a_frame_is_that_of_the_window_around_it_or_of_the_nearest_whole_one():
+    residual = coloured(60, 2)
+    residual[20:22] = np.nan
+    residual[40] = np.nan
+    size = 12
+    form = WindowCovariance(np.eye(size), 2).precision(size) / 9
+    misfit = residual_windows.window_misfit(residual, size, form)
+    assert np.array_equal(np.isnan(misfit), np.isnan(residual[:, 0]))
+    for start, stop in ((0, 20), (22, 40), (41, 60)):
+        for frame in range(start, stop):
+            first = min(max(frame - size // 2, start), stop - size)
+            window = residual[first : first + size]
+            expected = np.sqrt(np.mean([axis @ form @ axis for axis in window.T]))
+            assert misfit[frame] == pytest.approx(expected)
+    assert np.isnan(residual_windows.window_misfit(residual[:11], size, form)).all()
 
 
-def test_a_wave_and_a_jump_have_the_size_that_they_were_given():
-    size, at = 16, np.arange(16)
-    course = 0.1 * at**2 - at + 3.0
-    usual = window_covariance.fit_window_covariance(
-        rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, max_windows=5000
-    )
-    wave = np.sin(np.pi * (np.arange(5) + 0.5) / 5)
-    for place in (0, 6, 11):
-        maps = pulses.contrasts(usual, 5, size, (place,))
-        window = course.copy()
-        window[place : place + 5] += 4 * wave
-        assert maps.size[0] @ window == pytest.approx(4)
-        assert window @ maps.misfit[0] @ window == pytest.approx(0, abs=1e-6)
-    maps = edges.contrasts(usual, size, (4, 8))
-    window = course + 5 * (at >= 8)
-    assert maps.size[1] @ window == pytest.approx(5)
-    assert window @ maps.misfit[1] @ window == pytest.approx(0, abs=1e-6)
-    assert window @ maps.misfit[0] @ window > 0.1
+@pytest.mark.parametrize(("start", "stop"), [(0, 30), (7, 19)])
+def test_window_spans_look_at_each_frame_once(start, stop):
+    length, context = 12, 5
+    seen = [
+        frame + offset
+        for span, offsets in residual_windows.window_spans(start, stop, length, context)
+        for frame in range(span.start, span.stop - length + 1)
+        for offset in offsets
+    ]
+    assert sorted(seen) == list(range(start, stop))
 
 
-@pytest.mark.parametrize("rate", RATES)
-def test_excursions_are_cut_to_the_samples_that_are_off(rate):
-    residual = rough(400, 2)
-    places = [(0, 1), (100, 101), (200, 202), (398, 400)]
-    for start, stop in places:
-        residual[start:stop] += [4, 0, -3]
-    found = pulses.find(measured(residual, residual, rate, PEAKS), 0, rate=rate, options=PEAKS)
-    assert sorted((one.start, one.stop) for one in found) == places
-    np.testing.assert_allclose([one.off.mean(axis=0) for one in found if one.start == 100], [[4, 0, -3]], atol=0.5)
+def test_the_recorded_part_is_what_both_have_in_common():
+    recorded = np.array([[3.0, 0, 0], [-3, 0, 0], [9, 0, 0], [0, 5, 0], [1, 0, 0]])
+    residual = np.array([[4.0, 0, 0], [4, 0, 0], [4, 0, 0], [4, 0, 0], [0, 0, 0]])
+    np.testing.assert_allclose(residual_windows.recorded_part(recorded, residual), [3, 0, 4, 0, 0])
 
 
-@pytest.mark.parametrize("shape", ["edge", "hump", "noise", "of the neighbour"])
-def test_what_is_no_excursion(shape):
-    residual = rough(400, 3)
+def test_the_artifact_of_a_neighbour_is_in_the_residual_alone_and_does_not_exceed():
+    residual = rough(200, 4)
     positions = residual.copy()
-    if shape == "edge":
-        residual[200:] += 10
-    elif shape == "hump":
-        residual += 10 * np.exp(-(((np.arange(400) - 200) / 8) ** 2))[:, None]
-    elif shape == "noise":
-        residual += np.random.default_rng(4).normal(0, 5, residual.shape)
-    positions = residual if shape != "of the neighbour" else positions
-    if shape == "of the neighbour":
-        residual[200:203] += 10
-    assert pulses.find(measured(residual, positions, 100.0, PEAKS), 0, rate=100.0, options=PEAKS) == []
-
-
-@pytest.mark.parametrize("rate", RATES)
-def test_edges_are_found_where_they_are_and_beside_gaps(rate):
-    residual = rough(400, 5)
-    residual[100:] += [3, 4, 0]
-    residual[200:] -= [3, 4, 0]
-    residual[3:] += [0, 6, 0]
-    found = edges.find(measured(residual, residual, rate, STEPS), 0, rate=rate, options=STEPS)
-    assert [edge.frame for edge in found] == [3, 100, 200]
-    np.testing.assert_allclose(found[1].jump, [3, 4, 0], atol=0.3)
-
-
-def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
-    residual = rough(400, 6) * 5
-    residual[::37] += [2.6, 0, 0]
-    course = measured(residual, residual, 100.0, PEAKS)
-    low, high = (
-        {
-            one.start
-            for one in pulses.find(
-                course, 0, rate=100.0, options=replace(PEAKS, max_shift_ratio=0, threshold_sigmas=sigmas)
-            )
-        }
-        for sigmas in (3, 7)
-    )
-    assert high < low
+    residual[100:] += 10
+    statistics = step_statistics(residual, positions, 100.0)
+    size = 2 * residual_windows.context_samples(100.0, STEPS, fewest=edges.MIN_CONTEXT)
+    filters = edges.step_filters(statistics.covariance, size, (size // 2,))
+    assert not len(residual_windows.exceedances(statistics, 0, slice(0, 200), filters, STEPS).frame)

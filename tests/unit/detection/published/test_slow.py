@@ -85,8 +85,8 @@ def test_a_smoother_sees_a_hill_where_the_motion_is_slower(name, height, expecte
     positions = np.stack([sway + residual(100.0, seed) for seed in range(3)], axis=1)[:, None]
     positions[900:1000, 0, 0] += triangle(100, height)
     scene, nothing = Scene(positions, 100.0, [np.zeros(0, int)]), np.zeros(positions.shape, bool)
-    found = slow.detect(
-        scene, markers=["A"], earlier=nothing, options=own, predictor=slow.predictor(own, PredictorOptions())
+    found = slow.detect_slow(
+        scene, markers=["A"], earlier=nothing, options=own, predictor=slow.make_predictor(own, PredictorOptions())
     )
     assert {event.axes for event in found} == expected  # a polynomial rings beside the hill as well
     assert any(event.start < 950 < event.stop for event in found) == bool(expected)
@@ -106,9 +106,9 @@ def test_a_hill_is_found_where_the_pose_comes_again_without_it(name):
     positions, others = gait(), [np.delete(np.arange(5), m) for m in range(5)]
     positions[1000:1100, 2, 0] += triangle(100, 30)
     scene, own = Scene(positions, 100.0, others, segment_mates=others), replace(PAPER, predictor=name)
-    source = Only(slow.predictor(own, PredictorOptions()), 2)
+    source = Only(slow.make_predictor(own, PredictorOptions()), 2)
     nothing = np.zeros(positions.shape, bool)
-    found = slow.detect(scene, markers=list("ABCDE"), earlier=nothing, options=own, predictor=source)
+    found = slow.detect_slow(scene, markers=list("ABCDE"), earlier=nothing, options=own, predictor=source)
     [event] = [event for event in found if "x" in event.axes]
     assert event.marker == "C"
     assert abs(event.start - 1000) <= 30 and abs(event.stop - 1100) <= 30
@@ -125,7 +125,7 @@ def test_a_loose_predictor_follows_a_hill_in_a_pose_that_comes_once():
     scene = Scene(recording.positions, recording.rate, near, segment_mates=[own[:4] for own in near])
     height = {}
     for name in ("replicated_network", "local_ridge"):
-        source = slow.predictor(replace(PAPER, predictor=name), PredictorOptions())
+        source = slow.make_predictor(replace(PAPER, predictor=name), PredictorOptions())
         height[name] = np.abs(source.residuals(scene, np.array([marker]))[1000:1100, marker, 0]).max()
     assert height["local_ridge"] > 9
     assert height["replicated_network"] < 5
@@ -155,9 +155,9 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
 
     scene = Scene(positions, rate, [np.zeros(0, int)])
     arguments = {"markers": ["A"], "options": PAPER, "predictor": Level()}
-    [event] = slow.detect(scene, earlier=np.zeros_like(claimed), **arguments)
+    [event] = slow.detect_slow(scene, earlier=np.zeros_like(claimed), **arguments)
     assert (event.start, event.stop, event.axes) == (600, 800, "x")
-    assert slow.detect(scene, earlier=claimed, **arguments) == []
+    assert slow.detect_slow(scene, earlier=claimed, **arguments) == []
     assert np.abs(asked[-1][600:800, 0, 0]).max() < 5
     assert np.array_equal(asked[-1][:, 0, 1:], positions[:, 0, 1:])
     assert np.isfinite(asked[-1]).all()
@@ -165,4 +165,4 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
 
 def test_an_unknown_predictor_is_refused():
     with pytest.raises(ValueError, match="none of replicated_network, polynomial"):
-        slow.predictor(replace(PAPER, predictor="oracle"), PredictorOptions())
+        slow.make_predictor(replace(PAPER, predictor="oracle"), PredictorOptions())

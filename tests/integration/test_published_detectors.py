@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from markermend.core import events
-from markermend.detection.published import coordinatewise
 from support.signals import detect_signal, frames, motion
 
 RATES = (50.0, 100.0)
@@ -91,29 +89,3 @@ def test_wrong_peaks_are_missed_the_more_the_longer_they_are():
         share[width] = right / 28
     assert 0.4 < share[1] < 0.9
     assert share[5] < 0.7 * share[1]
-
-
-def test_each_coordinate_is_bridged_by_itself_for_the_next_detector():
-    rng = np.random.default_rng(0)
-    positions = rng.normal(0, 0.2, (300, 2, 3)).cumsum(axis=0)
-    found = [events.Event("B", 100, 120, 2.0, "xz"), events.Event("A", 200, 203, 2.0, "y")]
-    claimed = events.coordinates(found, 300, ["A", "B"])
-    assert claimed[100:120, 1].all(axis=0).tolist() == [True, False, True]
-    assert claimed.sum() == 43
-    before = positions.copy()
-    bridged = coordinatewise.bridged(positions, claimed, 5)
-    assert np.array_equal(positions, before)
-    assert np.array_equal(bridged[~claimed], positions[~claimed])
-    assert np.isfinite(bridged).all()
-    # A bridge is a cubic: its third differences do not vary.
-    assert np.ptp(np.diff(bridged[100:120, 1, 0], 3)) < 1e-12
-
-
-def test_what_any_coordinate_claimed_is_not_found_again_in_another():
-    claimed = events.coordinates([events.Event("A", 100, 120, 2.0, "x")], 300, ["A"])
-
-    def everything(signal, marker):
-        return np.ones(300, bool), np.full(300, 2.0)
-
-    found = coordinatewise.find_in_each(np.zeros((300, 1, 3)), everything, markers=["A"], earlier=claimed)
-    assert [(event.start, event.stop, event.axes) for event in found] == [(0, 100, "xyz"), (120, 300, "xyz")]

@@ -1,0 +1,85 @@
+"""Pulses: a few samples off the smooth trajectory, trimmed to those, and no edges, humps or noise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.detection.neighbour import pulses
+from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance
+from support.residuals import PEAKS, peak_statistics, rough
+from support.signals import RATES
+
+
+@pytest.mark.parametrize("offset", [0, 3, 6, 12])
+def test_with_independent_samples_the_innovation_is_that_of_a_fitted_polynomial(offset):
+    window = np.random.default_rng(1).normal(0, 1, 16)
+    independent, inside = WindowCovariance(np.eye(16), 3), np.arange(offset, offset + 4)
+    others = np.setdiff1d(np.arange(16), inside)
+    fit = np.polyfit(others, window[others], 3)
+    off = window - np.polyval(fit, np.arange(16))
+    np.testing.assert_allclose(pulses.innovation_map(independent, 4, 16, offset) @ window, off[inside])
+    filters = pulses.pulse_filters(independent, 4, 16, (offset,))
+    basis = np.linalg.qr(np.vander(np.linspace(-1, 1, 16), 4))[0]
+    unit = 1 - (basis[8] ** 2).sum()  # how well the middle sample follows from the others
+    assert window @ filters.misfit_form[0] @ window == pytest.approx((off[others] ** 2).sum() / unit / (16 - 4 - 4))
+
+
+def test_a_wave_has_the_amplitude_that_it_was_given():
+    size, at = 16, np.arange(16)
+    covariance = fit_window_covariance(
+        rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, max_windows=5000
+    )
+    wave = np.sin(np.pi * (np.arange(5) + 0.5) / 5)
+    for offset in (0, 6, 11):
+        filters = pulses.pulse_filters(covariance, 5, size, (offset,))
+        window = 0.1 * at**2 - at + 3.0
+        window[offset : offset + 5] += 4 * wave
+        assert filters.weights[0] @ window == pytest.approx(4)
+        assert window @ filters.misfit_form[0] @ window == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_pulses_are_trimmed_to_the_samples_that_are_off(rate):
+    residual = rough(400, 2)
+    places = [(0, 1), (100, 101), (200, 202), (398, 400)]
+    for start, stop in places:
+        residual[start:stop] += [4, 0, -3]
+    found = pulses.find_pulses(peak_statistics(residual, residual, rate), 0, rate=rate, options=PEAKS)
+    assert sorted((one.start, one.stop) for one in found) == places
+    np.testing.assert_allclose(
+        [one.deviation.mean(axis=0) for one in found if one.start == 100], [[4, 0, -3]], atol=0.5
+    )
+
+
+@pytest.mark.parametrize("shape", ["edge", "hump", "noise", "of the neighbour"])
+def test_what_is_no_pulse(shape):
+    residual = rough(400, 3)
+    positions = residual.copy()
+    if shape == "edge":
+        residual[200:] += 10
+    elif shape == "hump":
+        residual += 10 * np.exp(-(((np.arange(400) - 200) / 8) ** 2))[:, None]
+    elif shape == "noise":
+        residual += np.random.default_rng(4).normal(0, 5, residual.shape)
+    else:
+        residual[200:203] += 10
+    positions = residual if shape != "of the neighbour" else positions
+    statistics = peak_statistics(residual, positions, 100.0)
+    assert pulses.find_pulses(statistics, 0, rate=100.0, options=PEAKS) == []
+
+
+def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
+    residual = rough(400, 6) * 5
+    residual[::37] += [2.6, 0, 0]
+    statistics = peak_statistics(residual, residual, 100.0)
+    low, high = (
+        {
+            one.start
+            for one in pulses.find_pulses(
+                statistics, 0, rate=100.0, options=replace(PEAKS, max_shift_ratio=0, threshold_sigmas=sigmas)
+            )
+        }
+        for sigmas in (3, 7)
+    )
+    assert high < low
