@@ -39,8 +39,7 @@ from markermend.detection.tails import detect_tails
 from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.filling.fill import FilledRecording, fill_gaps
-from markermend.formats import files
-from markermend.formats.ingest import ingest
+from markermend.formats.ingest import ingest_file
 from markermend.mesh import inference, pair_statistics, user_mesh
 from markermend.options.config import read_config
 from markermend.options.detection import (
@@ -194,19 +193,15 @@ def read(
     >>> read("walk.c3d").markers[:2]  # doctest: +SKIP
     ('LASI', 'RASI')
     """
-    source, own = Path(path), (options or Options.read()).ingest
-    reading = files.read(source, unlabelled=own.unlabelled, rate=rate)
-    found = ingest(
-        reading,
-        source=printable(source.name),
-        recording=recording or printable(source.stem),
+    source = Path(path)
+    return ingest_file(
+        source,
         subject=subject or printable(source.resolve().parent.name),
+        recording=recording or printable(source.stem),
         kind=kind,
-        static_names=own.static_names,
-        static_motion_mm=own.static_motion_mm,
+        rate=rate,
+        options=(options or Options.read()).ingest,
     )
-    found.facts["source"]["sha256"] = atomic.sha256(source)
-    return found
 
 
 def infer_mesh(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from markermend.core.artifacts import CLASSES
 from support.paths import PROJECT
 
 LIBRARY = PROJECT / "scripts" / "markermend"
@@ -86,3 +87,21 @@ def test_no_function_takes_settings():
 @pytest.mark.parametrize("path", sorted((PROJECT / "scripts").glob("*.py")), ids=lambda path: path.name)
 def test_a_script_declares_no_option_by_hand(path):
     assert ".option(" not in path.read_text(encoding="utf-8")
+
+
+STAGES = [path for path in sorted((PROJECT / "scripts").glob("*.py")) if "STAGE = " in path.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("path", STAGES, ids=lambda path: path.stem)
+def test_a_stage_script_is_short_and_declares_no_option_by_hand(path):
+    """Flags are made from the stage's class of options; what a script does belongs into the library."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    called = {node.func.attr for node in ast.walk(tree) if isinstance(node, ast.Call) and hasattr(node.func, "attr")}
+    assert not called & {"option", "add_argument"}
+    functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    assert {"work", "main"} <= set(functions) <= {"work", "main", "set_aside"}
+    assert all(node.end_lineno - node.lineno <= 15 for node in functions.values())
+
+
+def test_there_is_a_script_for_every_stage():
+    assert {path.stem for path in STAGES} == {"ingest", "mesh", *CLASSES, "repair", "fill", "export", "qc", "report"}

@@ -72,3 +72,15 @@ def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, pro
     names = [path.name for path in there.iterdir() if path.is_file()]
     assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
     assert [name for name in names if (here / name).read_bytes() != (there / name).read_bytes()] == []
+
+
+def test_ten_lines_clean_a_recording_as_the_workflow_does(environment, project, tmp_path):
+    text = (PROJECT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert len(example.strip().splitlines()) <= 10
+    (tmp_path / "walk.py").write_text(example.replace("walk", "a"), encoding="utf-8")
+    (tmp_path / "a.c3d").write_bytes((project.recordings / "S01/a.c3d").read_bytes())
+    assert run(environment / "python", "walk.py", cwd=tmp_path).endswith("samples changed\n")
+    there = project.results / "S01/a"
+    assert (tmp_path / "a_cleaned.c3d").read_bytes() == (there / "cleaned.c3d").read_bytes()
+    assert (tmp_path / "a_changes.tsv").read_bytes() == (there / "changes.tsv").read_bytes()

@@ -6,15 +6,61 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from markermend.core.recording import BadRecording, Recording
+from markermend.formats import files
 from markermend.formats.reading import Reading
+from markermend.options.ingest import IngestOptions
+from markermend.storage.atomic import sha256
+from markermend.storage.folder_names import printable
 
 FRAMES_FOR_MOTION = 2000
 """Frames, spread over the recording, from which the motion of its markers is measured."""
+
+
+def ingest_file(
+    path: Path, *, subject: str, recording: str, kind: str, rate: float | None, options: IngestOptions
+) -> Recording:
+    """Read a file and make a recording of it.
+
+    Parameters
+    ----------
+    path : Path
+        The original file.
+    subject, recording : str
+        Their names.
+    kind : str
+        dynamic, static, or auto (see kind_of).
+    rate : float or None
+        Frame rate in Hz, used in place of the file's; None = the file's.
+    options : IngestOptions
+        Which trajectories nobody labelled, and what is static.
+
+    Returns
+    -------
+    Recording
+        The markers in mm, with facts about the file, its checksum among them.
+
+    Raises
+    ------
+    BadRecording
+        If the file cannot be used.
+    """
+    made = ingest(
+        files.read(path, unlabelled=options.unlabelled, rate=rate),
+        source=printable(path.name),
+        recording=recording,
+        subject=subject,
+        kind=kind,
+        static_names=options.static_names,
+        static_motion_mm=options.static_motion_mm,
+    )
+    made.facts["source"]["sha256"] = sha256(path)
+    return made
 
 
 def ingest(
