@@ -13,8 +13,9 @@ from markermend.numerics.intervals import samples
 from markermend.options.repair import RepairOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Prediction, Predictor, Scene
-from markermend.repair.methods import Proposal, predicted, separated, smoothed
+from markermend.repair.methods import Proposal, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
+from markermend.repair.separator import Separator
 
 NOT_PROPOSING = ("exchange", "blank")
 """Methods that propose no samples of their own."""
@@ -239,5 +240,5 @@ class CandidateMaker:
         if method in SHAPE_COVARIANCES:
             if not self._ridges:
                 return None
-            return separated(method, original, self._ridges, self.scene, m, start, stop, options=options.separation)
+            return Separator(self._ridges, self.scene, options.separation).propose(method, original, m, start, stop)
         return predicted(self.predictors[method], self.scene, m, start, stop, trials=options.hidden_stretches)

@@ -1,28 +1,17 @@
-"""Methods that repair one marker over one interval: prediction, separation from the artifact, smoothing; each with its error."""
+"""Methods that repair one marker over one interval: prediction and smoothing, each with its error; their names."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from markermend.numerics.filters import high_pass
 from markermend.numerics.intervals import runs
-from markermend.numerics.kriging import Covariance, fit_covariance
-from markermend.options.repair import SeparationOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
-from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Predictor, Scene
-from markermend.repair.separation import (
-    SHAPE_COVARIANCES,
-    artifact_covariances,
-    average_by_likelihood,
-    conditional_correlation,
-    separate,
-)
+from markermend.repair.separation import SHAPE_COVARIANCES
 
 METHODS = ("exchange", *SHAPE_COVARIANCES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
 """The ways of repair by the names that a config may use."""
@@ -111,107 +100,6 @@ def hidden_stretch_error(
             guess = predictor.predict(scene, marker, first, last)
             errors.append(np.mean((guess.positions[1:-1] - scene.positions[first:last, marker]) ** 2))
     return float(np.sqrt(np.mean(errors))) if errors else np.nan
-
-
-def separated(
-    method: str,
-    original: np.ndarray,
-    ridges: Sequence[LocalRidge],
-    scene: Scene,
-    marker: int,
-    start: int,
-    stop: int,
-    *,
-    options: SeparationOptions,
-) -> Proposal | None:
-    """Propose the measured samples without the artifact on them.
-
-    Parameters
-    ----------
-    method : str
-        A key of SHAPE_COVARIANCES: the artifacts that are tried.
-    original : ndarray of float, shape (frames, 3)
-        The trajectory of the marker as measured, mm; NaN = missing.
-    ridges : sequence of LocalRidge
-        The predictors; the covariance of the error is estimated from the residual of the first.
-    scene : Scene
-        The trajectories without any finding.
-    marker : int
-        Index of the marker.
-    start, stop : int
-        The interval.
-    options : SeparationOptions
-        What is assumed of artifacts.
-
-    Returns
-    -------
-    Proposal or None
-        The proposal; None where the neighbours have no value for some sample, or for more samples than the options allow.
-    """
-    margins = (
-        [round(share * (stop - start)) for share in options.margin_fractions] if method == "separate_slow" else [0]
-    )
-    first, last = _observed_extent(scene.present[:, marker], start, stop, max(margins))
-    if last - first > options.max_frames or np.isnan(original[start:stop]).all():
-        return None
-    correlation = _error_correlation(ridges[0], scene, marker, first, last, round(options.border_s * scene.rate))
-    extents = [(max(start - margin, first) - first, min(stop + margin, last) - first) for margin in margins]
-    trajectories, separations = [], []
-    for ridge in ridges:
-        prediction = ridge.predict(scene, marker, first, last)
-        positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
-        if np.isnan(positions).any() or np.isnan(deviation).any():
-            continue
-        tried = artifact_covariances(method, last - first, options, extents)
-        error = correlation * deviation * deviation[:, None]
-        difference = original[first:last] - positions
-        separations.append(separate(difference, error, tried, likelihood_power=options.likelihood_power))
-        trajectories.append(positions + separations[-1].mean)
-    if not separations:
-        return None
-    mean, deviation = average_by_likelihood(trajectories, separations)
-    own = slice(start - first, stop - first)
-    return Proposal(method, mean[own], deviation[own])
-
-
-def _error_correlation(ridge: LocalRidge, scene: Scene, marker: int, first: int, last: int, border: int) -> np.ndarray:
-    """Correlation (n, n) of the error of a prediction over [first, last), known over `border` frames on either side."""
-    around = np.arange(first - border, last + border)
-    around = around[(around >= 0) & (around < len(scene.present)) & ((around < first) | (around >= last))]
-    around = around[scene.present[around, marker]]
-    covariance = scene.cached((ridge, "residual", marker), partial(residual_covariance, ridge, scene, marker))
-    known_s, wanted_s = around / scene.rate, np.arange(first, last) / scene.rate
-    return conditional_correlation(covariance, known_s=known_s, wanted_s=wanted_s)
-
-
-def _observed_extent(present: np.ndarray, start: int, stop: int, margin: int) -> tuple[int, int]:
-    """The interval [start, stop) with up to `margin` frames on either side, as far as the marker is observed there."""
-    absent = np.flatnonzero(~present)
-    before, after = absent[absent < start], absent[absent >= stop]
-    first = max(start - margin, before[-1] + 1 if len(before) else 0)
-    return first, min(stop + margin, after[0] if len(after) else len(present))
-
-
-def residual_covariance(ridge: LocalRidge, scene: Scene, marker: int) -> Covariance:
-    """Estimate the covariance of the residual of a marker over time.
-
-    Parameters
-    ----------
-    ridge : LocalRidge
-        The predictor.
-    scene : Scene
-        The trajectories without any finding.
-    marker : int
-        Index of the marker.
-
-    Returns
-    -------
-    Covariance
-        The covariance over the whole recording, mm^2.
-    """
-    residual = ridge.residuals(scene, np.array([marker]))[:, marker]
-    scales_s = np.array(ridge.options.correlation_times_s)
-    return fit_covariance(residual, rate=scene.rate, scales_s=scales_s, max_lag_s=ridge.options.max_lag_s)
 
 
 def smoothed(

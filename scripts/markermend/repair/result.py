@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -71,7 +72,8 @@ class Restoration:
         self.positions[rows, m] = proposal.positions[seen]
         self._origin[rows, m] = ORIGINS.index(BY_STAGE[stage].name)
         self._error[rows, m] = proposal.error[seen]
-        self._repaired(event, BY_STAGE[stage].name, Outcome.REPAIRED, proposal.method, rows, ruling, candidates)
+        change = _change(event, (BY_STAGE[stage].name,), Outcome.REPAIRED, ruling)
+        self._repaired(replace(change, method=proposal.method, alternatives=alternatives(candidates)), rows)
 
     def exchange(self, cycle: Sequence[Event], ruling: Ruling) -> None:
         """Give each marker of a cycle the original samples of its partner.
@@ -91,8 +93,8 @@ class Restoration:
         self._origin[span, own] = np.where(missing, MISSING, ORIGINS.index("swap"))
         self._error[span, own] = np.where(missing, np.nan, 0.0)
         for event in cycle:
-            rows = np.arange(event.start, event.stop)
-            self._repaired(event, "swap", Outcome.EXCHANGED, "swap", rows, ruling)
+            change = _change(event, ("swap",), Outcome.EXCHANGED, ruling)
+            self._repaired(replace(change, method="swap"), np.arange(event.start, event.stop))
 
     def leave(
         self,
@@ -128,22 +130,9 @@ class Restoration:
             self.positions[span, m] = np.nan
             self._origin[span, m] = MISSING
             self._error[span, m] = np.nan
-        self._left.append(
-            Change(
-                event.marker,
-                event.start,
-                event.stop,
-                tuple(artifact.name for artifact in ARTIFACTS if artifact.stage in stages),
-                Outcome.BLANKED if blank else Outcome.LEFT,
-                event.score,
-                event.axes,
-                event.partner,
-                alternatives=alternatives(candidates),
-                samples=samples,
-                decisions=ruling.texts,
-                reason=reason,
-            )
-        )
+        classes = tuple(artifact.name for artifact in ARTIFACTS if artifact.stage in stages)
+        change = _change(event, classes, Outcome.BLANKED if blank else Outcome.LEFT, ruling)
+        self._left.append(replace(change, alternatives=alternatives(candidates), samples=samples, reason=reason))
 
     def finished(self) -> tuple[Restored, tuple[Change, ...]]:
         """Finish the repair.
@@ -160,39 +149,35 @@ class Restoration:
         restored = Restored(*common, self._recording.facts, self._origin, self._error * inner, self._error * outer)
         return restored, (*self._repairs, *self._left)
 
-    def _repaired(
-        self,
-        event: Event,
-        name: str,
-        outcome: Outcome,
-        method: str,
-        rows: np.ndarray,
-        ruling: Ruling,
-        candidates: Iterable[Candidate] = (),
-    ) -> None:
-        """Record a repair of samples (rows) that were just written."""
-        m = self.markers.index(event.marker)
+    def _repaired(self, change: Change, rows: np.ndarray) -> None:
+        """Record a repair of samples (rows) that were just written, with its figures."""
+        m = self.markers.index(change.marker)
         moved = np.linalg.norm(self.positions[rows, m] - self._recording.positions[rows, m], axis=1)
         error = self._error[rows, m]
         self._repairs.append(
-            Change(
-                event.marker,
-                event.start,
-                event.stop,
-                (name,),
-                outcome,
-                event.score,
-                event.axes,
-                event.partner,
-                method,
-                alternatives(candidates),
+            replace(
+                change,
                 samples=len(rows),
                 largest_change_mm=largest(moved),
                 expected_error_mm=largest(error * self._radius.inner),
                 expected_error95_mm=largest(error * self._radius.outer),
-                decisions=ruling.texts,
             )
         )
+
+
+def _change(event: Event, classes: tuple[str, ...], outcome: Outcome, ruling: Ruling) -> Change:
+    """What is recorded of any finding: its place, the evidence for it, and the decisions that bear on it."""
+    return Change(
+        event.marker,
+        event.start,
+        event.stop,
+        classes,
+        outcome,
+        event.score,
+        event.axes,
+        event.partner,
+        decisions=ruling.texts,
+    )
 
 
 def alternatives(candidates: Iterable[Candidate]) -> tuple[Alternative, ...]:
