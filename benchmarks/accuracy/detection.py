@@ -14,9 +14,9 @@ Counts are of samples. Each has one class, true and found: where findings overla
 What frozen and tails find is a class like the others, though the published damage has neither: a sample of a peak that
 they take away is found (`any`), but as what it is not. The preset `paper`
 is the published detector alone, without labels, frozen and tails. Macro F1 is over the classes that were put in. RMSE is
-over the distorted samples that have a value after repair (the share that has none is told), and, as `all`, over all.
+over the distorted samples that have a value after repair (the share that has none is printed), and, as `all`, over all.
 
-Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its course and that
+Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its path and that
 predicted from its neighbours, at once and alike, and the neighbours do not) are listed in confirmed_glitches.tsv, frames
 in the capture program's numbering. Their samples, and two on either side, count neither as clean nor as false.
 """
@@ -93,12 +93,12 @@ def classes(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.nd
     return out
 
 
-def forms(harm: Contamination, seen: np.ndarray, told: np.ndarray) -> Counter[tuple[str, str, str]]:
-    """Artifacts and samples by class and form, and what was found of them. seen: which samples count; told: their classes."""
+def forms(contamination: Contamination, seen: np.ndarray, called: np.ndarray) -> Counter[tuple[str, str, str]]:
+    """Artifacts and samples by class and form, and what was found of them. seen: which samples count; called: their classes."""
     count: Counter[tuple[str, str, str]] = Counter()
-    for artifact in harm.artifacts:
-        number, m = class_of(artifact.kind), harm.markers.index(artifact.marker)
-        own = told[artifact.start : artifact.stop, m][seen[artifact.start : artifact.stop, m]]
+    for artifact in contamination.artifacts:
+        number, m = class_of(artifact.kind), contamination.markers.index(artifact.marker)
+        own = called[artifact.start : artifact.stop, m][seen[artifact.start : artifact.stop, m]]
         key = CLASSES[number - 1], artifact.form
         count.update({(*key, "artifacts"): 1, (*key, "samples"): own.size})
         count.update({(*key, "any"): int((own > 0).sum()), (*key, "right"): int((own == number).sum())})
@@ -106,7 +106,7 @@ def forms(harm: Contamination, seen: np.ndarray, told: np.ndarray) -> Counter[tu
 
 
 def glitches(path: Path, recording: Recording) -> np.ndarray:
-    """Bool (frames, markers): True where a glitch of the recording itself is confirmed, and beside it."""
+    """Bool (frames, markers): True where a glitch of the recording itself is confirmed, and next to it."""
     out = np.zeros(recording.missing.shape, bool)
     with GLITCHES.open(encoding="utf-8", newline="") as stream:
         for row in csv.DictReader(stream, delimiter="\t"):
@@ -122,18 +122,18 @@ def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **co
 
     ignored: samples (frames, markers) that do not count. condition: see `damage`.
     """
-    harm = damage(clean, **condition)
-    harmed = replace(clean, positions=harm.positions)
-    mesh = api.infer_mesh([harmed])
-    truth, seen, out = classes(harm.events, harmed), ~harmed.missing & ~ignored, {}
-    perfect, _ = mend(harmed, mesh, harm.events)
+    contamination = damage(clean, **condition)
+    contaminated = replace(clean, positions=contamination.positions)
+    mesh = api.infer_mesh([contaminated])
+    truth, seen, out = classes(contamination.events, contaminated), ~contaminated.missing & ~ignored, {}
+    perfect, _ = mend(contaminated, mesh, contamination.events)
     for preset in presets:
-        found = api.detect(harmed, mesh, options_of(preset))
-        told, outcome = classes(found, harmed), Outcome()
-        np.add.at(outcome.confusion, (truth[seen], told[seen]), 1)
-        outcome.forms = forms(harm, seen, told)
-        actual, outcome.refused = mend(harmed, mesh, found)
-        for stage, positions in enumerate((harmed.positions, perfect, actual)):
+        found = api.detect(contaminated, mesh, options_of(preset))
+        called, outcome = classes(found, contaminated), Outcome()
+        np.add.at(outcome.confusion, (truth[seen], called[seen]), 1)
+        outcome.forms = forms(contamination, seen, called)
+        actual, outcome.refused = mend(contaminated, mesh, found)
+        for stage, positions in enumerate((contaminated.positions, perfect, actual)):
             squared = ((positions - clean.positions) ** 2).sum(axis=2)
             known = seen & ~np.isnan(squared)
             for kind in range(1 + len(CLASSES)):
@@ -183,8 +183,8 @@ def main() -> None:
                 names = (group_of(path), "all recordings", *([path.stem] if arguments.each else []))
                 for (preset, outcome), name in product(result.result().items(), names):
                     totals.setdefault((name, preset), Outcome()).add(outcome)
-                told = ", ".join(f"{key} {value}" for key, value in condition.items())
-                print(f"{path.stem}, seed {seed}, {told}", file=sys.stderr)
+                described = ", ".join(f"{key} {value}" for key, value in condition.items())
+                print(f"{path.stem}, seed {seed}, {described}", file=sys.stderr)
             for name, preset in sorted(totals, key=lambda key: key[0] == "all recordings"):
                 title = f"{name}: {condition['protocol']}, {condition['amplitude']:g} mm, {condition['share']:.0%}, {preset}"
                 print_outcome(title, totals[name, preset])

@@ -1,4 +1,4 @@
-"""Fill gaps whose truth is known and print our errors beside those of other programs on the very same gaps.
+"""Fill gaps whose truth is known and print our errors next to those of other programs on the very same gaps.
 
 Reads: cases.json and programs.json (made gaps, and what programs made of them), the recordings that they name.
 Writes: tables to stdout.
@@ -111,7 +111,9 @@ def main() -> None:
     """Parse the command line, fill, print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
-    parser.add_argument("--cases", type=Path, help="cases.json; programs.json lies beside it (default: next to --data)")
+    parser.add_argument(
+        "--cases", type=Path, help="cases.json; programs.json lies next to it (default: next to --data)"
+    )
     parser.add_argument("--members", nargs="+", default=OPTIONS["fill"].members, help="in place of the config's")
     parser.add_argument(
         "--set",

@@ -4,7 +4,7 @@ Reads: clean/ in the data folder. Writes: a table to stdout.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.hard_cases --only blackout ends
 
-Each row is one run of scripts/fill.py in a process of its own, with the default settings and the options that the row
+Each row is one run of scripts/fill.py in a process of its own, with the default options and those that the row
 names; seconds (of a core) and peak memory are those of the process, start and files included. The mesh is inferred from
 the recording with its gaps. `inside` and `inside95` are the shares of the true positions within error and error95.
 """
@@ -215,10 +215,10 @@ def extremes(load: Load) -> Iterator[Case]:
 def rates(load: Load) -> Iterator[Case]:
     """The same motion and the same gaps at other rates."""
     whole = load("85_12")
-    course = CubicSpline(np.arange(whole.frames) / whole.rate, whole.positions)
+    path = CubicSpline(np.arange(whole.frames) / whole.rate, whole.positions)
     for rate in (50, 60, 100, 120, 200, 250, 500):
         frames = int((whole.frames - 1) / whole.rate * rate)
-        resampled = replace(whole, rate=float(rate), positions=course(np.arange(frames) / rate))
+        resampled = replace(whole, rate=float(rate), positions=path(np.arange(frames) / rate))
         gone = [
             (m, start * rate, start * rate + rate) for m, start in zip(range(1, 41, 6), range(3, 36, 4), strict=False)
         ]

@@ -29,7 +29,7 @@ from markermend.prediction.scene import Scene
 
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
 BANDS = (60.0, 150.0, 400.0, np.inf)
-"""Upper ends of the distances that are told apart, mm."""
+"""Upper ends of the classes of distance, mm."""
 KINDS = ("pair", "lasting", "missing", "ring")
 MARGIN = 5
 """Frames without gaps on either side of a swap."""
@@ -43,11 +43,11 @@ def read(path: Path) -> tuple[tuple[str, ...], Scene]:
 
 
 def swap(
-    positions: np.ndarray, apart: np.ndarray, kind: str, length: int, within: float, rng: np.random.Generator
+    positions: np.ndarray, distance: np.ndarray, kind: str, length: int, within: float, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray, list[int], int, int] | None:
     """Swapped positions, what they are without the swap, the markers in their order, and the frames; None without room."""
     frames = len(positions)
-    pairs = np.argwhere(apart < within)
+    pairs = np.argwhere(distance < within)
     if not len(pairs) or frames < 3 * length:
         return None
     ring = rng.permutation(pairs[rng.integers(len(pairs))]).tolist()
@@ -56,7 +56,7 @@ def swap(
         (int(rng.integers(2 * frames // 3, frames - MARGIN)), frames) if kind == "lasting" else (start, start + length)
     )
     if kind == "ring":
-        near = np.argsort(np.nan_to_num(apart[ring[0]], nan=np.inf))
+        near = np.argsort(np.nan_to_num(distance[ring[0]], nan=np.inf))
         ring.append(int(next(m for m in near if m not in ring)))
     if np.isnan(positions[start - MARGIN : stop + MARGIN, ring]).any():
         return None
@@ -82,13 +82,13 @@ def main() -> None:
         markers, scene = read(path)
         in_clean += len(detect_labels(scene, markers=markers, options=OPTIONS["labels"]))
         some = scene.positions[:: max(1, len(scene.positions) // 50)]
-        apart = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
-        np.fill_diagonal(apart, np.nan)
+        distance = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
+        np.fill_diagonal(distance, np.nan)
         for kind in arguments.kinds:
             for length in LENGTHS if kind != "lasting" else LENGTHS[:1]:
                 for trial in range(arguments.trials):
                     rng = np.random.default_rng([KINDS.index(kind), length, trial])
-                    case = swap(scene.positions, apart, kind, length, BANDS[trial % len(BANDS)], rng)
+                    case = swap(scene.positions, distance, kind, length, BANDS[trial % len(BANDS)], rng)
                     if case is None:
                         continue
                     positions, original, ring, start, stop = case
@@ -97,12 +97,12 @@ def main() -> None:
                     )
                     onward = [*ring[1:], ring[0]]
                     truth = {(markers[m], start, stop, markers[n]) for m, n in zip(ring, onward, strict=True)}
-                    told = {(event.marker, event.start, event.stop, event.partner) for event in found}
-                    key = kind, int(np.searchsorted(BANDS, apart[ring[0], ring[1]])), length
+                    stated = {(event.marker, event.start, event.stop, event.partner) for event in found}
+                    key = kind, int(np.searchsorted(BANDS, distance[ring[0], ring[1]])), length
                     tried[key] += 1
                     same = np.array_equal(undo_exchanges(positions, found, markers), original, equal_nan=True)
-                    right[key] += truth == told and same
-                    false += len(told - truth)
+                    right[key] += truth == stated and same
+                    false += len(stated - truth)
     for kind in arguments.kinds:
         lengths = LENGTHS if kind != "lasting" else LENGTHS[:1]
         heads = [f"{length:>9}" for length in lengths] if kind != "lasting" else ["   to end"]
@@ -126,7 +126,7 @@ def main() -> None:
                 for length in (LENGTHS if kind != "lasting" else LENGTHS[:1])
             ],
         )
-    print(f"false events: {false} beside swaps, {in_clean} in the recordings as they are")
+    print(f"false events: {false} next to swaps, {in_clean} in the recordings as they are")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ Writes: a table to stdout.
 
 Settings are those of config/config.yaml but for the epochs: time is proportional to them, and the ratio does not depend
 on them. Each number of networks is trained both ways in turn, on the same gaps; the last column is the largest distance
-between what the two tell, mm.
+between the predictions of the two, mm.
 """
 
 from __future__ import annotations
@@ -78,9 +78,9 @@ def main() -> None:
         network.train([(Scene(*positions(1)[:1], 100.0, positions(1)[1]), 0)])
         for number in arguments.networks:
             place = positions(number)
-            once, told = trained(network, place, [range(number)])
+            once, together = trained(network, place, [range(number)])
             single, other = trained(network, place, [[marker] for marker in range(number)])
-            apart = np.nanmax(np.linalg.norm(told - other, axis=2), initial=0)
+            apart = np.nanmax(np.linalg.norm(together - other, axis=2), initial=0)
             print(f"{kind:16} {number:8} {once:11.2f} {single:14.2f} {single / once:6.1f} {apart:10.3f}", flush=True)
 
 

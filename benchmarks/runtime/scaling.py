@@ -4,7 +4,7 @@ Writes: three tables to stdout; in each one number varies and the others are tho
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.scaling
 
-Each row is scripts/fill.py with the default settings in a process of its own: seconds of a core and peak memory include
+Each row is scripts/fill.py with the default options in a process of its own: seconds of a core and peak memory include
 its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at a random place on a random marker.
 """
 

@@ -1,4 +1,4 @@
-"""What is counted when detection and repair are judged, and the tables that tell it."""
+"""What is counted when detection and repair are judged, and the tables that state it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 CLASSES = ("labels", "frozen", "tails", "peaks", "noise", "steps", "slow")
-"""What is told apart, first found first; label exchanges are undone before all else is looked for."""
+"""The classes that are distinguished, in the order of their detectors; label exchanges are undone before all else is looked for."""
 
 NAMES = ("clean", *CLASSES)
 

@@ -49,12 +49,12 @@ class ArtifactClass:
 
 
 ARTIFACTS = (
-    ArtifactClass("labels", "swap", "exchanged labels", "markers stand under each other's labels for a stretch", 2),
+    ArtifactClass("labels", "swap", "exchanged labels", "markers carry each other's labels for a stretch", 2),
     ArtifactClass(
         "frozen",
         "frozen",
         "frozen markers",
-        "a stretch repeats one position while the neighbours move on",
+        "the position repeats for a stretch while the neighbours move on",
         2,
         unmeasured="the position repeats while the neighbours move on",
     ),
@@ -62,16 +62,14 @@ ARTIFACTS = (
         "tails",
         "tail",
         "noisy tails",
-        "the samples beside a gap wander off",
+        "the samples next to a gap drift away",
         2,
         unmeasured="the samples beside a gap wander off",
     ),
     ArtifactClass("peaks", "peak", "isolated peaks", "a few frames jump away and back", 2),
-    ArtifactClass("noise", "noise", "heavy noise", "a stretch that trembles far beyond the ordinary", 3),
-    ArtifactClass("steps", "step", "steps", "a stretch stands aside from where it belongs", 4),
-    ArtifactClass(
-        "slow", "slow", "slow drifts", "a stretch leaves its place against the neighbours, and comes back", 5
-    ),
+    ArtifactClass("noise", "noise", "heavy noise", "the variance of a stretch is far above the usual", 3),
+    ArtifactClass("steps", "step", "steps", "a stretch is displaced, with a jump at either end", 4),
+    ArtifactClass("slow", "slow", "slow drifts", "a stretch drifts away relative to the neighbours, and returns", 5),
 )
 """All classes, in the strict order of the detectors: each looks at what those before it left."""
 

@@ -155,7 +155,7 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
 
 
 def _unmeasured(stages: Stages) -> Iterator[str]:
-    """Which samples counted as missing because nobody measured them."""
+    """Which samples counted as missing because they were not measured."""
     found = [f"{a.plural} ({a.unmeasured})" for a in ARTIFACTS if a.unmeasured and a.stage in stages]
     if found:
         text = " and ".join(found)
