@@ -17,7 +17,7 @@ from markermend.core.reasons import Cause, Reason
 
 VERBS = ("accept", "reject", "protect", "class", "method", "missing")
 """What a person can decide: that a finding is one, that it is none, that samples stay as they are, that a stretch is an
-artifact of a class, how to mend or fill, and that samples count as missing."""
+artifact of a class, how to repair or fill, and that samples count as missing."""
 
 LEAVE = "leave"
 """The method that leaves everything as it is."""
