@@ -1,4 +1,4 @@
-"""Ridge regression in a local frame: against scikit-free formulas, left-out blocks against training again."""
+"""Ridge regression in a local frame: against augmented least squares; left-out blocks: against training again."""
 
 import numpy as np
 import pytest
