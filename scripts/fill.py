@@ -9,6 +9,7 @@ from typing import Any
 
 from markermend.command.stage import Stage
 from markermend.core import decisions
+from markermend.core.recording import Restored
 from markermend.filling.fill import fill_gaps
 from markermend.options.filling import FillOptions
 from markermend.options.general import DecisionOptions
@@ -24,6 +25,7 @@ STAGE.writes("changes", "what repair and filling did to each stretch, or why not
 
 def work(call: Any) -> str:
     restored = stage_files.read_recording(call.repaired)
+    assert isinstance(restored, Restored)
     mesh = mesh_file.read(call.mesh, restored.facts["recording"])
     decided = decisions.read(call.decisions, restored.first_frame)
     repairs = change_file.read(call.repairs)

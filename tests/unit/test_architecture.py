@@ -42,6 +42,11 @@ def test_every_import_contract_is_kept():
         ("numerics/robust.py", "pyarrow", "Science knows no file, command or workflow"),
         ("detection/peaks.py", "markermend.detection.steps", "Detectors do not know each other"),
         ("detection/neighbour/edges.py", "markermend.detection.published.steps", "Published and neighbour detectors"),
+        (
+            "detection/slow.py",
+            "markermend.detection.published.slow",
+            "The default detectors do not know the published ones",
+        ),
         ("prediction/scene.py", "torch", "Torch is imported where networks are trained"),
     ],
 )

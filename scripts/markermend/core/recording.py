@@ -69,12 +69,14 @@ class Recording:
     @property
     def frames(self) -> int:
         """Number of frames."""
-        return self.positions.shape[0]
+        frames: int = self.positions.shape[0]
+        return frames
 
     @property
     def missing(self) -> np.ndarray:
         """Whether each marker was not seen, bool (frames, markers)."""
-        return np.isnan(self.positions).any(axis=2)
+        missing: np.ndarray = np.isnan(self.positions).any(axis=2)
+        return missing
 
 
 @dataclass(frozen=True)
@@ -126,4 +128,5 @@ def changed(before: Recording, after: Recording) -> np.ndarray:
         True where the positions are not equal; a missing sample equals a missing sample.
     """
     same = (before.positions == after.positions) | (np.isnan(before.positions) & np.isnan(after.positions))
-    return ~same.all(axis=2)
+    differs: np.ndarray = ~same.all(axis=2)
+    return differs

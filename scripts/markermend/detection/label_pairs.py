@@ -245,4 +245,5 @@ def length(vectors: np.ndarray) -> np.ndarray:
     np.ndarray
         Lengths (...).
     """
-    return np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    lengths: np.ndarray = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    return lengths

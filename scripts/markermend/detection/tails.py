@@ -138,7 +138,8 @@ def _common_part(motion: np.ndarray, change: np.ndarray) -> np.ndarray:
     """How much of each change of the residual (n, 3) the motion makes as well, mm; 0 where either is unknown."""
     length = np.linalg.norm(change, axis=1)
     along = np.einsum("na,na->n", motion, change) / np.maximum(length, 1e-9)
-    return np.nan_to_num(np.clip(along, 0, length))
+    clipped: np.ndarray = np.nan_to_num(np.clip(along, 0, length))
+    return clipped
 
 
 def _known_median(values: np.ndarray) -> float:

@@ -158,7 +158,8 @@ def _possible_starts(scene: Scene, marker: int, length: int) -> np.ndarray:
     """First frames of the stretches of a length over which, and at whose borders, the marker is seen."""
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
     starts = np.arange(1, len(scene.positions) - length)
-    return starts[seen[starts + length + 1] - seen[starts - 1] == length + 2]
+    free: np.ndarray = starts[seen[starts + length + 1] - seen[starts - 1] == length + 2]
+    return free
 
 
 def _equally_seen(scene: Scene, gap: Gap, starts: np.ndarray, length: int, neighbours: int) -> np.ndarray:

@@ -152,7 +152,8 @@ def _candidate_maker(
 
 def _covered(recording: Recording, events: Sequence[Event]) -> np.ndarray:
     """Bool (frames, markers): the seen samples that the findings cover."""
-    return mask(events, recording.frames, recording.markers) & ~recording.missing
+    found: np.ndarray = mask(events, recording.frames, recording.markers) & ~recording.missing
+    return found
 
 
 def _too_much(judged: Judgement, rulings: Rulings, options: RepairOptions) -> Reason | None:

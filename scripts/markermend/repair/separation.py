@@ -120,7 +120,8 @@ def conditional_correlation(covariance: Covariance, *, known_s: np.ndarray, want
     across = covariance(wanted_s[:, None] - known_s)
     within -= across @ np.linalg.solve(between, across.T)
     deviation = np.sqrt(np.maximum(np.diag(within), 1e-9 * total))
-    return within / deviation / deviation[:, None]
+    correlation: np.ndarray = within / deviation / deviation[:, None]
+    return correlation
 
 
 @dataclass(frozen=True)

@@ -168,7 +168,10 @@ def _origins(stored: pa.ChunkedArray) -> np.ndarray:
     """The origins of a marker, stored by name, as places in ORIGINS."""
     whole = stored.combine_chunks()
     codes = {name: code for code, name in enumerate(ORIGINS)}
-    return np.array([codes[name] for name in whole.dictionary.to_pylist()], np.uint8)[vector(whole.indices)]
+    origin: np.ndarray = np.array([codes[name] for name in whole.dictionary.to_pylist()], np.uint8)[
+        vector(whole.indices)
+    ]
+    return origin
 
 
 def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> None:

@@ -113,7 +113,8 @@ class DriftAttribution:
         brief = min(brief, (event.stop - event.start) // BRIEF_SHARE)
         seen = self._observed(event, near)
         count = np.count_nonzero(seen, axis=0)
-        return near[(count < len(seen) - brief) & (count > brief)]
+        changing: np.ndarray = near[(count < len(seen) - brief) & (count > brief)]
+        return changing
 
     def deviating_neighbours(self, marker: int, event: Event) -> np.ndarray:
         """List the neighbours whose residuals deviate as well during a drift.
@@ -136,7 +137,10 @@ class DriftAttribution:
             for m in (marker, *near)
         )
         high = np.nan_to_num(heights) > self.options.suspect_fraction * own
-        return near[high | (self.scores.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)]
+        suspects: np.ndarray = near[
+            high | (self.scores.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)
+        ]
+        return suspects
 
     def remains_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
         """Tell whether a drift of a marker remains when some neighbours are hidden.

@@ -73,7 +73,8 @@ def detrended_increments(signal: np.ndarray, *, trend: str, window: int) -> np.n
     """
     if trend == "median_of_difference":
         change = filters.difference(signal)
-        return change - filters.moving_median(change, window)
+        departure: np.ndarray = change - filters.moving_median(change, window)
+        return departure
     if trend == "difference_of_median":
         return filters.difference(signal - filters.moving_median(signal, window))
     raise ValueError(f"trend {trend!r} is neither median_of_difference nor difference_of_median")
