@@ -199,7 +199,9 @@ class Reader:
             raise BadOptions("\n".join(self.problems))
 
     def _scalar(self, kind: Any, marks: tuple[Any, ...], value: Any, place: str, example: Any) -> Any:
-        """A number, text or one of several names."""
+        """A number, text or one of several names; a value of any type as it is."""
+        if kind is Any:
+            return value
         if get_origin(kind) is Literal:
             if value not in get_args(kind):
                 self.problems.append(f"{place}: {value!r} is none of {', '.join(get_args(kind))}")

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 import pytest
 
 from markermend.options.declaration import Changes, Keys, Seconds, describe
+from markermend.options.general import DecisionOptions
 from markermend.options.values import BadOptions, Reader, parse, plain, spell, text
 
 
@@ -87,6 +88,13 @@ def test_a_flag_is_read_and_written(name, words, value):
 def test_a_flag_that_cannot_be_used_says_so(name, words, problem):
     with pytest.raises(BadOptions, match="^" + problem.replace("[", r"\[").replace("?", r"\?")):
         parse(OPTIONS[name], words)
+
+
+def test_the_decisions_on_a_recording_are_read_from_their_flag():
+    (option,) = describe(DecisionOptions)
+    decided = {"marker": "M2", "first_frame": 81, "last_frame": 81, "decision": "reject", "value": "peak"}
+    assert parse(option, text([decided])) == (decided,)
+    assert parse(option, "[]") == ()
 
 
 def test_a_class_is_read_whole_and_what_is_required_is_missed():
