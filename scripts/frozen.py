@@ -5,7 +5,6 @@ Writes: 02_frozen.parquet.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 from markermend.command import detector
 from markermend.detection.frozen import detect_frozen
@@ -14,7 +13,7 @@ from markermend.options.detection import FrozenOptions
 STAGE = detector.stage("frozen", __doc__, FrozenOptions, finds="frozen stretches")
 
 
-def work(call: Any) -> str:
+def work(call: detector.DetectorCall) -> str:
     return detector.search(call, detect_frozen)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 from markermend.command import detector
 from markermend.detection.labels import detect_labels
 from markermend.options.detection import LabelsOptions
+from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
 
 STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="exchanged labels")
@@ -18,8 +19,7 @@ STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="exchanged labels
 def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
     mesh = mesh_file.read(call.mesh, recording.facts["recording"])
-    scene = detector.scene(recording, mesh, recording.positions)
-    found = detect_labels(scene, markers=recording.markers, options=call.options)
+    found = detect_labels(Scene.of(recording, mesh), markers=recording.markers, options=call.options)
     stage_files.write_events(call.events, found, call.facts)
     return detector.result(found)
 

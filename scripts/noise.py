@@ -5,7 +5,6 @@ Writes: 03_noise.parquet.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 from markermend.command import detector
 from markermend.detection.noise import detect_noise
@@ -14,7 +13,7 @@ from markermend.options.detection import NoiseOptions
 STAGE = detector.stage("noise", __doc__, NoiseOptions, finds="heavy noise")
 
 
-def work(call: Any) -> str:
+def work(call: detector.DetectorCall) -> str:
     return detector.search(call, detect_noise)
 
 

@@ -5,7 +5,6 @@ Writes: 02_peaks.parquet.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 from markermend.command import detector
 from markermend.detection.peaks import detect_peaks
@@ -14,7 +13,7 @@ from markermend.options.detection import PeaksOptions
 STAGE = detector.stage("peaks", __doc__, PeaksOptions, finds="isolated peaks")
 
 
-def work(call: Any) -> str:
+def work(call: detector.DetectorCall) -> str:
     return detector.search(call, detect_peaks)
 
 

@@ -5,7 +5,6 @@ Writes: 05_slow.parquet.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 from markermend.command import detector
 from markermend.detection.slow import detect_slow
@@ -14,7 +13,7 @@ from markermend.options.detection import SlowOptions
 STAGE = detector.stage("slow", __doc__, SlowOptions, finds="slow changes")
 
 
-def work(call: Any) -> str:
+def work(call: detector.DetectorCall) -> str:
     return detector.search(call, detect_slow)
 
 

@@ -5,7 +5,6 @@ Writes: 02_tails.parquet.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 from markermend.command import detector
 from markermend.detection.tails import detect_tails
@@ -14,7 +13,7 @@ from markermend.options.detection import TailsOptions
 STAGE = detector.stage("tails", __doc__, TailsOptions, finds="noisy tails")
 
 
-def work(call: Any) -> str:
+def work(call: detector.DetectorCall) -> str:
     return detector.search(call, detect_tails)
 
 

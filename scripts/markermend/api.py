@@ -22,8 +22,7 @@ from typing import TYPE_CHECKING, Any
 from markermend.command import detector
 from markermend.core import decisions as core_decisions
 from markermend.core.applied_changes import applied_changes
-from markermend.core.artifacts import CLASSES
-from markermend.core.changes import Change
+from markermend.core.changes import Change, TreatedRecording
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
@@ -38,7 +37,7 @@ from markermend.detection.steps import detect_steps
 from markermend.detection.tails import detect_tails
 from markermend.export import write_back
 from markermend.export.change_table import change_table
-from markermend.filling.fill import FilledRecording, fill_gaps
+from markermend.filling.fill import fill_gaps
 from markermend.formats.ingest import ingest_file
 from markermend.mesh import inference, pair_statistics, user_mesh
 from markermend.options.config import read_config
@@ -56,7 +55,6 @@ from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
 from markermend.options.repair import RepairOptions
-from markermend.repair.repair import RepairedRecording
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, mesh_file, originals_file
 from markermend.storage.folder_names import printable
@@ -73,7 +71,7 @@ DETECTORS: Mapping[str, Callable[..., Any]] = {
     "steps": detect_steps,
     "slow": detect_slow,
 }
-"""The detector of each class of artifacts, by its stage."""
+"""The detectors by their stages, in their strict order."""
 
 
 @dataclass(frozen=True)
@@ -270,7 +268,7 @@ def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> 
     """
     options, own_mesh = options or Options.read(), mesh_of(recording, mesh)
     findings: dict[str, list[Event]] = {}
-    for stage in (stage for stage in CLASSES if stage in options.general.detect):
+    for stage in (stage for stage in DETECTORS if stage in options.general.detect):
         earlier = [event for events in findings.values() for event in events]
         found = detector.find(DETECTORS[stage], recording, own_mesh, earlier, options=getattr(options, stage))
         findings[stage] = sorted(found, key=lambda event: event.order)
@@ -284,7 +282,7 @@ def repair(
     options: Options | None = None,
     *,
     decisions: Sequence[Mapping[str, Any]] = (),
-) -> RepairedRecording:
+) -> TreatedRecording:
     """Repair what the detectors found, each class in its way.
 
     Parameters
@@ -302,7 +300,7 @@ def repair(
 
     Returns
     -------
-    RepairedRecording
+    TreatedRecording
         The recording after repair, and what was done to each finding.
 
     Examples
@@ -320,17 +318,17 @@ def repair(
 
 
 def fill(
-    repaired: RepairedRecording,
+    repaired: TreatedRecording,
     mesh: Mesh,
     options: Options | None = None,
     *,
     decisions: Sequence[Mapping[str, Any]] = (),
-) -> FilledRecording:
+) -> TreatedRecording:
     """Fill the gaps of a repaired recording.
 
     Parameters
     ----------
-    repaired : RepairedRecording
+    repaired : TreatedRecording
         The recording after repair; it is not modified.
     mesh : Mesh
         The body mesh of its subject.
@@ -341,7 +339,7 @@ def fill(
 
     Returns
     -------
-    FilledRecording
+    TreatedRecording
         The recording after filling, and what repair and filling did to each stretch.
 
     Examples

@@ -42,7 +42,7 @@ def test_only_what_the_truth_names_differs(made, name):
     paths = folder / "clean/S01" / f"{name}.c3d", folder / "damaged/S01" / f"{name}.c3d"
     before, after = (read(path) for path in paths)
     truth = folder / "truth/S01" / name
-    found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.CLASSES, "gaps")}
+    found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.DETECTORS, "gaps")}
     assert {kind for kind, own in found.items() if own} >= {"peaks", "noise", "steps", "slow"}
     assert bool(found["gaps"]) == bool(found["frozen"]) == bool(found["tails"]) == (protocol == "practice")
     shape = before.recording.frames, before.recording.markers
@@ -66,7 +66,7 @@ def test_the_table_names_every_event_in_the_capture_programs_frames(made):
         truth = folder / "truth/S01" / name
         own = [row for row in rows if (row["subject"], row["recording"]) == ("S01", name)]
         count = 0
-        for kind in (*artifacts.CLASSES, "gaps"):
+        for kind in (*artifacts.DETECTORS, "gaps"):
             for event in stage_files.read_events(truth / f"{kind}.parquet"):
                 count += 1
                 (row,) = [

@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from markermend.formats import files
 from markermend.options.ingest import IngestOptions
 from support.paths import PROJECT
@@ -15,7 +15,7 @@ TABLE = PROJECT / "benchmarks/support/confirmed_glitches.tsv"
 @pytest.mark.data
 def test_it_names_samples_that_are_there_once(data):
     rows = list(csv.DictReader(TABLE.open(encoding="utf-8", newline=""), delimiter="\t"))
-    assert rows and all(row["class"] in CLASSES and row["what"] for row in rows)
+    assert rows and all(row["class"] in DETECTORS and row["what"] for row in rows)
     for name in sorted({row["recording"] for row in rows}):
         [path] = (data / "clean").glob(f"{name}.*")
         recording = files.read(path, unlabelled=IngestOptions().unlabelled, rate=None).recording

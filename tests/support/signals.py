@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.command.detector import chosen
+from markermend.command.presets import preset_options
 from markermend.core import events
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
@@ -32,7 +32,7 @@ NOTHING = {"peaks": [], "noise": [], "steps": []}
 
 def options_of(stage, preset):
     """The default options of a preset of a detector."""
-    return chosen(replace(SECTIONS[stage](), preset=preset))
+    return preset_options(replace(SECTIONS[stage](), preset=preset))
 
 
 def frames(hundredths, rate):

@@ -1,9 +1,8 @@
 """A recording after repair or filling together with its changes, for tests that look at both."""
 
 from dataclasses import dataclass
-from typing import Protocol
 
-from markermend.core.changes import Change, Outcome
+from markermend.core.changes import Change, Outcome, TreatedRecording
 from markermend.core.recording import Restored
 
 
@@ -30,14 +29,7 @@ class Treated(Restored):
         return [change for change in self.changes if change.is_gap and change.outcome is Outcome.LEFT]
 
 
-class Result(Protocol):
-    """What repair and filling return."""
-
-    recording: Restored
-    changes: tuple[Change, ...]
-
-
-def treated(result: Result) -> Treated:
+def treated(result: TreatedRecording) -> Treated:
     """What repair or filling returned, in one."""
     return Treated(**{**vars(result.recording), "changes": result.changes})
 

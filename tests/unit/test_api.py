@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from markermend import api
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from markermend.core.changes import Outcome
 from markermend.core.recording import Restored
 from markermend.options.values import BadOptions
@@ -34,7 +34,7 @@ def cleaned(recording):
 
 
 def test_the_detectors_are_all_classes_of_artifacts():
-    assert set(api.DETECTORS) == set(CLASSES)
+    assert tuple(api.DETECTORS) == DETECTORS
 
 
 def test_a_recording_is_named_after_its_file_and_folder(path, recording):

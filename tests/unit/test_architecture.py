@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from support.paths import PROJECT
 
 LIBRARY = PROJECT / "scripts" / "markermend"
@@ -109,4 +109,4 @@ def test_a_stage_script_is_short_and_declares_no_option_by_hand(path):
 
 
 def test_there_is_a_script_for_every_stage():
-    assert {path.stem for path in STAGES} == {"ingest", "mesh", *CLASSES, "repair", "fill", "export", "qc", "report"}
+    assert {path.stem for path in STAGES} == {"ingest", "mesh", *DETECTORS, "repair", "fill", "export", "qc", "report"}

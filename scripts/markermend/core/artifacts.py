@@ -73,7 +73,7 @@ ARTIFACTS = (
 )
 """All classes, in the strict order of the detectors: each looks at what those before it left."""
 
-CLASSES = tuple(artifact.stage for artifact in ARTIFACTS)
+DETECTORS = tuple(artifact.stage for artifact in ARTIFACTS)
 """The detectors in their strict order; each is a stage, and its file holds the class."""
 
 BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact in ARTIFACTS}

@@ -11,6 +11,7 @@ from enum import StrEnum
 import numpy as np
 
 from markermend.core.reasons import Reason
+from markermend.core.recording import Restored
 
 GAP, DECLARED_MISSING = "gap", "missing"
 """Beside the classes of artifacts: a gap, and samples that a person declared missing."""
@@ -21,7 +22,7 @@ DECIMALS = 3
 
 
 class Outcome(StrEnum):
-    """What became of a stretch."""
+    """What was done to a stretch."""
 
     REPAIRED = "repaired"
     """Measured samples were replaced, starting from what was measured."""
@@ -81,7 +82,7 @@ class Change:
         What the stretch was found to be: names of the classes of artifacts in detector order, or GAP alone, or
         DECLARED_MISSING alone.
     outcome : Outcome
-        What became of it.
+        What was done to it.
     score : float, optional
         The evidence for an artifact, in units of the detector's threshold; None for gaps and declared samples.
     axes : str
@@ -140,6 +141,22 @@ class Change:
     def concern_mm(self) -> float:
         """How far the change may be from the truth or from what was measured, mm: what changes are ranked by."""
         return max(self.largest_change_mm or 0.0, self.expected_error_mm or 0.0)
+
+
+@dataclass(frozen=True)
+class TreatedRecording:
+    """A recording after repair or filling, with the record of what was done to it.
+
+    Attributes
+    ----------
+    recording : Restored
+        The recording, with origin and errors of the samples that were written.
+    changes : tuple of Change
+        What was done to each stretch, or why nothing was.
+    """
+
+    recording: Restored
+    changes: tuple[Change, ...]
 
 
 def largest(values: np.ndarray) -> float | None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from markermend.core.changes import GAP, Change, MemberWeight, Outcome, largest
+from markermend.core.changes import GAP, Change, MemberWeight, Outcome, TreatedRecording, largest
 from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
 from markermend.core.recording import FILLED, Restored
@@ -18,22 +18,6 @@ from markermend.options.filling import FillOptions
 from markermend.prediction.scene import Scene
 
 
-@dataclass(frozen=True)
-class FilledRecording:
-    """A recording after its gaps were filled.
-
-    Attributes
-    ----------
-    recording : Restored
-        The recording, with origin and errors of the filled samples.
-    changes : tuple of Change
-        What repair did, then what became of every gap, by marker and frame.
-    """
-
-    recording: Restored
-    changes: tuple[Change, ...]
-
-
 def fill_gaps(
     restored: Restored,
     mesh: Mesh,
@@ -41,7 +25,7 @@ def fill_gaps(
     options: FillOptions,
     decisions: Sequence[Decision] = (),
     repairs: Sequence[Change] = (),
-) -> FilledRecording:
+) -> TreatedRecording:
     """Fill the gaps of a recording with the ensemble that the options describe.
 
     Parameters
@@ -59,16 +43,11 @@ def fill_gaps(
 
     Returns
     -------
-    FilledRecording
-        The recording and what became of every gap. Only missing samples are written, a gap completely or not at all;
+    TreatedRecording
+        The recording after filling; what repair did, then the outcome of every gap, by marker and frame. Only missing samples are written, a gap completely or not at all;
         static recordings are left as they are.
     """
-    scene = Scene(
-        restored.positions,
-        restored.rate,
-        mesh.neighbour_indices(restored.markers),
-        segment_mates=mesh.segment_mate_indices(restored.markers),
-    )
+    scene = Scene.of(restored, mesh)
     return fill_scene(restored, scene, make_ensembles(options, decisions), options, decisions, repairs)
 
 
@@ -79,7 +58,7 @@ def fill_scene(
     options: FillOptions,
     decisions: Sequence[Decision] = (),
     repairs: Sequence[Change] = (),
-) -> FilledRecording:
+) -> TreatedRecording:
     """Fill the gaps of a recording with given ensembles: see `fill_gaps`.
 
     Parameters
@@ -99,8 +78,8 @@ def fill_scene(
 
     Returns
     -------
-    FilledRecording
-        The recording and what became of every gap.
+    TreatedRecording
+        The recording after filling, and the outcome of every gap.
     """
     blanked = frozenset(change.marker for change in repairs if change.outcome is Outcome.BLANKED)
     plan = plan_filling(restored, options, decisions=decisions, methods=ensembles.single, blanked=blanked)
@@ -116,7 +95,7 @@ def fill_scene(
         ensemble = ensembles.single.get(method, ensembles.default)
         batches.append(filler(ensemble, None).fill(growing.copy(), gaps))
     recording = _write(restored, batches)
-    return FilledRecording(recording, (*repairs, *_changes(recording, plan, batches)))
+    return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 
 
 def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:
@@ -134,7 +113,7 @@ def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:
 
 
 def _changes(recording: Restored, plan: FillPlan, batches: Sequence[FilledGaps]) -> tuple[Change, ...]:
-    """What became of every gap, by marker name and frame."""
+    """The outcome of every gap, by marker name and frame."""
     weights = {gap: _weights(filling.weights) for batch in batches for gap, filling in batch.accepted.items()}
     reasons = dict(plan.refused)
     for batch in batches:

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import markermend
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from markermend.options.config import write_config
 from markermend.options.flags import write_flags
 from markermend.options.values import text
@@ -82,7 +82,7 @@ class Plan:
     @property
     def detectors(self) -> list[str]:
         """The detectors that run, in their strict order."""
-        return [stage for stage in CLASSES if stage in self.options["general"].detect]
+        return [stage for stage in DETECTORS if stage in self.options["general"].detect]
 
     @cached_property
     def subjects(self) -> dict[str, list[str]]:

@@ -12,6 +12,9 @@ from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
+from markermend.core.mesh import Mesh
+from markermend.core.recording import Recording
+
 CACHE_SIZE = 60
 """Results that a scene caches for its predictors: enough for the members and missing neighbours of one marker."""
 
@@ -78,6 +81,29 @@ class Scene:
     measured: Scene | None = None
     inherited_std: np.ndarray | None = None
     segment_mates: Sequence[np.ndarray] | None = None
+
+    @classmethod
+    def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:
+        """Show a recording with the neighbours and segment mates of its mesh.
+
+        Parameters
+        ----------
+        recording : Recording
+            The recording.
+        mesh : Mesh
+            Its functional body mesh.
+        positions : ndarray, shape (frames, markers, 3), optional
+            Positions to show in place of the recording's, mm; NaN = missing.
+
+        Returns
+        -------
+        Scene
+            What predictors and detectors look at.
+        """
+        markers = recording.markers
+        shown = recording.positions if positions is None else positions
+        mates = mesh.segment_mate_indices(markers)
+        return cls(shown, recording.rate, mesh.neighbour_indices(markers), segment_mates=mates)
 
     @cached_property
     def present(self) -> np.ndarray:

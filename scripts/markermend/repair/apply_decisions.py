@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.artifacts import BY_NAME, BY_STAGE, CLASSES
+from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS
 from markermend.core.changes import DECLARED_MISSING, Change, Outcome
 from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, texts_of
 from markermend.core.events import Event, tidy
@@ -58,7 +58,7 @@ def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions:
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
     declared = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
     remaining = replace(recording, positions=np.where(declared[..., None], np.nan, recording.positions))
-    judged = Judgement(remaining, {stage: [] for stage in CLASSES}, _declared_missing(recording, declared, decisions))
+    judged = Judgement(remaining, {stage: [] for stage in DETECTORS}, _declared_missing(recording, declared, decisions))
     admission = _Admission(judged, [d for d in decisions if d.verb == "protect"], protected, declared)
     exchanges = found.get("labels", ())
     for stage, event in ((stage, event) for stage, events in found.items() for event in events):

@@ -10,17 +10,17 @@ become missing; so do samples that nobody measured. Samples outside the findings
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from markermend.core.changes import Change
+from markermend.core.changes import TreatedRecording
 from markermend.core.decisions import Decision, protecting
 from markermend.core.events import Event, mask
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.reasons import Cause, Limit, Reason
-from markermend.core.recording import Recording, Restored
+from markermend.core.recording import Recording
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Predictor, Scene
 from markermend.repair.apply_decisions import Judgement, judge
@@ -32,22 +32,6 @@ from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
 
 
-@dataclass(frozen=True)
-class RepairedRecording:
-    """A recording after its findings were repaired.
-
-    Attributes
-    ----------
-    recording : Restored
-        The recording, with origin and errors of the repaired samples.
-    changes : tuple of Change
-        What was repaired, then what was not and why.
-    """
-
-    recording: Restored
-    changes: tuple[Change, ...]
-
-
 def repair(
     recording: Recording,
     mesh: Mesh,
@@ -55,7 +39,7 @@ def repair(
     found: Mapping[str, Sequence[Event]],
     options: RepairOptions,
     decisions: Sequence[Decision] = (),
-) -> RepairedRecording:
+) -> TreatedRecording:
     """Repair the findings of each class with the predictors that the options describe.
 
     Parameters
@@ -73,12 +57,11 @@ def repair(
 
     Returns
     -------
-    RepairedRecording
-        The recording and what was done to each finding. Missing samples stay missing; static recordings are left as they
-        are.
+    TreatedRecording
+        The recording after repair; what was repaired, then what was not and why. Missing samples stay missing; static
+        recordings are left as they are.
     """
-    neighbours, mates = mesh.neighbour_indices(recording.markers), mesh.segment_mate_indices(recording.markers)
-    scene = Scene(recording.positions, recording.rate, neighbours, segment_mates=mates)
+    scene = Scene.of(recording, mesh)
     predictors = needed_predictors(options, decisions)
     return repair_scene(recording, scene, found=found, predictors=predictors, options=options, decisions=decisions)
 
@@ -91,7 +74,7 @@ def repair_scene(
     predictors: Mapping[str, Predictor],
     options: RepairOptions,
     decisions: Sequence[Decision] = (),
-) -> RepairedRecording:
+) -> TreatedRecording:
     """Repair the findings of each class with given predictors: see `repair`.
 
     Parameters
@@ -111,7 +94,7 @@ def repair_scene(
 
     Returns
     -------
-    RepairedRecording
+    TreatedRecording
         The recording and what was done to each finding.
     """
     static = recording.facts.get("kind") == "static"
@@ -134,7 +117,7 @@ def repair_scene(
     maker = _candidate_maker(exchanged, remaining, scene, predictors, options)
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)
-    return RepairedRecording(*result.finished())
+    return TreatedRecording(*result.finished())
 
 
 def _candidate_maker(

@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from markermend.core.events import Event
 from markermend.simulation.artifact_models import Artifact, Draw, Recipe, draw_change
 from markermend.simulation.free_space import FreeSpace, choose
@@ -68,7 +68,7 @@ class Contamination:
     @property
     def events(self) -> dict[str, list[Event]]:
         """The truth as sorted events per class; exchanged labels have one event for each marker."""
-        found: dict[str, list[Event]] = {kind: [] for kind in CLASSES}
+        found: dict[str, list[Event]] = {kind: [] for kind in DETECTORS}
         for artifact in self.artifacts:
             found[artifact.kind].append(artifact.event)
         return {kind: sorted(events, key=lambda event: event.order) for kind, events in found.items()}

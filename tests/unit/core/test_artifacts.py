@@ -1,12 +1,12 @@
 """The table of classes agrees with the origins, and names every stage and class once."""
 
-from markermend.core.artifacts import ARTIFACTS, BY_NAME, BY_STAGE, CLASSES
+from markermend.core.artifacts import ARTIFACTS, BY_NAME, BY_STAGE, DETECTORS
 from markermend.core.recording import ORIGINS
 
 
 def test_every_stage_and_class_is_named_once():
     assert len({artifact.stage for artifact in ARTIFACTS}) == len({artifact.name for artifact in ARTIFACTS})
-    assert tuple(BY_STAGE) == CLASSES
+    assert tuple(BY_STAGE) == DETECTORS
     assert tuple(BY_NAME) == tuple(artifact.name for artifact in ARTIFACTS)
 
 

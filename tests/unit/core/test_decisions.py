@@ -2,7 +2,7 @@
 
 import pytest
 
-from markermend.core.artifacts import BY_NAME, CLASSES
+from markermend.core.artifacts import BY_NAME, DETECTORS
 from markermend.core.changes import GAP
 from markermend.core.decisions import EVER, Decision, Ruling, kind_of, protecting, read, rule
 from markermend.core.events import Event
@@ -47,7 +47,7 @@ def test_one_frame_in_common_is_enough(start, stop, shares):
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
-    kinds = [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in CLASSES]
+    kinds = [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in DETECTORS]
     assert kinds == ["swap", "frozen", "tail", "peak", "noise", "step", "slow"]
     assert kind_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from markermend.core.artifacts import CLASSES
+from markermend.core.artifacts import DETECTORS
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
 from markermend.planning.plan import make_plan
@@ -79,9 +79,9 @@ def test_a_mesh_is_made_of_all_recordings_of_its_subject(plan, tmp_path):
 
 
 def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
-    assert plan.detectors == list(CLASSES)
-    assert plan.events() == [plan.files.events[stage] for stage in CLASSES]
-    assert plan.events(before=CLASSES[0]) == []
+    assert plan.detectors == list(DETECTORS)
+    assert plan.events() == [plan.files.events[stage] for stage in DETECTORS]
+    assert plan.events(before=DETECTORS[0]) == []
     some = make_plan({**config, "detect": ["slow", "peaks"]}, PROJECT, deployed=False)
     assert some.detectors == ["peaks", "slow"]
     assert some.events(before="slow") == [plan.files.events["peaks"]]
@@ -99,7 +99,7 @@ def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan
     assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
 
 
-@pytest.mark.parametrize("stage", ["ingest", "mesh", *CLASSES, "repair", "fill", "export", "qc", "report"])
+@pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "fill", "export", "qc", "report"])
 def test_every_stage_gets_its_options_as_flags(plan, stage):
     names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]
     assert names == [option.name.replace("_", "-") for option in stage_options(SECTIONS[stage])]

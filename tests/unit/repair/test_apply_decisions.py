@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from markermend.core.artifacts import BY_NAME, CLASSES
+from markermend.core.artifacts import BY_NAME, DETECTORS
 from markermend.core.decisions import EVER, Decision
 from markermend.core.events import Event
 from markermend.core.recording import MISSING, ORIGINS, Recording, changed
@@ -28,7 +28,7 @@ def recording(gaps=()):
 stretches = st.tuples(st.integers(-3, FRAMES + 2), st.integers(1, 12)).map(lambda pair: (pair[0], pair[0] + pair[1]))
 inside = st.tuples(st.integers(0, FRAMES - 12), st.integers(1, 12)).map(lambda pair: (pair[0], pair[0] + pair[1]))
 events = st.builds(lambda marker, span: Event(marker, *span, 2.0), st.sampled_from(MARKERS), inside)
-findings = st.dictionaries(st.sampled_from(CLASSES), st.lists(events, max_size=3))
+findings = st.dictionaries(st.sampled_from(DETECTORS), st.lists(events, max_size=3))
 kinds = st.sampled_from(["", *KINDS])
 verbs = st.one_of(
     st.tuples(st.sampled_from(["accept", "reject"]), kinds),
@@ -88,7 +88,7 @@ def test_decisions_on_a_marker_leave_the_others_alone(found, decided):
     judged = judge(before, found, own)
     assert not changed(before, judged.recording)[:, 2].any()
     assert not any(left.marker == "B" for left in judged.left)
-    for stage in CLASSES:
+    for stage in DETECTORS:
         plain = [event for event in found.get(stage, []) if event.marker == "B"]
         assert [event for event in judged.found[stage] if event.marker == "B"] == plain
 

@@ -37,7 +37,7 @@ def test_files_differ_from_the_truth_where_it_says(made, subject, name):
     content = ezc3d.c3d(str(made / "recordings" / subject / f"{name}.c3d"))
     seen = content["data"]["points"][:3].transpose(2, 1, 0)
     assert tuple(content["parameters"]["POINT"]["LABELS"]["value"]) == clean.markers
-    found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.CLASSES, "gaps")}
+    found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.DETECTORS, "gaps")}
     damaged = sum(events.mask(list_, clean.frames, clean.markers).astype(int) for list_ in found.values())
     assert damaged.max() <= 1
     missing = events.mask(found["gaps"], clean.frames, clean.markers)

@@ -1,0 +1,42 @@
+"""What the preset of a detector selects."""
+
+from dataclasses import replace
+
+import pytest
+
+from markermend.command import presets
+from markermend.detection.noise import detect_noise
+from markermend.detection.peaks import detect_peaks
+from markermend.detection.published import noise, peaks, slow, steps
+from markermend.detection.slow import detect_slow
+from markermend.detection.steps import detect_steps
+from markermend.options.config import SECTIONS
+from markermend.options.detection import FrozenOptions
+
+DEFAULT = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
+PUBLISHED = {
+    "peaks": peaks.detect_peaks,
+    "noise": noise.detect_noise,
+    "steps": steps.detect_steps,
+    "slow": slow.detect_slow,
+}
+
+
+@pytest.mark.parametrize("stage", DEFAULT)
+@pytest.mark.parametrize("preset", ["default", "coordinates", "paper"])
+def test_a_preset_selects_detector_and_options(stage, preset):
+    if (stage, preset) == ("slow", "coordinates"):
+        pytest.skip("slow has no such preset")
+    options = replace(SECTIONS[stage](), preset=preset)
+    default = preset == "default"
+    expected = DEFAULT[stage] if default else PUBLISHED[stage]
+    assert presets.preset_of(options) == preset
+    assert presets.preset_detector(DEFAULT[stage], options) is expected
+    assert presets.preset_options(options) is (options if default else getattr(options, preset))
+    assert ("predictor" in presets.preset_predictor(options)) == (default or stage == "slow")
+
+
+def test_detectors_without_presets_are_the_default_ones():
+    options = FrozenOptions()
+    assert presets.preset_of(options) == "default" and presets.preset_options(options) is options
+    assert presets.preset_predictor(options)["predictor"].name == "local_ridge"
