@@ -5,6 +5,7 @@ Writes: 03_noise.parquet.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 from markermend.command import detector
 from markermend.detection.noise import detect_noise
@@ -13,8 +14,14 @@ from markermend.options.detection import NoiseOptions
 STAGE = detector.stage("noise", __doc__, NoiseOptions, finds="heavy noise")
 
 
+def published(options: NoiseOptions) -> Any:
+    from markermend.detection.published.noise import detect_noise as detect_published
+
+    return detect_published
+
+
 def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_noise)
+    return detector.search(call, detect_noise, published)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

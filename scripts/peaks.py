@@ -5,6 +5,7 @@ Writes: 02_peaks.parquet.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 from markermend.command import detector
 from markermend.detection.peaks import detect_peaks
@@ -13,8 +14,14 @@ from markermend.options.detection import PeaksOptions
 STAGE = detector.stage("peaks", __doc__, PeaksOptions, finds="isolated peaks")
 
 
+def published(options: PeaksOptions) -> Any:
+    from markermend.detection.published.peaks import detect_peaks as detect_published
+
+    return detect_published
+
+
 def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_peaks)
+    return detector.search(call, detect_peaks, published)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -5,6 +5,7 @@ Writes: 04_steps.parquet, with the jumps that have no counterpart among its fact
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 from markermend.command import detector
 from markermend.command.presets import preset_detector
@@ -14,9 +15,15 @@ from markermend.options.detection import StepsOptions
 STAGE = detector.stage("steps", __doc__, StepsOptions, finds="steps")
 
 
+def published(options: StepsOptions) -> Any:
+    from markermend.detection.published.steps import detect_steps as detect_published
+
+    return detect_published
+
+
 def work(call: detector.DetectorCall) -> str:
     given, recorded_under = detector.arguments(call)
-    found, left = preset_detector(detect_steps, call.options)(**given)
+    found, left = preset_detector(detect_steps, call.options, published)(**given)
     detector.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
     return f"{detector.result(found)}; {len(left)} open steps"
 

@@ -15,11 +15,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from markermend.command import detector
+from markermend.command.presets import Published
 from markermend.core import decisions as core_decisions
 from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Change, TreatedRecording
@@ -72,6 +74,14 @@ DETECTORS: Mapping[str, Callable[..., Any]] = {
     "slow": detect_slow,
 }
 """The detectors by their stages, in their strict order."""
+
+PUBLISHED: Mapping[str, Published] = {
+    "peaks": lambda options: import_module("markermend.detection.published.peaks").detect_peaks,
+    "noise": lambda options: import_module("markermend.detection.published.noise").detect_noise,
+    "steps": lambda options: import_module("markermend.detection.published.steps").detect_steps,
+    "slow": lambda options: import_module("markermend.detection.published.slow").make_detector(options),
+}
+"""The published detectors, imported when a preset asks for them."""
 
 
 @dataclass(frozen=True)
@@ -270,7 +280,14 @@ def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> 
     findings: dict[str, list[Event]] = {}
     for stage in (stage for stage in DETECTORS if stage in options.general.detect):
         earlier = [event for events in findings.values() for event in events]
-        found = detector.find(DETECTORS[stage], recording, own_mesh, earlier, options=getattr(options, stage))
+        found = detector.find(
+            DETECTORS[stage],
+            recording,
+            own_mesh,
+            earlier,
+            options=getattr(options, stage),
+            published=PUBLISHED.get(stage),
+        )
         findings[stage] = sorted(found, key=lambda event: event.order)
     return findings
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
-from markermend.command.presets import preset_detector, preset_of, preset_options, preset_predictor
+from markermend.command.presets import Published, preset_detector, preset_of, preset_options, preset_predictor
 from markermend.command.stage import Stage
 from markermend.core import events, labels
 from markermend.core.events import Event
@@ -148,6 +148,7 @@ def find(
     earlier: Sequence[Event],
     *,
     options: DetectorOptions | LabelsOptions,
+    published: Published | None = None,
 ) -> list[Event]:
     """Find one class of artifacts as its stage does, without files.
 
@@ -163,6 +164,8 @@ def find(
         Events of the detectors before; the detector of exchanged labels, the first, does not use them.
     options : DetectorOptions or LabelsOptions
         The section of the detector.
+    published : callable, optional
+        Imports the published detector of the class.
 
     Returns
     -------
@@ -173,7 +176,7 @@ def find(
         exchanges: list[Event] = detect(Scene.of(recording, mesh), markers=recording.markers, options=options)
         return exchanges
     given, recorded_under = detector_arguments(recording, mesh, earlier, options=options)
-    found = preset_detector(detect, options)(**given)
+    found = preset_detector(detect, options, published)(**given)
     return under_right_labels(found[0] if isinstance(found, tuple) else found, recorded_under)
 
 
@@ -228,7 +231,7 @@ def result(found: list[Event]) -> str:
     return f"{len(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
 
 
-def search(call: DetectorCall, detect: Callable[..., list[Event]]) -> str:
+def search(call: DetectorCall, detect: Callable[..., list[Event]], published: Published | None = None) -> str:
     """Detect one class of artifacts, and write the events.
 
     Parameters
@@ -237,6 +240,8 @@ def search(call: DetectorCall, detect: Callable[..., list[Event]]) -> str:
         The files and options of the stage.
     detect : callable
         The default detector of the class.
+    published : callable, optional
+        Imports the published detector of the class.
 
     Returns
     -------
@@ -249,6 +254,6 @@ def search(call: DetectorCall, detect: Callable[..., list[Event]]) -> str:
         If an earlier stage set the recording aside.
     """
     given, recorded_under = arguments(call)
-    found = preset_detector(detect, call.options)(**given)
+    found = preset_detector(detect, call.options, published)(**given)
     write(call, found, recorded_under, {})
     return result(found)

@@ -1,7 +1,7 @@
 """What the preset of a detector selects: its options, its function and its predictor.
 
 The preset `default` is the detector against the neighbours; the other presets are published detectors, which look at each
-coordinate by itself and are imported only when one of them is selected.
+coordinate by itself and are imported by the stage that selects one of them.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from collections.abc import Callable
 from typing import Any
 
 from markermend.options.detection import DetectorOptions
-from markermend.options.published import (
-    PublishedNoiseOptions,
-    PublishedPeaksOptions,
-    PublishedSlowOptions,
-    PublishedStepsOptions,
-)
 from markermend.prediction.local_ridge.predictor import LocalRidge
+
+Published = Callable[[Any], Callable[..., Any]]
+"""Given the section of a detector, imports its published detector and returns it.
+
+Each stage has its own, in its script: an edit of a published detector reruns the stage that may use it, and no other.
+"""
 
 
 def preset_of(options: DetectorOptions) -> str:
@@ -52,7 +52,9 @@ def preset_options(options: DetectorOptions) -> Any:
     return options if preset == "default" else getattr(options, preset)
 
 
-def preset_detector(detect: Callable[..., Any], options: DetectorOptions) -> Callable[..., Any]:
+def preset_detector(
+    detect: Callable[..., Any], options: DetectorOptions, published: Published | None = None
+) -> Callable[..., Any]:
     """Give the detector of the preset that a section names.
 
     Parameters
@@ -61,34 +63,19 @@ def preset_detector(detect: Callable[..., Any], options: DetectorOptions) -> Cal
         The default detector of the class of artifacts.
     options : DetectorOptions
         The section of the detector.
+    published : callable, optional
+        Imports the published detector of the same class, where there is one.
 
     Returns
     -------
     callable
         `detect`, or the published detector of the same class of artifacts.
     """
-    own = preset_options(options)
-    if isinstance(own, PublishedPeaksOptions):
-        from markermend.detection.published.peaks import detect_peaks
-
-        return detect_peaks
-    if isinstance(own, PublishedNoiseOptions):
-        from markermend.detection.published.noise import detect_noise
-
-        return detect_noise
-    if isinstance(own, PublishedStepsOptions):
-        from markermend.detection.published.steps import detect_steps
-
-        return detect_steps
-    if isinstance(own, PublishedSlowOptions):
-        from markermend.detection.published.slow import detect_slow
-
-        return detect_slow
-    return detect
+    return detect if published is None or preset_of(options) == "default" else published(options)
 
 
 def preset_predictor(options: DetectorOptions) -> dict[str, Any]:
-    """Make the predictor whose residual the detector of the preset examines.
+    """Make the predictor whose residual the default detector examines.
 
     Parameters
     ----------
@@ -98,14 +85,6 @@ def preset_predictor(options: DetectorOptions) -> dict[str, Any]:
     Returns
     -------
     dict of str to Any
-        The argument `predictor`: local_ridge for the default detectors, the predictor that its options name for the
-        published detector of slow changes. Empty for the other published detectors, which use none.
+        The argument `predictor`: local_ridge. Empty for published detectors, which use none or make their own.
     """
-    if preset_of(options) == "default":
-        return {"predictor": LocalRidge(options.predictors.local_ridge)}
-    own = preset_options(options)
-    if isinstance(own, PublishedSlowOptions):
-        from markermend.detection.published import slow
-
-        return {"predictor": slow.make_predictor(own, options.predictors)}
-    return {}
+    return {"predictor": LocalRidge(options.predictors.local_ridge)} if preset_of(options) == "default" else {}

@@ -63,6 +63,12 @@ def test_no_module_escapes(stage):
     assert {Path(path).relative_to(SCRIPTS).as_posix() for path in loaded} <= listed
 
 
+@pytest.mark.parametrize("stage", ["peaks", "noise", "steps", "slow"])
+def test_a_published_detector_is_code_of_its_own_stage_only(stage):
+    own = f"markermend/detection/published/{stage}.py"
+    assert [other for other in STAGES if own in names(code_hashes.code(SCRIPTS / f"{other}.py"))] == [stage]
+
+
 def test_the_facts_of_a_run():
     started = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
     facts = run_facts.run_facts(PROJECT, config={"results": "r"}, recordings=3, started=started)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from markermend.core.events import Event
 from markermend.detection.published import coordinatewise, increments
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+from markermend.options.detection import SlowOptions
 from markermend.options.prediction import PredictorOptions
 from markermend.options.published import PublishedSlowOptions
 from markermend.prediction.lagged_regression.polynomial import Polynomial
@@ -58,6 +60,22 @@ def detect_slow(
     reach = intervals.samples(options.slope_window_s, scene.rate)
     bridged = replace(scene, positions=coordinatewise.bridge_claimed(scene.positions, earlier, reach))
     return coordinatewise.detect_each(predictor.residuals(bridged), detect, markers=markers, earlier=earlier)
+
+
+def make_detector(options: SlowOptions) -> Callable[..., list[Event]]:
+    """Make the detector, with the predictor that the options name.
+
+    Parameters
+    ----------
+    options : SlowOptions
+        The options of the stage.
+
+    Returns
+    -------
+    callable
+        `detect_slow` with its predictor.
+    """
+    return partial(detect_slow, predictor=make_predictor(options.paper, options.predictors))
 
 
 def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) -> ResidualSource:
