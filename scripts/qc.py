@@ -11,7 +11,7 @@ from typing import Any
 from markermend.command.stage import Stage
 from markermend.core.recording import SetAside
 from markermend.options.reporting import QcOptions
-from markermend.report import recording_report, rendering
+from markermend.report import evidence, recording_report, rendering
 from markermend.storage import atomic
 
 STAGE = Stage("qc", __doc__, QcOptions)
@@ -27,7 +27,7 @@ STAGE.writes("page", "the recording for a person, as HTML")
 
 
 def work(call: Any) -> str:
-    seen = recording_report.read(call)
+    seen = evidence.read_evidence(call)
     summary = recording_report.summarize(seen, call.options.attention)
     atomic.write_json(call.qc, {**summary, **recording_report.place(call.page)})
     atomic.write_text(call.page, recording_report.page(seen, summary, call.options))

@@ -8,7 +8,7 @@ trajectories, and peaks, noise, steps, slow and gaps.parquet, the contamination 
 import argparse
 from pathlib import Path
 
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 from markermend.simulation.session import Take, session
 from markermend.storage import stage_files
 
@@ -16,12 +16,14 @@ from markermend.storage import stage_files
 def write(take: Take, subject: str, folder: Path, truth: Path) -> None:
     write_new(
         folder / subject / f"{take.name}.c3d",
-        labels=take.seen.markers,
-        positions=take.seen.positions,
-        rate=take.seen.rate,
-        first_frame=take.seen.first_frame,
-        storage=take.storage,
-        groups={"SUBJECTS": {"USED": 1, "NAMES": [subject]}},
+        Content(
+            labels=take.seen.markers,
+            positions=take.seen.positions,
+            rate=take.seen.rate,
+            first_frame=take.seen.first_frame,
+            storage=take.storage,
+            groups={"SUBJECTS": {"USED": 1, "NAMES": [subject]}},
+        ),
     )
     stage_files.write_recording(truth / subject / take.name / "clean.parquet", take.clean, {"stage": "truth"})
     for kind, events in take.truth.items():

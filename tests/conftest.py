@@ -13,7 +13,7 @@ from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.simulation.artifact_models import Recipe, integers, uniform
 from markermend.simulation.contamination import Contamination
-from markermend.simulation.walker import Walker, walk
+from markermend.simulation.walker import MeasurementErrors, Walker, walk
 from markermend.simulation.walker_body import make_body
 
 settings.register_profile("the same examples each time", derandomize=True, deadline=None)
@@ -38,8 +38,7 @@ def walker() -> Walker:
         duration=12.0,
         rate=100.0,
         activities=["exercise", "walk", "stand", "sit"],
-        noise=0.2,
-        soft_tissue=1.0,
+        errors=MeasurementErrors(noise=0.2, soft_tissue=1.0),
         rng=rng,
     )
 

@@ -22,7 +22,7 @@ import torch
 from markermend.options.prediction import NeuralNetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.scene import Scene
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 
 DEFAULT = NeuralNetworkOptions()
@@ -39,8 +39,7 @@ def positions(markers: int) -> Place:
         duration=15.0,
         rate=100.0,
         activities=["exercise", "walk"],
-        noise=0.2,
-        soft_tissue=1.0,
+        errors=MeasurementErrors(noise=0.2, soft_tissue=1.0),
         rng=rng,
     ).recording.positions
     distance = np.linalg.norm(person[::20, :, None] - person[::20, None], axis=3)

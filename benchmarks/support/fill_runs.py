@@ -23,7 +23,7 @@ from markermend import api
 from markermend.core.changes import Change
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
 from markermend.options.flags import write_flags
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 from markermend.storage import change_file, mesh_file, stage_files
 
@@ -128,7 +128,14 @@ def walker(frames: int, markers: int, rate: float = 100.0, seed: int = 1) -> Rec
     positions = np.empty((0, markers, 3))
     while len(positions) < frames:
         activities = ["stand", *rng.permutation(["walk", "reach", "sit", "exercise", "walk"]).tolist()]
-        take = walk(body=body, duration=TAKE_S, rate=rate, activities=activities, noise=0.2, soft_tissue=1.0, rng=rng)
+        take = walk(
+            body=body,
+            duration=TAKE_S,
+            rate=rate,
+            activities=activities,
+            errors=MeasurementErrors(noise=0.2, soft_tissue=1.0),
+            rng=rng,
+        )
         begin, end = [bout[1:] for bout in take.bouts if bout[0] == "stand"][-1]
         own = take.recording.positions[: round((begin + end) / 2 * rate)]
         positions = np.concatenate([positions, continued(own, positions[-1]) if len(positions) else own])

@@ -9,7 +9,7 @@ import contaminate
 from markermend.core import artifacts, events
 from markermend.core.recording import changed
 from markermend.formats import comparison, files
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import stage_files
 
 
@@ -20,7 +20,10 @@ def made(request, tmp_path_factory, walker):
     for name, kind in (("a", "pc_real"), ("b", "dec_int")):
         path = folder / "clean" / "S01" / f"{name}.c3d"
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_new(path, labels=clean.markers, positions=clean.positions, rate=clean.rate, first_frame=251, storage=kind)
+        write_new(
+            path,
+            Content(labels=clean.markers, positions=clean.positions, rate=clean.rate, first_frame=251, storage=kind),
+        )
     run(folder, request.param, "damaged", "truth")
     return folder, request.param
 

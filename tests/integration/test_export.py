@@ -12,7 +12,7 @@ from markermend.core.originals import restore_originals
 from markermend.core.recording import FILLED, ORIGINS, Restored, SetAside
 from markermend.export.change_table import COLUMNS
 from markermend.formats import files
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import atomic, change_file, originals_file, stage_files
 
 
@@ -31,7 +31,7 @@ def folder(tmp_path):
     positions = np.cumsum(np.random.default_rng(5).normal(0, 2, (40, 2, 3)), axis=0) + 500
     positions[20:25, 1] = np.nan
     path = tmp_path / "walk.c3d"
-    write_new(path, labels=["A", "B"], positions=positions, rate=100.0, first_frame=701)
+    write_new(path, Content(labels=["A", "B"], positions=positions, rate=100.0, first_frame=701))
     reading = files.read(path, unlabelled=[], rate=None)
     measured = reading.recording
     source = {"name": path.name, "sha256": atomic.sha256(path), "format": "c3d", "columns": list(reading.columns)}

@@ -11,7 +11,7 @@ from markermend.core.recording import FILLED, MISSING, Recording
 from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.options.ingest import IngestOptions
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 from support import bodies, fillings
 from support.c3d_files import write
@@ -199,7 +199,12 @@ def test_errors_do_not_depend_on_the_rate():
         body = make_body(rng=rng)
         bouts = ["reach", "walk"]
         whole = walk(
-            body=body, duration=8.0, rate=rate, activities=bouts, noise=0.0, soft_tissue=1.0, rng=rng
+            body=body,
+            duration=8.0,
+            rate=rate,
+            activities=bouts,
+            errors=MeasurementErrors(noise=0.0, soft_tissue=1.0),
+            rng=rng,
         ).recording
         gaps = [(m, int(begin * rate), int((begin + 0.5) * rate)) for m, begin in ((3, 2), (12, 2.2), (17, 5))]
         done = fill(first(whole, markers=20), gaps)
@@ -222,8 +227,7 @@ def test_metres_are_filled_alike(chain, tmp_path):
             recording="walk",
             subject="S1",
             kind="dynamic",
-            static_names=own.static_names,
-            static_motion_mm=own.static_motion_mm,
+            options=own,
         )
         results.append(fill(whole, []).result)
     assert not any(result.missing.any() for result in results)

@@ -5,13 +5,14 @@ import pytest
 from markermend.core.recording import BadRecording
 from markermend.formats import files
 from markermend.formats.ingest import ingest
+from markermend.options.ingest import IngestOptions
 
-NAMES = ["static", r"(^|[^a-z])cal\d*$"]
+OPTIONS = IngestOptions(static_names=("static", r"(^|[^a-z])cal\d*$"), static_motion_mm=15.0)
 
 
 def ingested(reading, **more):
     options = {"source": "walk.c3d", "recording": "walk", "subject": "Anna", "kind": "auto"}
-    return ingest(reading, **{**options, "static_names": NAMES, "static_motion_mm": 15.0, **more})
+    return ingest(reading, **{**options, **more}, options=OPTIONS)
 
 
 @pytest.mark.data

@@ -7,7 +7,7 @@ import numpy as np
 from markermend.formats.c3d import reader
 from markermend.formats.c3d.data_layout import locate
 from markermend.formats.c3d.parameters import read_section
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 
 UNLABELLED = (r"\*\d*", r"unnamed#\d+")
 STORAGES = ("pc_int", "pc_real", "dec_int", "dec_real", "sgi_int", "sgi_real")
@@ -23,7 +23,7 @@ def write(path, positions=None, *, labels=None, **more):
     """Write a C3D file of positions (by default, some) and give back the path."""
     positions = trajectories() if positions is None else positions
     labels = labels or [f"M{m}" for m in range(positions.shape[1])]
-    write_new(path, labels=labels, positions=positions, **{"rate": 100.0, **more})
+    write_new(path, Content(labels=labels, positions=positions, **{"rate": 100.0, **more}))
     return path
 
 

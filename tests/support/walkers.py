@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 
 DAILY = ["stand", "reach", "walk", "stand", "sit", "exercise"]
@@ -12,7 +12,12 @@ def person(seed, *, duration=20.0, rate=100.0, activities=DAILY, noise=0.2, soft
     rng = np.random.default_rng(seed)
     body = make_body(rng=rng)
     return walk(
-        body=body, duration=duration, rate=rate, activities=activities, noise=noise, soft_tissue=soft_tissue, rng=rng
+        body=body,
+        duration=duration,
+        rate=rate,
+        activities=activities,
+        errors=MeasurementErrors(noise=noise, soft_tissue=soft_tissue),
+        rng=rng,
     )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 from support.paths import PROJECT
 
 FOLDERS = ("workflow", "scripts", "config", "profiles", "envs")
@@ -31,7 +31,7 @@ def write_recording(path: Path, *, seed: int, markers: int = 6, frames: int = 12
     positions[40:50, 1] = np.nan
     positions[80, 2] += 60
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_new(path, labels=[f"M{number}" for number in range(markers)], positions=positions, rate=100.0)
+    write_new(path, Content(labels=[f"M{number}" for number in range(markers)], positions=positions, rate=100.0))
 
 
 @dataclass(frozen=True)

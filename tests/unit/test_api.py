@@ -94,10 +94,10 @@ def test_recordings_of_unlike_marker_sets_need_several_meshes(recording, tmp_pat
 
 def path_of_others(folder):
     """A recording with other markers."""
-    from markermend.formats.c3d.writer import write_new
+    from markermend.formats.c3d.writer import Content, write_new
 
     positions = np.random.default_rng(0).normal(0, 200, (200, 5, 3)).cumsum(axis=0) / 20
-    write_new(folder / "other.c3d", labels=[f"A{m}" for m in range(5)], positions=positions, rate=100.0)
+    write_new(folder / "other.c3d", Content(labels=[f"A{m}" for m in range(5)], positions=positions, rate=100.0))
     return folder / "other.c3d"
 
 

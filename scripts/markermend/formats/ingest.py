@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -34,7 +33,7 @@ def ingest_file(
     subject, recording : str
         Their names.
     kind : str
-        dynamic, static, or auto (see kind_of).
+        dynamic, static, or auto (see recording_kind).
     rate : float or None
         Frame rate in Hz, used in place of the file's; None = the file's.
     options : IngestOptions
@@ -56,22 +55,14 @@ def ingest_file(
         recording=recording,
         subject=subject,
         kind=kind,
-        static_names=options.static_names,
-        static_motion_mm=options.static_motion_mm,
+        options=options,
     )
     made.facts["source"]["sha256"] = sha256(path)
     return made
 
 
 def ingest(
-    reading: Reading,
-    *,
-    source: str,
-    recording: str,
-    subject: str,
-    kind: str,
-    static_names: Sequence[str],
-    static_motion_mm: float,
+    reading: Reading, *, source: str, recording: str, subject: str, kind: str, options: IngestOptions
 ) -> Recording:
     """Make a recording of what was read: the markers as they are, the rest as facts.
 
@@ -86,11 +77,9 @@ def ingest(
     recording, subject : str
         Names of the recording and of its subject.
     kind : str
-        dynamic, static, or auto (see kind_of).
-    static_names : sequence of str
-        Regular expressions for the names of static recordings.
-    static_motion_mm : float
-        Range of motion below which a recording is static, in mm.
+        dynamic, static, or auto (see recording_kind).
+    options : IngestOptions
+        What is static.
 
     Returns
     -------
@@ -103,18 +92,12 @@ def ingest(
         If no marker was ever seen, or the rate is impossible.
     """
     markers = reading.recording
-    missing = markers.missing
-    if not markers.markers or missing.all():
-        raise BadRecording(f"{source} has no 3-D data: {_why_empty(reading)}; leave it out of the recordings table")
-    if not (math.isfinite(markers.rate) and markers.rate > 0):
-        raise BadRecording(f"{source} has no usable rate ({markers.rate:g} Hz): give it in the recordings table")
+    _check_usable(reading, source)
     warnings = list(reading.warnings)
-    never = [markers.markers[m] for m in np.flatnonzero(missing.all(axis=0))]
+    never = [markers.markers[m] for m in np.flatnonzero(markers.missing.all(axis=0))]
     if never:
         warnings.append(f"Never seen: {', '.join(never)}.")
-    decided, reason = kind_of(
-        markers, name=recording, kind=kind, static_names=static_names, static_motion_mm=static_motion_mm
-    )
+    decided, reason = recording_kind(markers, name=recording, kind=kind, options=options)
     facts: dict[str, Any] = {
         "source": {
             "name": source,
@@ -134,9 +117,7 @@ def ingest(
     return replace(markers, facts=facts)
 
 
-def kind_of(
-    recording: Recording, *, name: str, kind: str, static_names: Sequence[str], static_motion_mm: float
-) -> tuple[str, str]:
+def recording_kind(recording: Recording, *, name: str, kind: str, options: IngestOptions) -> tuple[str, str]:
     """Decide whether a recording is dynamic or static (never repaired or filled).
 
     The recordings table takes precedence. Otherwise a recording is static if a pattern of static_names occurs in its
@@ -150,10 +131,8 @@ def kind_of(
         Of the recording.
     kind : str
         What the recordings table states: dynamic, static, or auto.
-    static_names : sequence of str
-        Regular expressions for the names of static recordings.
-    static_motion_mm : float
-        Range of motion below which a recording is static, in mm.
+    options : IngestOptions
+        Regular expressions for the names of static recordings, and the range of motion below which one is static.
 
     Returns
     -------
@@ -164,13 +143,14 @@ def kind_of(
     """
     if kind != "auto":
         return kind, "The recordings table says so."
-    for pattern in static_names:
+    threshold = options.static_motion_mm
+    for pattern in options.static_names:
         if re.search(pattern, name, re.IGNORECASE):
             return "static", f"Its name, {name}, matches {pattern}."
     motion = motion_mm(recording)
-    if motion < static_motion_mm:
-        return "static", f"Nine markers in ten move {motion:.1f} mm or less; under {static_motion_mm:g} mm is static."
-    return "dynamic", f"Nine markers in ten move up to {motion:.0f} mm; under {static_motion_mm:g} mm is static."
+    if motion < threshold:
+        return "static", f"Nine markers in ten move {motion:.1f} mm or less; under {threshold:g} mm is static."
+    return "dynamic", f"Nine markers in ten move up to {motion:.0f} mm; under {threshold:g} mm is static."
 
 
 def motion_mm(recording: Recording) -> float:
@@ -193,6 +173,15 @@ def motion_mm(recording: Recording) -> float:
     seen = ~np.isnan(positions[..., 0]).all(axis=0)
     low, high = np.nanpercentile(positions[:, seen], [5, 95], axis=0)
     return float(np.percentile(np.linalg.norm(high - low, axis=1), 90, method="lower"))
+
+
+def _check_usable(reading: Reading, source: str) -> None:
+    """Refuse a file without any observed marker or without a rate."""
+    markers = reading.recording
+    if not markers.markers or markers.missing.all():
+        raise BadRecording(f"{source} has no 3-D data: {_why_empty(reading)}; leave it out of the recordings table")
+    if not (math.isfinite(markers.rate) and markers.rate > 0):
+        raise BadRecording(f"{source} has no usable rate ({markers.rate:g} Hz): give it in the recordings table")
 
 
 def _why_empty(reading: Reading) -> str:

@@ -1,136 +1,27 @@
-"""All that the stages wrote about one recording, collected for its summary and its page."""
+"""The summary and the page of one recording, made of what the stages wrote about it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from markermend import __version__
-from markermend.core.changes import Change, Outcome
-from markermend.core.events import Event
-from markermend.core.labels import follow
-from markermend.core.mesh import Mesh
-from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.core.changes import Change
+from markermend.core.recording import SetAside
 from markermend.options.reporting import AttentionOptions, QcOptions
 from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
-from markermend.report.decision_outcomes import DecisionOutcome, drafts, outcomes
+from markermend.report.decision_outcomes import drafts
+from markermend.report.evidence import Evidence
 from markermend.report.methods_text import paragraph
-from markermend.report.open_findings import left_open, reasons_for_blanking, worst_first
+from markermend.report.open_findings import reasons_for_blanking
 from markermend.report.plot_data import excerpt
-from markermend.storage import change_file, stage_files
+from markermend.storage import stage_files
 from markermend.storage.folder_names import decode
-from markermend.storage.mesh_file import for_recording
 
 TICKS = 8
 """About how many times are marked along the map of missing samples."""
-
-
-@dataclass(frozen=True)
-class Evidence:
-    """One recording before and after cleaning, what was found, changed and left in it, and how.
-
-    Attributes
-    ----------
-    before, after : Recording
-        As ingested, and after repair and filling.
-    mesh : Mesh
-        The subject's mesh, for this recording.
-    found : dict[str, list[Event]]
-        Events by detector, for those that ran.
-    record : tuple of Change
-        What repair and filling did to each stretch.
-    changes, left : list of Change
-        What was changed and what was left as it is, worst first.
-    certificate : dict of str to Any
-        What export states about the cleaned file.
-    stages : dict[str, dict[str, Any]]
-        The options of every stage.
-    """
-
-    before: Recording
-    after: Restored
-    mesh: Mesh
-    found: dict[str, list[Event]]
-    record: tuple[Change, ...]
-    changes: list[Change]
-    left: list[Change]
-    certificate: dict[str, Any]
-    stages: dict[str, dict[str, Any]]
-
-    @property
-    def decided(self) -> list[DecisionOutcome]:
-        """The outcomes of a person's decisions."""
-        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
-
-    @property
-    def warnings(self) -> list[str]:
-        """Warnings of ingest, mesh and export, and of decisions that did nothing."""
-        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
-        if refused := self.certificate["refused"]:
-            warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
-        return warnings + [outcome.warning for outcome in self.decided if outcome.warning]
-
-
-def read(call: Any) -> Evidence:
-    """Read what the stages wrote.
-
-    Parameters
-    ----------
-    call : Any
-        A namespace with the paths that the stage qc reads.
-
-    Returns
-    -------
-    Evidence
-        The recording and everything known about its cleaning.
-
-    Raises
-    ------
-    SetAside
-        If a stage set the recording aside.
-    BadRecording
-        If the filled recording does not state the origins of its samples.
-    """
-    before, after = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
-    if not isinstance(after, Restored):
-        raise BadRecording(f"{call.filled.name} does not state where its samples come from: run the fill stage again")
-    certificate = stage_files.read_json(call.certificate)
-    if "untouched" in certificate:
-        raise SetAside(**certificate["untouched"])
-    meshes = stage_files.read_json(call.mesh)
-    facts_found = [stage_files.read_facts(path) for path in call.events]
-    found = {
-        facts["stage"]: stage_files.read_events(path) for facts, path in zip(facts_found, call.events, strict=True)
-    }
-    record = change_file.read(call.changes)
-    found = _as_repaired(found, record)
-    changes = worst_first(before, after, record)
-    steps = [before.facts, meshes.get("facts", {}), *facts_found, stage_files.read_facts(call.repaired), after.facts]
-    return Evidence(
-        before=before,
-        after=after,
-        mesh=for_recording(meshes, before.facts["recording"]),
-        found=found,
-        record=record,
-        changes=changes,
-        left=left_open(after, found, changes, record),
-        certificate=certificate,
-        stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
-    )
-
-
-def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dict[str, list[Event]]:
-    """Findings under the labels that their samples have after repair, which may leave an exchange of labels undone."""
-    exchanged = [change for change in record if change.outcome is Outcome.EXCHANGED]
-    carried = [Event(one.marker, one.start, one.stop, 1.0, partner=one.partner) for one in exchanged]
-    exchanges = found.get("labels", [])
-    return {
-        stage: events if stage == "labels" else follow(events, found_under=exchanges, stated_under=carried)
-        for stage, events in found.items()
-    }
 
 
 def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
@@ -155,8 +46,8 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         changes=seen.changes,
         left=seen.left,
         warnings=seen.warnings,
-        weights=weights,
     )
+    summary = report_summary.with_attention(summary, weights)
     methods = paragraph(seen.stages, summary["kind"], __version__)
     return {**summary, "decisions": len(seen.decided), "methods": methods}
 

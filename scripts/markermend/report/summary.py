@@ -28,9 +28,8 @@ def summarize(
     changes: Sequence[Change],
     left: Sequence[Change],
     warnings: Sequence[str],
-    weights: AttentionOptions,
 ) -> dict[str, Any]:
-    """Summarize one recording.
+    """Summarize one recording; `with_attention` adds the score of its need of attention.
 
     Parameters
     ----------
@@ -42,8 +41,6 @@ def summarize(
         What was changed and what was not; an artifact that a person left is not open.
     warnings : sequence of str
         What the stages warned of.
-    weights : AttentionOptions
-        See attention.
 
     Returns
     -------
@@ -51,19 +48,13 @@ def summarize(
         JSON values.
     """
     differs = changed(before, after)
-    errors = after.error[differs & ~after.missing]
-    errors95 = after.error95[differs & ~after.missing]
     gaps_left = [finding for finding in left if finding.is_gap]
-    summary: dict[str, Any] = {
+    return {
         **identity(before.facts),
         "status": status(before.facts, differs),
         "stage": None,
         "reason": None,
-        "frames": before.frames,
-        "first_frame": before.first_frame,
-        "rate": before.rate,
-        "duration_s": round(before.frames / before.rate, DIGITS),
-        "markers": len(before.markers),
+        **size(before),
         "missing_share_before": share(before.missing),
         "missing_share_after": share(after.missing),
         "findings": {stage: extent(events, before) for stage, events in found.items()},
@@ -77,13 +68,72 @@ def summarize(
             "reasons": dict(Counter(finding.reason.text for finding in gaps_left if finding.reason)),
         },
         "largest_change_mm": largest_change(before, after),
-        "expected_error_median_mm": finite(np.median, errors),
-        "expected_error_max_mm": finite(np.max, errors),
-        "expected_error95_max_mm": finite(np.max, errors95),
+        **expected_errors(after, differs & ~after.missing),
         "warnings": [*warnings, *inconsistent_origins(before, after)],
     }
+
+
+def with_attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str, Any]:
+    """Add the score of attention to a summary.
+
+    Parameters
+    ----------
+    summary : mapping of str to Any
+        What `summarize` gives.
+    weights : AttentionOptions
+        Points of attention, see `attention`.
+
+    Returns
+    -------
+    dict of str to Any
+        The summary with the score and its parts by cause.
+    """
     parts = attention(summary, weights)
     return {**summary, "attention": round(sum(parts.values()), 3), "attention_parts": parts}
+
+
+def size(recording: Recording) -> dict[str, float]:
+    """State the size of a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording.
+
+    Returns
+    -------
+    dict of str to float
+        Number of frames, number of the first frame, rate in Hz, duration in s, and number of markers.
+    """
+    return {
+        "frames": recording.frames,
+        "first_frame": recording.first_frame,
+        "rate": recording.rate,
+        "duration_s": round(recording.frames / recording.rate, DIGITS),
+        "markers": len(recording.markers),
+    }
+
+
+def expected_errors(after: Restored, written: np.ndarray) -> dict[str, float | None]:
+    """State the errors to be expected of the samples that were written.
+
+    Parameters
+    ----------
+    after : Restored
+        The recording after repair and filling.
+    written : ndarray of bool, shape (frames, markers)
+        The samples that were replaced or filled.
+
+    Returns
+    -------
+    dict of str to float or None
+        Median and largest radius for probability 0.68, and the largest for 0.95, in mm; None where nothing was written.
+    """
+    return {
+        "expected_error_median_mm": finite(np.median, after.error[written]),
+        "expected_error_max_mm": finite(np.max, after.error[written]),
+        "expected_error95_max_mm": finite(np.max, after.error95[written]),
+    }
 
 
 def set_aside(facts: Mapping[str, Any], stage: str, reason: str) -> dict[str, Any]:

@@ -60,7 +60,7 @@ class Artifact:
     marker: str
     start: int
     stop: int
-    amplitude: tuple[float, float, float]
+    amplitude: tuple[float, float, float] = (0.0, 0.0, 0.0)
     partner: str | None = None
     form: str = "alone"
 

@@ -15,9 +15,6 @@ from markermend.core.events import Event
 from markermend.simulation.artifact_models import Artifact, Draw, Recipe, draw_change
 from markermend.simulation.free_space import FreeSpace, choose
 
-NOTHING = np.zeros(3)
-"""Amplitude of an artifact that has none."""
-
 
 class Contamination:
     """Trajectories that are being contaminated, and the truth so far.
@@ -114,7 +111,7 @@ class Contamination:
         """
         change, amplitude = draw_change(kind, recipe, stop - start, self._rng)
         self.positions[start:stop, marker] += change
-        self._record(kind, marker, start, stop, amplitude, form=form)
+        self._record(Artifact(kind, self.markers[marker], start, stop, _along_axes(amplitude), form=form))
 
     def combine(self, under: str, below: Recipe, over: str, above: Recipe, *, count: int) -> None:
         """Put in artifacts of one class, each with a shorter one of another class on top of it.
@@ -204,7 +201,7 @@ class Contamination:
             moves[first] = distance > moving_mm
             start, m = choose(free & moves, self._rng)
             self.positions[start : start + frames, m] = self.positions[start - 1, m]
-            self._record("frozen", m, start, start + frames, NOTHING)
+            self._record(Artifact("frozen", self.markers[m], start, start + frames))
 
     def add_at_gaps(self, kind: str, recipe: Recipe, *, gap: Draw, count: int) -> None:
         """Put in gaps that an artifact precedes or follows, such as a tail.
@@ -227,7 +224,10 @@ class Contamination:
             change, amplitude = draw_change(kind, recipe, length, self._rng)
             first, begin = (start, start + length) if before else (start + missing, start)
             self.positions[first : first + length, m] += change if before else change[::-1]
-            self._record(kind, m, first, first + length, amplitude, form="beside a gap")
+            artifact = Artifact(
+                kind, self.markers[m], first, first + length, _along_axes(amplitude), form="beside a gap"
+            )
+            self._record(artifact)
             self._remove([m], begin, begin + missing)
 
     def swap(self, *, length: Draw, within_mm: float, count: int, markers: int = 2, at: str = "anywhere") -> None:
@@ -264,7 +264,8 @@ class Contamination:
             self.positions[start:stop, onward] = self.positions[start:stop, ring]
             form = "for good" if at == "stop" else f"{markers} markers"
             for one, other in zip(ring.tolist(), onward.tolist(), strict=True):
-                self._record("labels", one, start, stop, NOTHING, form=form, partner=self.markers[other])
+                partner = self.markers[other]
+                self._record(Artifact("labels", self.markers[one], start, stop, partner=partner, form=form))
 
     def gap(self, *, length: Draw, markers: Sequence[str] | int, at: str, count: int) -> None:
         """Remove the samples of some markers at once.
@@ -295,21 +296,10 @@ class Contamination:
                 chosen = sorted(self._rng.choice(np.flatnonzero(free[start]), markers, replace=False).tolist())
             self._remove(chosen, start, start + frames)
 
-    def _record(
-        self,
-        kind: str,
-        m: int,
-        start: int,
-        stop: int,
-        amplitude: np.ndarray,
-        *,
-        form: str = "alone",
-        partner: str | None = None,
-    ) -> None:
+    def _record(self, artifact: Artifact) -> None:
         """Add an artifact to the truth, and take its samples."""
-        self._space.take([m], start, stop)
-        x, y, z = amplitude.tolist()
-        self.artifacts.append(Artifact(kind, self.markers[m], start, stop, (x, y, z), partner, form))
+        self._space.take([self.markers.index(artifact.marker)], artifact.start, artifact.stop)
+        self.artifacts.append(artifact)
 
     def _remove(self, markers: Sequence[int], start: int, stop: int) -> None:
         """Make a gap, and take its samples."""
@@ -321,3 +311,9 @@ class Contamination:
         """Median distance in mm of every two markers, over some frames; that of a marker to itself does not matter."""
         some = self._clean[:: max(1, len(self._clean) // 50)]
         return np.asarray(np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0))
+
+
+def _along_axes(amplitude: np.ndarray) -> tuple[float, float, float]:
+    """An amplitude (3,) as numbers along x, y and z."""
+    x, y, z = amplitude.tolist()
+    return x, y, z

@@ -11,7 +11,7 @@ from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.simulation.artifact_models import Recipe, integers, uniform
 from markermend.simulation.contamination import Contamination
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 
 TRIALS = (
@@ -76,7 +76,12 @@ def session(*, seed: int, subject: int, duration: float, rate: float) -> Iterato
         rng = np.random.default_rng([seed, subject, trial])
         length = STATIC_S if name == "static" else duration
         clean = walk(
-            body=body, duration=length, rate=rate, activities=activities, noise=NOISE_MM, soft_tissue=1.0, rng=rng
+            body=body,
+            duration=length,
+            rate=rate,
+            activities=activities,
+            errors=MeasurementErrors(noise=NOISE_MM, soft_tissue=1.0),
+            rng=rng,
         ).recording
         clean = replace(clean, first_frame=1 if name == "static" else FIRST_FRAME)
         result = Contamination(clean.positions, clean.markers, margin=round(0.2 * rate), one_at_a_time=False, rng=rng)

@@ -17,7 +17,7 @@ from markermend.core.recording import Recording
 from markermend.simulation.walker_body import Body, kind, make_body
 from markermend.simulation.walker_motion import move
 
-__all__ = ["Walker", "make_body", "walk"]
+__all__ = ["MeasurementErrors", "Walker", "make_body", "walk"]
 
 BACKWARD = ("pelvis", "thorax", "head", "shank")
 """Segments whose flexion is a positive rotation about y; that of the others is negative."""
@@ -54,14 +54,29 @@ class Walker:
     bouts: tuple[tuple[str, float, float], ...]
 
 
+@dataclass(frozen=True)
+class MeasurementErrors:
+    """How markers on the skin, seen by cameras, differ from points fixed to the bones.
+
+    Attributes
+    ----------
+    noise : float
+        Standard deviation of each coordinate in mm.
+    soft_tissue : float
+        Factor on the motion of soft tissue; 1 gives a few mm.
+    """
+
+    noise: float
+    soft_tissue: float
+
+
 def walk(
     *,
     body: Body,
     duration: float,
     rate: float,
     activities: Sequence[str],
-    noise: float,
-    soft_tissue: float,
+    errors: MeasurementErrors,
     rng: np.random.Generator,
 ) -> Walker:
     """Record a body in several activities, one after the other and over again until the duration is filled.
@@ -78,10 +93,8 @@ def walk(
         Frame rate in Hz.
     activities : sequence of str
         Keys of activities.ACTIVITIES.
-    noise : float
-        Standard deviation of each coordinate in mm.
-    soft_tissue : float
-        Factor on the motion of soft tissue; 1 gives a few mm.
+    errors : MeasurementErrors
+        Soft tissue and noise.
     rng : Generator
         Source of randomness.
 
@@ -95,9 +108,9 @@ def walk(
     turned, origins = _pose(body, motion.angles, motion.heading)
     origins = origins + _path(body, turned, origins, rate)[:, None]
     rigid = _attach(turned, origins, body.marker_segments, body.marker_offsets)
-    moved = soft_tissue * _soft_tissue(body, np.radians(motion.angles), turned, rigid, rate)
+    moved = errors.soft_tissue * _soft_tissue(body, np.radians(motion.angles), turned, rigid, rate)
     positions = _attach(turned, origins, body.marker_segments, body.marker_offsets + moved) + rng.normal(
-        0.0, noise, rigid.shape
+        0.0, errors.noise, rigid.shape
     )
     segments = tuple(body.segments[index] for index in body.marker_segments)
     tree = {name: body.segments[up] if up >= 0 else None for name, up in zip(body.segments, body.parents, strict=True)}

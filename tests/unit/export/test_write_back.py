@@ -6,7 +6,7 @@ import pytest
 from markermend.core.recording import FILLED, MISSING, ORIGINS, BadRecording, Recording, Restored, changed
 from markermend.export import write_back
 from markermend.formats import comparison, files
-from markermend.formats.c3d.writer import write_new
+from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import atomic
 
 STORAGES = ("pc_int", "pc_real", "dec_int", "dec_real", "sgi_int", "sgi_real")
@@ -19,13 +19,15 @@ def original(path, storage_name="pc_real"):
     positions[20:25, 1] = np.nan
     write_new(
         path,
-        labels=["A", "B", "*3", "C"],
-        positions=positions,
-        rate=100.0,
-        first_frame=701,
-        storage=storage_name,
-        unit="mm",
-        analog=rng.normal(0, 1, (50, 2, 3)),
+        Content(
+            labels=["A", "B", "*3", "C"],
+            positions=positions,
+            rate=100.0,
+            first_frame=701,
+            storage=storage_name,
+            unit="mm",
+            analog=rng.normal(0, 1, (50, 2, 3)),
+        ),
     )
     reading = files.read(path, unlabelled=[r"\*\d+"], rate=None)
     source = {

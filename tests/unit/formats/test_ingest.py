@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from markermend.core.recording import BadRecording, Recording
-from markermend.formats.ingest import ingest, kind_of, motion_mm
+from markermend.formats.ingest import ingest, motion_mm, recording_kind
 from markermend.formats.reading import Reading
+from markermend.options.ingest import IngestOptions
 
-NAMES = ["static", r"(^|[^a-z])cal\d*$"]
+OPTIONS = IngestOptions(static_names=("static", r"(^|[^a-z])cal\d*$"), static_motion_mm=15.0)
 
 
 def moving(frames=300, markers=10, amplitude=400.0):
@@ -28,11 +29,11 @@ def reading_of(recording, **more):
 
 def ingested(reading, **more):
     options = {"source": "walk.c3d", "recording": "walk", "subject": "Anna", "kind": "auto"}
-    return ingest(reading, **{**options, "static_names": NAMES, "static_motion_mm": 15.0, **more})
+    return ingest(reading, **{**options, **more}, options=OPTIONS)
 
 
 def kind(recording, name="walk", stated="auto"):
-    return kind_of(recording, name=name, kind=stated, static_names=NAMES, static_motion_mm=15.0)
+    return recording_kind(recording, name=name, kind=stated, options=OPTIONS)
 
 
 def test_facts_state_what_was_read():

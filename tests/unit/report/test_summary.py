@@ -14,8 +14,8 @@ from support.small_result import FOUND, RECORD, WEIGHTS
 
 def summary_of(before: Recording, after: Restored, changes: list[Change], **more) -> dict:
     left = left_open(after, FOUND, changes, RECORD)
-    parts = {"found": FOUND, "changes": changes, "left": left, "warnings": ["odd"], "weights": WEIGHTS, **more}
-    return report_summary.summarize(before=before, after=after, **parts)
+    parts = {"found": FOUND, "changes": changes, "left": left, "warnings": ["odd"], **more}
+    return report_summary.with_attention(report_summary.summarize(before=before, after=after, **parts), WEIGHTS)
 
 
 def test_summary(before, after, changes):
@@ -47,9 +47,8 @@ def test_attention_adds_up(before, after, changes):
 def test_nothing_done_is_unchanged_and_wants_no_attention(before):
     whole = replace(before, positions=np.nan_to_num(before.positions))
     still = Restored(*vars(whole).values(), np.zeros((10, 3), np.uint8), np.zeros((10, 3)), np.zeros((10, 3)))
-    summary = report_summary.summarize(
-        before=whole, after=still, found={"peaks": []}, changes=[], left=[], warnings=[], weights=WEIGHTS
-    )
+    parts = {"found": {"peaks": []}, "changes": [], "left": [], "warnings": []}
+    summary = report_summary.with_attention(report_summary.summarize(before=whole, after=still, **parts), WEIGHTS)
     assert (summary["status"], summary["attention"], summary["changed_samples"]) == ("unchanged", 0.0, 0)
     assert summary["largest_change_mm"] is None and summary["expected_error_max_mm"] is None
 

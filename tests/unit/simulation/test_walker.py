@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.distance import pdist
 
 from markermend.numerics.intervals import runs
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import kind, make_body
 from support.walkers import marker, person, speed
 
@@ -25,7 +25,14 @@ def test_the_motion_does_not_depend_on_the_rate():
 def test_a_body_can_be_recorded_more_than_once():
     body = make_body(rng=np.random.default_rng(3))
     one, two = (
-        walk(body=body, duration=3.0, rate=100.0, activities=["walk"], noise=0.0, soft_tissue=0.0, rng=rng)
+        walk(
+            body=body,
+            duration=3.0,
+            rate=100.0,
+            activities=["walk"],
+            errors=MeasurementErrors(noise=0.0, soft_tissue=0.0),
+            rng=rng,
+        )
         for rng in np.random.default_rng(4).spawn(2)
     )
     head = [one.segments.index("head"), *range(one.segments.index("head") + 1, one.segments.index("head") + 4)]

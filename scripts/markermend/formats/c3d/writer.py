@@ -6,6 +6,7 @@ Only for recordings that have no original file, such as synthetic ones: a cleane
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ STORAGES = {
 }
 """Processor and whether the data are floating point, by the name of the storage."""
 
-MOST = 65535
+MAX_COUNT = 65535
 """The largest count that a 16-bit word holds."""
 
 FULL_SCALE = 32000
@@ -36,25 +37,12 @@ CAMERAS = 0x0F << 8
 """Camera mask of a measured sample in word 4: without one, and with residual 0, it would count as not measured."""
 
 
-def write_new(
-    path: Path,
-    *,
-    labels: Sequence[str],
-    positions: np.ndarray,
-    rate: float,
-    first_frame: int = 1,
-    storage: str = "pc_real",
-    unit: str = "mm",
-    residuals: np.ndarray | None = None,
-    analog: np.ndarray | None = None,
-    groups: Groups | None = None,
-) -> None:
-    """Write a new C3D file.
+@dataclass(frozen=True, eq=False)
+class Content:
+    """What a new C3D file holds.
 
-    Parameters
+    Attributes
     ----------
-    path : Path
-        Where it goes.
     labels : sequence of str
         One for each point.
     positions : ndarray of float, shape (frames, points, 3)
@@ -73,7 +61,34 @@ def write_new(
     analog : ndarray of float, shape (frames, samples, channels), optional
         Analog signals, so many samples per frame.
     groups : Groups, optional
-        Further parameters, which replace those written here where group and name are equal.
+        Further parameters, which replace those made of the other fields where group and name are equal.
+    """
+
+    labels: Sequence[str]
+    positions: np.ndarray
+    rate: float
+    first_frame: int = 1
+    storage: str = "pc_real"
+    unit: str = "mm"
+    residuals: np.ndarray | None = None
+    analog: np.ndarray | None = None
+    groups: Groups | None = None
+
+    @property
+    def frames(self) -> int:
+        """Number of frames."""
+        return len(self.positions)
+
+
+def write_new(path: Path, content: Content) -> None:
+    """Write a new C3D file.
+
+    Parameters
+    ----------
+    path : Path
+        Where it goes.
+    content : Content
+        What it holds.
 
     Raises
     ------
@@ -82,32 +97,32 @@ def write_new(
     ValueError
         If the shapes disagree, or the parameters exceed what a C3D file can hold.
     """
-    processor, real = STORAGES[storage]
-    coding, frames = Coding(processor), len(positions)
-    if positions.shape != (frames, len(labels), 3):
-        raise ValueError(f"positions {positions.shape} do not fit {len(labels)} labels")
-    scale, points = _points(positions, residuals, real)
-    analog_scale, samples = _samples(np.zeros((frames, 0, 0)) if analog is None else analog, real)
+    processor, real = STORAGES[content.storage]
+    coding, frames = Coding(processor), content.frames
+    if content.positions.shape != (frames, len(content.labels), 3):
+        raise ValueError(f"positions {content.positions.shape} do not fit {len(content.labels)} labels")
+    scale, points = _points(content.positions, content.residuals, real)
+    analog_scale, samples = _samples(np.zeros((frames, 0, 0)) if content.analog is None else content.analog, real)
     own: dict[str, dict[str, Any]] = {
-        "POINT": _point_group(labels, frames, rate, -scale if real else scale, unit),
-        "ANALOG": _analog_group(analog_scale, rate * samples.shape[1]),
-        "TRIAL": _trial_group(first_frame, frames, rate),
+        "POINT": _point_group(content, -scale if real else scale),
+        "ANALOG": _analog_group(analog_scale, content.rate * samples.shape[1]),
+        "TRIAL": _trial_group(content.first_frame, frames, content.rate),
     }
-    for group, parameters in (groups or {}).items():
+    for group, parameters in (content.groups or {}).items():
         own[group] = {**own.get(group, {}), **parameters}
     section = encode_section(own, coding)
     numbers = np.concatenate((points.reshape(frames, -1), samples.reshape(frames, -1)), axis=1).ravel()
     data = single(numbers, coding) if real else coding.encode_integers(np.rint(numbers)).tobytes()
     with replacing(path) as temporary, open(temporary, "wb") as file:
-        file.write(_header(own["POINT"], first_frame, first_frame + frames - 1, samples.shape, coding))
+        file.write(_header(own["POINT"], content.first_frame, content.first_frame + frames - 1, samples.shape, coding))
         file.write(section)
         # Where 16 bits cannot hold the number of frames, readers count them by the size of the file.
-        file.write(padded(data) if frames < MOST else data)
+        file.write(padded(data) if frames < MAX_COUNT else data)
 
 
 def _header(point: dict[str, Any], first: int, last: int, samples: tuple[int, ...], coding: Coding) -> bytes:
     """The header block, which repeats some parameters; frame numbers beyond 16 bits are cut short here only."""
-    counts = [point["USED"], samples[1] * samples[2], min(first, MOST), min(last, MOST), 0]
+    counts = [point["USED"], samples[1] * samples[2], min(first, MAX_COUNT), min(last, MAX_COUNT), 0]
     return padded(
         bytes([2, KEY])
         + coding.encode_integers(counts).tobytes()
@@ -138,21 +153,21 @@ def _samples(analog: np.ndarray, real: bool) -> tuple[np.ndarray, np.ndarray]:
     return scale, analog / scale
 
 
-def _point_group(labels: Sequence[str], frames: int, rate: float, scale: float, unit: str) -> dict[str, Any]:
+def _point_group(content: Content, scale: float) -> dict[str, Any]:
     """POINT parameters; DATA_START is set when the length of the section is known."""
     group = {
-        "USED": len(labels),
+        "USED": len(content.labels),
         "SCALE": scale,
-        "RATE": float(rate),
+        "RATE": float(content.rate),
         "DATA_START": 0,
-        "FRAMES": min(frames, MOST),
-        "LABELS": list(labels),
-        "DESCRIPTIONS": [""] * len(labels),
-        "UNITS": unit,
+        "FRAMES": min(content.frames, MAX_COUNT),
+        "LABELS": list(content.labels),
+        "DESCRIPTIONS": [""] * len(content.labels),
+        "UNITS": content.unit,
         "X_SCREEN": "+X",
         "Y_SCREEN": "+Z",
     }
-    return {**group, "LONG_FRAMES": float(frames)} if frames > MOST else group
+    return {**group, "LONG_FRAMES": float(content.frames)} if content.frames > MAX_COUNT else group
 
 
 def _analog_group(scale: np.ndarray, rate: float) -> dict[str, Any]:
@@ -177,7 +192,7 @@ def _trial_group(first_frame: int, frames: int, rate: float) -> dict[str, Any]:
     """TRIAL parameters: frame numbers of any size as low and high word."""
     last = first_frame + frames - 1
     return {
-        "ACTUAL_START_FIELD": [first_frame & MOST, first_frame >> 16],
-        "ACTUAL_END_FIELD": [last & MOST, last >> 16],
+        "ACTUAL_START_FIELD": [first_frame & MAX_COUNT, first_frame >> 16],
+        "ACTUAL_END_FIELD": [last & MAX_COUNT, last >> 16],
         "CAMERA_RATE": float(rate),
     }

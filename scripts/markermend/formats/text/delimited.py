@@ -88,10 +88,7 @@ def _layout(
     units = {unit_named(sheet, unit) for axes in complete.values() for _, unit in axes.values() if unit}
     if len(units) > 1:
         raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(units))})")
-    frame = next((i for i, title in enumerate(titles) if _FRAME.fullmatch(title) or (i == 0 and not title)), None)
-    time, clock = next(
-        ((i, match) for i, title in enumerate(titles) if (match := _TIME.fullmatch(title))), (None, None)
-    )
+    frame, time, seconds = _counting_columns(titles)
     warnings = [
         f"Columns of '{name}' do not have all of x, y, z and are left alone."
         for (name, _), axes in found.items()
@@ -112,8 +109,17 @@ def _layout(
         rate=None,
         frame=frame,
         time=time,
-        seconds=0.001 if clock and (clock["unit"] or "").lower() == "ms" else 1.0,
+        seconds=seconds,
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
         own_missing=True,
         warnings=tuple(warnings),
     )
+
+
+def _counting_columns(titles: Sequence[str]) -> tuple[int | None, int | None, float]:
+    """The columns of frame numbers and of times, None where there is none, and the unit of the times in s."""
+    frame = next((i for i, title in enumerate(titles) if _FRAME.fullmatch(title) or (i == 0 and not title)), None)
+    time, match = next(
+        ((i, match) for i, title in enumerate(titles) if (match := _TIME.fullmatch(title))), (None, None)
+    )
+    return frame, time, 0.001 if match and (match["unit"] or "").lower() == "ms" else 1.0

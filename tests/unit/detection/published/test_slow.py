@@ -9,7 +9,7 @@ from markermend.core import events
 from markermend.detection.published import slow
 from markermend.options.prediction import PredictorOptions
 from markermend.prediction.scene import Scene
-from markermend.simulation.walker import walk
+from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 from support.signals import RATES, frames, neighbours, options_of, put
 
@@ -118,7 +118,12 @@ def test_a_loose_predictor_follows_a_hill_in_a_pose_that_comes_once():
     """What the published way gets wrong: it judges what it was trained on, and a standing person's sway tells the time."""
     rng = np.random.default_rng(2022)
     person = walk(
-        body=make_body(rng=rng), duration=22.0, rate=100.0, activities=["stand"], noise=0.2, soft_tissue=1.0, rng=rng
+        body=make_body(rng=rng),
+        duration=22.0,
+        rate=100.0,
+        activities=["stand"],
+        errors=MeasurementErrors(noise=0.2, soft_tissue=1.0),
+        rng=rng,
     )
     recording = put(person.recording, [("C7", 1000, 1100)], lambda length: triangle(length)[:, None] * [1, 0, 0])
     near, marker = neighbours(recording.positions), recording.markers.index("C7")

@@ -7,7 +7,7 @@ import ezc3d
 import numpy as np
 import pytest
 
-from markermend.formats.c3d.writer import STORAGES, write_new
+from markermend.formats.c3d.writer import STORAGES, Content, write_new
 
 
 def trial(frames, markers, *, seed=1):
@@ -38,10 +38,8 @@ def test_c3d_reads_equal_values(tmp_path, storage, unit):
     analog = np.random.default_rng(2).normal(0, 3, (40, 4, 3))
     groups = {"SUBJECTS": {"NAMES": ["S01"], "USED": 1}, "POINT": {"DESCRIPTIONS": ["of a test"] * 5}}
     path = tmp_path / "a.c3d"
-    write_new(
-        path, labels=labels, positions=positions, rate=120.0, first_frame=705, storage=storage, unit=unit,
-        analog=analog, groups=groups,
-    )  # fmt: skip
+    content = Content(labels, positions, 120.0, 705, storage, unit, analog=analog, groups=groups)
+    write_new(path, content)
     reader, points, samples = read_with_c3d(path)
     missing = np.isnan(positions).any(axis=2)
     assert [label.strip() for label in reader.point_labels] == labels
@@ -61,7 +59,9 @@ def test_ezc3d_reads_equal_values(tmp_path, storage):
     analog = np.random.default_rng(2).normal(0, 3, (40, 4, 3))
     groups = {"EVENT": {"USED": 2, "LABELS": ["Foot Strike", "Foot Off"], "TIMES": np.array([[0.0, 0.0], [0.1, 0.2]])}}
     path = tmp_path / "a.c3d"
-    write_new(path, labels=labels, positions=positions, rate=100.0, storage=storage, analog=analog, groups=groups)
+    write_new(
+        path, Content(labels=labels, positions=positions, rate=100.0, storage=storage, analog=analog, groups=groups)
+    )
     read = ezc3d.c3d(str(path))
     points = read["data"]["points"][:3].transpose(2, 1, 0)
     missing = np.isnan(positions).any(axis=2)
@@ -78,7 +78,9 @@ def test_residuals_come_back_within_their_step(tmp_path, storage):
     positions = np.random.default_rng(3).normal(0, 500, (20, 4, 3))
     residuals = np.random.default_rng(4).uniform(0, 5, (20, 4))
     residuals[5, 2] = -1
-    write_new(tmp_path / "a.c3d", labels="ABCD", positions=positions, rate=50.0, storage=storage, residuals=residuals)
+    write_new(
+        tmp_path / "a.c3d", Content(labels="ABCD", positions=positions, rate=50.0, storage=storage, residuals=residuals)
+    )
     _, points, _ = read_with_c3d(tmp_path / "a.c3d")
     present = residuals >= 0
     assert np.abs(points[:, :, 3] - residuals)[present].max() < np.abs(positions).max() / 32000
@@ -87,7 +89,7 @@ def test_residuals_come_back_within_their_step(tmp_path, storage):
 
 def test_more_than_255_labels_go_on_in_labels2(tmp_path):
     positions, labels = trial(10, 600)
-    write_new(tmp_path / "a.c3d", labels=labels, positions=positions, rate=100.0)
+    write_new(tmp_path / "a.c3d", Content(labels=labels, positions=positions, rate=100.0))
     point = ezc3d.c3d(str(tmp_path / "a.c3d"))["parameters"]["POINT"]
     assert [len(point[name]["value"]) for name in ("LABELS", "LABELS2", "LABELS3")] == [255, 255, 90]
     assert point["LABELS"]["value"] + point["LABELS2"]["value"] + point["LABELS3"]["value"] == labels
@@ -97,7 +99,7 @@ def test_more_than_255_labels_go_on_in_labels2(tmp_path):
 
 def test_more_than_65535_frames(tmp_path):
     positions = np.linspace(1, 900, 70000 * 3).reshape(70000, 1, 3)
-    write_new(tmp_path / "a.c3d", labels=["A"], positions=positions, rate=1000.0)
+    write_new(tmp_path / "a.c3d", Content(labels=["A"], positions=positions, rate=1000.0))
     with open(tmp_path / "a.c3d", "rb") as file:
         assert c3d.Reader(file).frame_count == 70000
     points = ezc3d.c3d(str(tmp_path / "a.c3d"))["data"]["points"]
@@ -107,16 +109,17 @@ def test_more_than_65535_frames(tmp_path):
 def test_equal_arguments_give_equal_bytes(tmp_path):
     positions, labels = trial(30, 4)
     for name in ("a", "b"):
-        write_new(tmp_path / name, labels=labels, positions=positions, rate=100.0)
+        write_new(tmp_path / name, Content(labels=labels, positions=positions, rate=100.0))
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
 def test_what_does_not_fit_is_refused(tmp_path):
     positions, labels = trial(30, 4)
     with pytest.raises(ValueError, match="do not fit 3 labels"):
-        write_new(tmp_path / "a", labels=labels[:3], positions=positions, rate=100.0)
+        write_new(tmp_path / "a", Content(labels=labels[:3], positions=positions, rate=100.0))
     with pytest.raises(ValueError, match="blocks"):
         write_new(
-            tmp_path / "a", labels=[f"{n:0200d}" for n in range(4)] * 200, positions=np.zeros((1, 800, 3)), rate=1
+            tmp_path / "a",
+            Content(labels=[f"{n:0200d}" for n in range(4)] * 200, positions=np.zeros((1, 800, 3)), rate=1),
         )
     assert not list(tmp_path.iterdir())

@@ -1,0 +1,149 @@
+"""All that the stages wrote about one recording: it before and after, what was found, changed and left, and how."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from markermend.core.changes import Change, Outcome
+from markermend.core.events import Event
+from markermend.core.labels import follow
+from markermend.core.mesh import Mesh
+from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.report.decision_outcomes import DecisionOutcome, outcomes
+from markermend.report.open_findings import left_open, worst_first
+from markermend.storage import change_file, stage_files
+from markermend.storage.mesh_file import for_recording
+
+
+class QcCall(Protocol):
+    """The files that the stage qc reads.
+
+    Attributes
+    ----------
+    markers, repaired, filled : Path
+        Trajectories as ingested, after repair and after filling.
+    mesh : Path
+        Meshes of the subject.
+    events : sequence of Path
+        Events of the detectors, in their order.
+    changes : Path
+        What repair and filling did to each stretch.
+    certificate : Path
+        What export states about the cleaned file.
+    """
+
+    markers: Path
+    repaired: Path
+    filled: Path
+    mesh: Path
+    events: Sequence[Path]
+    changes: Path
+    certificate: Path
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One recording before and after cleaning, what was found, changed and left in it, and how.
+
+    Attributes
+    ----------
+    before, after : Recording
+        As ingested, and after repair and filling.
+    mesh : Mesh
+        The subject's mesh, for this recording.
+    found : dict[str, list[Event]]
+        Events by detector, for those that ran.
+    record : tuple of Change
+        What repair and filling did to each stretch.
+    changes, left : list of Change
+        What was changed and what was left as it is, worst first.
+    certificate : dict of str to Any
+        What export states about the cleaned file.
+    stages : dict[str, dict[str, Any]]
+        The options of every stage.
+    """
+
+    before: Recording
+    after: Restored
+    mesh: Mesh
+    found: dict[str, list[Event]]
+    record: tuple[Change, ...]
+    changes: list[Change]
+    left: list[Change]
+    certificate: dict[str, Any]
+    stages: dict[str, dict[str, Any]]
+
+    @property
+    def decided(self) -> list[DecisionOutcome]:
+        """The outcomes of a person's decisions."""
+        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of ingest, mesh and export, and of decisions that did nothing."""
+        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
+        if refused := self.certificate["refused"]:
+            warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
+        return warnings + [outcome.warning for outcome in self.decided if outcome.warning]
+
+
+def read_evidence(call: QcCall) -> Evidence:
+    """Read what the stages wrote.
+
+    Parameters
+    ----------
+    call : QcCall
+        The files that the stage qc reads.
+
+    Returns
+    -------
+    Evidence
+        The recording before and after, and the record of its cleaning.
+
+    Raises
+    ------
+    SetAside
+        If a stage set the recording aside.
+    BadRecording
+        If the filled recording does not state the origins of its samples.
+    """
+    before, after = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
+    if not isinstance(after, Restored):
+        raise BadRecording(f"{call.filled.name} does not state where its samples come from: run the fill stage again")
+    certificate = stage_files.read_json(call.certificate)
+    if "untouched" in certificate:
+        raise SetAside(**certificate["untouched"])
+    meshes = stage_files.read_json(call.mesh)
+    facts_found = [stage_files.read_facts(path) for path in call.events]
+    found = {
+        facts["stage"]: stage_files.read_events(path) for facts, path in zip(facts_found, call.events, strict=True)
+    }
+    record = change_file.read(call.changes)
+    found = _as_repaired(found, record)
+    changes = worst_first(before, after, record)
+    steps = [before.facts, meshes.get("facts", {}), *facts_found, stage_files.read_facts(call.repaired), after.facts]
+    return Evidence(
+        before=before,
+        after=after,
+        mesh=for_recording(meshes, before.facts["recording"]),
+        found=found,
+        record=record,
+        changes=changes,
+        left=left_open(after, found, changes, record),
+        certificate=certificate,
+        stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
+    )
+
+
+def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dict[str, list[Event]]:
+    """Findings under the labels that their samples have after repair, which may leave an exchange of labels undone."""
+    exchanged = [change for change in record if change.outcome is Outcome.EXCHANGED]
+    carried = [Event(one.marker, one.start, one.stop, 1.0, partner=one.partner) for one in exchanged]
+    exchanges = found.get("labels", [])
+    return {
+        stage: events if stage == "labels" else follow(events, found_under=exchanges, stated_under=carried)
+        for stage, events in found.items()
+    }
