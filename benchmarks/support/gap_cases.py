@@ -17,8 +17,8 @@ import numpy as np
 from benchmarks.support.defaults import OPTIONS
 from markermend import api
 from markermend.core.recording import MEASURED, MISSING, Recording, Restored
-from markermend.filling.ensembles import Ensembles, make_ensembles
 from markermend.filling.fill import fill_scene
+from markermend.filling.fill_ensembles import Ensembles, make_ensembles
 from markermend.options.filling import EnsembleOptions, FillOptions
 from markermend.options.values import Reader, plain
 from markermend.prediction.scene import Scene

@@ -6,8 +6,8 @@ import numpy as np
 
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.filling.ensemble import Ensemble
-from markermend.filling.ensembles import make_ensembles
 from markermend.filling.fill import fill_scene
+from markermend.filling.fill_ensembles import make_ensembles
 from markermend.options.filling import FillOptions
 from markermend.options.prediction import NeuralNetworkOptions, PredictorOptions
 from markermend.prediction.registry import members

@@ -132,31 +132,18 @@ class Stage:
         logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
         arguments = vars(self.parser.parse_args(argv))
         log.info("%s", shlex.join([sys.executable, *([sys.argv[0], *argv] if argv is not None else sys.argv)]))
-        call = SimpleNamespace(**{name: arguments[name] for name in self.inputs + self.outputs})
         made = [
             cls(**{option.name: arguments[option.name] for option in options}) for cls, options in self._classes.items()
         ]
-        call.options = made[0]
+        call = SimpleNamespace(**{name: arguments[name] for name in self.inputs + self.outputs}, options=made[0])
         vars(call).update(vars(made[-1]) if len(made) > 1 else {})
         started = time.perf_counter()
-        failure: SetAside | None = None
-        try:
-            call.facts = {
-                "stage": self.name,
-                "options": {name: own for each in made for name, own in passed(each).items()},
-                "inputs": {name: hashes(arguments[name]) for name in self.inputs},
-            }
-            result = work(call)
-        except SetAside as note:
-            failure, result = note, f"set aside by {note.stage}: {note.reason}"
-        except BadRecording as bad:
-            failure, result = SetAside(self.name, printable(str(bad))), f"set aside: {bad}"
-        except Exception as error:
-            log.error("%s", traceback.format_exc())
-            text = printable(self._without_folders(str(error), arguments))
-            reason = f"{self.name} failed: {type(error).__name__}: {text}"
-            failure, result = SetAside(self.name, reason), f"set aside: {reason}"
-            self._count_failure(call, failure)
+
+        def prepare_and_work() -> str | None:
+            call.facts = self._facts(arguments, made)
+            return work(call)
+
+        result, failure = self._attempt(prepare_and_work, call, arguments)
         if failure is not None:
             if set_aside is not None:
                 set_aside(call, failure)
@@ -164,6 +151,31 @@ class Stage:
                 for name in self.outputs:
                     stage_files.set_aside(getattr(call, name), failure.stage, failure.reason)
         log.info("%s: %s (%.2f s)", self.name, result or "done", time.perf_counter() - started)
+
+    def _facts(self, arguments: dict[str, Any], options: Sequence[Any]) -> dict[str, Any]:
+        """What the outputs store: the stage, its options, and the checksums of its inputs."""
+        return {
+            "stage": self.name,
+            "options": {name: own for each in options for name, own in passed(each).items()},
+            "inputs": {name: hashes(arguments[name]) for name in self.inputs},
+        }
+
+    def _attempt(
+        self, work: Callable[[], str | None], call: Any, arguments: dict[str, Any]
+    ) -> tuple[str | None, SetAside | None]:
+        """The line of result, and why the recording is set aside; None where it is not."""
+        try:
+            return work(), None
+        except SetAside as note:
+            return f"set aside by {note.stage}: {note.reason}", note
+        except BadRecording as bad:
+            return f"set aside: {bad}", SetAside(self.name, printable(str(bad)))
+        except Exception as error:
+            log.error("%s", traceback.format_exc())
+            text = printable(self._without_folders(str(error), arguments))
+            failure = SetAside(self.name, f"{self.name} failed: {type(error).__name__}: {text}")
+            self._count_failure(call, failure)
+            return f"set aside: {failure.reason}", failure
 
     def _without_folders(self, text: str, arguments: dict[str, Any]) -> str:
         """A message with the stage's files by their names alone: results hold no absolute path."""

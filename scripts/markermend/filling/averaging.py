@@ -1,4 +1,4 @@
-"""The weighted mean of the members of an ensemble: how they are weighted, and how sure their mean is."""
+"""The weighted mean of the members of an ensemble: their weights, and the standard deviation of their mean."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from markermend.filling.member_weights import (
     inverse_power_weights,
     typical_errors,
 )
-from markermend.filling.model_averaging import mixture_deviation, weighted_mean
+from markermend.filling.mixture import mixture_deviation, weighted_mean
 from markermend.options.filling import EnsembleOptions
 from markermend.prediction.scene import Scene
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.filling.constraints import constrain_spacing
-from markermend.filling.model_averaging import pma_likelihood
 from markermend.numerics.kernel_density import Density, kernel_density
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
@@ -128,3 +127,50 @@ class DistanceModel:
             high=options.spacing_upper_quantile,
             rounds=options.spacing_rounds,
         )
+
+
+def pma_likelihood(
+    positions: np.ndarray, references: np.ndarray, densities: Sequence[Density], *, window: int, floor: float
+) -> np.ndarray:
+    """Compute the likelihood of positions from their distances to references.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (members, n, 3)
+        Predictions of each member, mm.
+    references : ndarray, shape (n, k, 3)
+        Positions of the references, mm; one that is missing (NaN) does not count in that frame.
+    densities : sequence of Density
+        Densities of the k distances.
+    window : int
+        Frames of the moving average over the likelihoods.
+    floor : float
+        Least likelihood; positions that are NaN get it.
+
+    Returns
+    -------
+    ndarray, shape (members, n)
+        Likelihoods.
+
+    References
+    ----------
+    tits2018, eq 20-23.
+    """
+    distance = np.linalg.norm(positions[:, :, None] - references, axis=3)
+    logarithm = np.zeros(positions.shape[:2])
+    for r, density in enumerate(densities):
+        seen = ~np.isnan(references[:, r]).any(axis=1)
+        logarithm[:, seen] += density.log_density(distance[:, seen, r])
+    likelihood = np.maximum(np.exp(np.nan_to_num(logarithm, nan=-np.inf)), floor)
+    return _moving_average(likelihood, window)
+
+
+def _moving_average(values: np.ndarray, window: int) -> np.ndarray:
+    """Centred moving average along the second axis; at the ends over the frames that there are."""
+    if window <= 1:
+        return values
+    kernel = np.ones(window)
+    full = np.stack([np.convolve(row, kernel) for row in values])
+    count = np.convolve(np.ones(values.shape[1]), kernel)
+    offset = (window - 1) // 2
+    return (full / count)[:, offset : offset + values.shape[1]]

@@ -10,7 +10,7 @@ from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
 from markermend.core.recording import FILLED, Restored
 from markermend.filling.ensemble import Ensemble
-from markermend.filling.ensembles import Ensembles, make_ensembles
+from markermend.filling.fill_ensembles import Ensembles, make_ensembles
 from markermend.filling.fill_plan import FillPlan, plan_filling
 from markermend.filling.gap_filler import FilledGaps, GapFiller
 from markermend.filling.growing_scene import GrowingScene

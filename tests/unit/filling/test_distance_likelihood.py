@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.filling.distance_likelihood import DistanceModel
+from markermend.filling.distance_likelihood import DistanceModel, pma_likelihood
+from markermend.numerics.kernel_density import kernel_density
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import reference_markers
 from support.fillings import scene
@@ -52,3 +53,30 @@ def test_without_references_nothing_is_judged(body):
     assert len(model.references) == 0
     assert (model.likelihood(body[None, :, 9] + 60, body) == 1).all()
     assert np.array_equal(model.constrain(body[:, 9] + 60, body), body[:, 9] + 60)
+
+
+@pytest.fixture
+def distances():
+    return [np.random.default_rng(8).normal(100 + 40 * j, 3 + j, 300) for j in range(3)]
+
+
+def test_smoothing_is_a_moving_average_and_the_floor_holds(distances):
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
+    references = np.zeros((9, 3, 3)) + np.diag([100.0, 140.0, 180.0])
+    positions = np.zeros((1, 9, 3))
+    positions[0, 4] = 1e5
+    single = pma_likelihood(positions, references, densities, window=1, floor=1e-200)[0]
+    smooth = pma_likelihood(positions, references, densities, window=3, floor=1e-200)[0]
+    assert single[4] == 1e-200
+    assert smooth[4] == pytest.approx((single[3] + single[4] + single[5]) / 3)
+    assert smooth[0] == pytest.approx((single[0] + single[1]) / 2)
+
+
+def test_a_reference_that_is_not_seen_does_not_count(distances):
+    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
+    references = np.zeros((5, 3, 3)) + np.diag([100.0, 140.0, 180.0])
+    references[2, 1] = np.nan
+    positions = np.random.default_rng(8).normal(0, 2, (2, 5, 3))
+    found = pma_likelihood(positions, references, densities, window=1, floor=0.0)
+    without = pma_likelihood(positions, references[:, [0, 2]], [densities[0], densities[2]], window=1, floor=0.0)
+    assert np.allclose(found[:, 2], without[:, 2])

@@ -3,7 +3,7 @@
 import pytest
 
 from markermend.core.decisions import Decision
-from markermend.filling.ensembles import make_ensembles
+from markermend.filling.fill_ensembles import make_ensembles
 from markermend.options.prediction import LocalRidgeOptions
 from support.fillings import fill_options
 

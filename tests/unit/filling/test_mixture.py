@@ -1,10 +1,11 @@
-"""The averaging against the paper's formulas frame by frame."""
+"""Mean and weights of a mixture, against the published formulas frame by frame."""
 
 import numpy as np
 import pytest
 from scipy.stats import gaussian_kde
 
-from markermend.filling.model_averaging import pma_likelihood, weighted_mean
+from markermend.filling.distance_likelihood import pma_likelihood
+from markermend.filling.mixture import weighted_mean
 from markermend.numerics.kernel_density import kernel_density
 
 RNG = np.random.default_rng(8)
@@ -40,28 +41,6 @@ def test_weights_and_mean_equal_the_formulas(distances):
     assert np.allclose(likelihood, raw)
     assert np.allclose(mean, expected)
     assert np.allclose(weights.sum(axis=0), 1)
-
-
-def test_smoothing_is_a_moving_average_and_the_floor_holds(distances):
-    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
-    references = np.zeros((9, 3, 3)) + np.diag([100.0, 140.0, 180.0])
-    positions = np.zeros((1, 9, 3))
-    positions[0, 4] = 1e5
-    sharp = pma_likelihood(positions, references, densities, window=1, floor=1e-200)[0]
-    smooth = pma_likelihood(positions, references, densities, window=3, floor=1e-200)[0]
-    assert sharp[4] == 1e-200
-    assert smooth[4] == pytest.approx((sharp[3] + sharp[4] + sharp[5]) / 3)
-    assert smooth[0] == pytest.approx((sharp[0] + sharp[1]) / 2)
-
-
-def test_a_reference_that_is_not_seen_does_not_count(distances):
-    densities = [kernel_density(sample, max_samples=1000) for sample in distances]
-    references = np.zeros((5, 3, 3)) + np.diag([100.0, 140.0, 180.0])
-    references[2, 1] = np.nan
-    positions = RNG.normal(0, 2, (2, 5, 3))
-    found = pma_likelihood(positions, references, densities, window=1, floor=0.0)
-    without = pma_likelihood(positions, references[:, [0, 2]], [densities[0], densities[2]], window=1, floor=0.0)
-    assert np.allclose(found[:, 2], without[:, 2])
 
 
 def test_members_without_a_prediction_are_left_out():
