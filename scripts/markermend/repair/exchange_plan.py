@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from markermend.core.decisions import Ruling
 from markermend.core.events import Event
-from markermend.core.reasons import Reason
+from markermend.core.reasons import Cause, Reason
 from markermend.repair.apply_decisions import Judgement
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.findings import Rulings
@@ -49,7 +49,13 @@ class PlannedExchange:
         return any((own.marker, own.start, own.stop) == place for own in self.cycle)
 
 
-def plan_exchanges(judged: Judgement, rulings: Rulings, maker: CandidateMaker, *, usual: bool) -> list[PlannedExchange]:
+NO_METHOD = Reason(Cause.NO_METHOD, "no method for labels: left as recorded")
+"""Why labels are not exchanged where the options name no method for them."""
+
+
+def plan_exchanges(
+    judged: Judgement, rulings: Rulings, maker: CandidateMaker, *, methods: Sequence[str], usual: bool
+) -> list[PlannedExchange]:
     """Plan the exchanges of labels.
 
     Parameters
@@ -60,8 +66,10 @@ def plan_exchanges(judged: Judgement, rulings: Rulings, maker: CandidateMaker, *
         The decisions.
     maker : CandidateMaker
         Judges whether the markers of a cycle are better with the samples of their partners.
+    methods : sequence of str
+        The methods for exchanged labels. Without `exchange`, only what a person confirmed is exchanged.
     usual : bool
-        Whether labels are exchanged that no person confirmed.
+        Whether anything is repaired that no person confirmed; if not, its exchanges are not planned.
 
     Returns
     -------
@@ -75,7 +83,9 @@ def plan_exchanges(judged: Judgement, rulings: Rulings, maker: CandidateMaker, *
         new = not any(exchange.holds(event) for exchange in planned)
         if event.partner in judged.recording.markers and wanted and new:
             cycle = tuple(cycle_of(event, judged.found["labels"]))
-            reason = None if ruling.confirmed else _worse(cycle, judged.recording.markers, maker)
+            reason = None
+            if not ruling.confirmed:
+                reason = _worse(cycle, judged.recording.markers, maker) if "exchange" in methods else NO_METHOD
             planned.append(PlannedExchange(cycle, ruling, reason))
     return planned
 

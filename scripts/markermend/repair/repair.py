@@ -105,8 +105,8 @@ def repair_scene(
         Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(judged, rulings, options)
     )
     maker = _candidate_maker(judged.recording, judged.found, scene, predictors, options)
-    usual = refusal is None and "exchange" in options.methods.get("labels", ())
-    planned = plan_exchanges(judged, rulings, maker, usual=usual)
+    methods = options.methods.get("labels", ())
+    planned = plan_exchanges(judged, rulings, maker, methods=methods, usual=refusal is None)
     carried = [event for exchange in planned if exchange.reason is None for event in exchange.cycle]
     if set(carried) != set(exchanges):
         judged = judge(recording, _follow_samples(found, exchanges, carried), rulings.decisions)

@@ -6,8 +6,9 @@ import pytest
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.recording import MISSING, ORIGINS
+from markermend.repair.exchange_plan import NO_METHOD
 from support import bodies
-from support.repairs import START, STOP, body, error, mend
+from support.repairs import METHODS, START, STOP, body, error, mend
 
 
 @pytest.fixture(scope="module")
@@ -83,3 +84,27 @@ def test_a_swap_that_a_gap_interrupts_is_undone(clean):
     result = mend(bodies.recording(clean.markers, positions), {"labels": swap})
     assert len(result.repairs) == 2
     assert np.array_equal(result.positions[:, a], clean.positions[:, a])
+
+
+def test_without_a_method_a_swap_is_left_and_a_peak_within_it_belongs_to_its_recorded_label(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[610:613, a] += 20.0
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    recording = bodies.recording(clean.markers, positions)
+    swap = [Event("2b", START, STOP, 9.0, "xyz", "3a"), Event("3a", START, STOP, 9.0, "xyz", "2b")]
+    methods = {**METHODS, "labels": []}
+    result = mend(recording, {"peaks": [Event("2b", 610, 613, 5.0)], "labels": swap}, methods=methods)
+    left = [(own.marker, own.start, own.stop) for own in result.repairs_left if own.reason == NO_METHOD]
+    assert left == [("2b", START, STOP), ("3a", START, STOP)]
+    peaks = [own for own in [*result.repairs, *result.repairs_left] if (own.start, own.stop) == (610, 613)]
+    assert [own.marker for own in peaks] == ["3a"]
+    untouched = np.ones(positions.shape[:2], bool)
+    untouched[610:613, b] = False
+    assert np.array_equal(result.positions[untouched], positions[untouched])
+    wanted = mend(
+        recording, {"labels": swap}, methods=methods, decisions=[Decision("2b", START, STOP, "accept", "swap")]
+    )
+    assert np.array_equal(
+        np.delete(wanted.positions, slice(610, 613), 0), np.delete(clean.positions, slice(610, 613), 0)
+    )
