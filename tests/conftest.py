@@ -45,7 +45,7 @@ def walker() -> Walker:
 
 @pytest.fixture(scope="session")
 def contaminated(walker: Walker) -> Contaminated:
-    """The walker with well visible artifacts of every class, two swaps, and gaps of every sort."""
+    """The walker with well visible artifacts of every class, two swaps, and gaps of every kind."""
     clean = walker.recording
     damage = Contamination(clean.positions, clean.markers, margin=30, one_at_a_time=False, rng=np.random.default_rng(5))
     damage.gap(length=integers(20, 60), markers=1, at="start", count=1)

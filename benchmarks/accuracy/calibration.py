@@ -7,7 +7,7 @@ number.
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.calibration --runs 8 --jobs 2
 
 In each run some markers, chosen at random, miss the same stretch at a random place. The stated shares are 68 and 95 %.
-Samples of one gap go together, so a cell knows little more than it has runs: the standard error is printed next to it,
+Samples of one gap go together, so a cell holds little more information than it has runs: the standard error is printed next to it,
 from the spread between runs.
 """
 

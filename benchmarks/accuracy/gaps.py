@@ -5,7 +5,7 @@ Writes: tables to stdout.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.gaps --jobs 2
 
-Settings are those of config/config.yaml, the mesh is inferred from each recording with its gaps. Only the rules of what
+Options are those of config/config.yaml, the mesh is inferred from each recording with its gaps. Only the rules of what
 may be filled are lifted: every gap counts. Protocol A (conditions g3_L1: 3 concurrent gaps of 1 s) is judged by the
 mean distance, mm; protocol B (sp2_50: 2 gaps of mean length 50 frames anywhere) by the root mean square per coordinate,
 mm.
@@ -123,7 +123,7 @@ def main() -> None:
         help="other options of advanced.fill.ensemble, such as weights=pma or distances.spacing_rounds=5",
     )
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
-    parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
+    parser.add_argument("--iterations", type=int, help="number of cases of each condition; all by default")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()

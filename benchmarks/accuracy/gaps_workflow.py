@@ -84,7 +84,7 @@ def main() -> None:
     parser.add_argument("--data", default=DATA, type=Path, help="folder that holds clean/")
     parser.add_argument("--cases", type=Path, help="cases.json (default: next to --data)")
     parser.add_argument("--conditions", nargs="+", help="only these, such as g3_L1 sp2_50")
-    parser.add_argument("--iterations", type=int, help="only the first so many of each condition")
+    parser.add_argument("--iterations", type=int, help="number of cases of each condition; all by default")
     parser.add_argument("--cores", type=int, default=1)
     parser.add_argument("--folder", type=Path, help="keep files and results here")
     arguments = parser.parse_args()

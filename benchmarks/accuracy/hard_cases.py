@@ -1,4 +1,4 @@
-"""Fill the gaps that are hard, on real clean recordings and large synthetic ones, and print what became of them.
+"""Fill the gaps that are hard, on real clean recordings and large synthetic ones, and print the outcome.
 
 Reads: clean/ in the data folder. Writes: a table to stdout.
 
@@ -44,7 +44,7 @@ class Case:
 
 
 def spread(count: int, length: int, frames: int, *, first: int = 60) -> list[int]:
-    """Starts of `count` stretches of so many frames, evenly over a recording."""
+    """Starts of `count` stretches of a number of frames, evenly over a recording."""
     starts: list[int] = np.linspace(first, frames - length - first, count).astype(int).tolist()
     return starts
 

@@ -63,7 +63,7 @@ def main() -> None:
     parser.add_argument("--cases", type=Path, help="cases.json (default: next to --data)")
     parser.add_argument("--members", nargs="+", help="only these (default: all but the slowest)")
     parser.add_argument("--conditions", nargs="+", default=CONDITIONS, help="such as g3_L1 sp2_50")
-    parser.add_argument("--iterations", type=int, default=1, help="the first so many of each condition")
+    parser.add_argument("--iterations", type=int, default=1, help="number of cases of each condition")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()

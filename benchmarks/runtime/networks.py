@@ -4,7 +4,7 @@ Writes: a table to stdout.
 
     OMP_NUM_THREADS=1 PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.networks --epochs 30
 
-Settings are those of config/config.yaml but for the epochs: time is proportional to them, and the ratio does not depend
+Options are those of config/config.yaml but for the epochs: time is proportional to them, and the ratio does not depend
 on them. Each number of networks is trained both ways in turn, on the same gaps; the last column is the largest distance
 between the predictions of the two, mm.
 """
@@ -32,7 +32,7 @@ Place = tuple[np.ndarray, list[np.ndarray]]
 
 
 def positions(markers: int) -> Place:
-    """A person for 15 s, with a gap of 1 s in each of so many markers, and who is near whom."""
+    """A person for 15 s, with a gap of 1 s in each of the first markers, and the neighbours of each marker."""
     rng = np.random.default_rng(1)
     person = walk(
         body=make_body(rng=rng),

@@ -25,7 +25,7 @@ RATE = 100
 
 
 def run(frames: int, markers: int, gaps: int) -> tuple[Run, int]:
-    """Fill so many gaps; returns the run and the number of gaps that were filled."""
+    """Fill a number of gaps; returns the run and the number of gaps that were filled."""
     rng = np.random.default_rng(7)
     starts = rng.integers(RATE, frames - 2 * RATE, gaps).tolist()
     places = [

@@ -1,4 +1,4 @@
-"""Run the workflow over a folder of recordings and print what became of each, and what each stage cost.
+"""Run the workflow over a folder of recordings and print the outcome of each, and the cost of each stage.
 
 Reads: the recordings named on the command line, as snakemake takes them.
 Writes: results in the folder given (a temporary one without --results); three tables to stdout.
@@ -45,7 +45,7 @@ def costs(results: Path) -> dict[tuple[str, str], dict[str, float]]:
 
 
 def print_recordings(results: Path, jobs: dict[tuple[str, str], dict[str, float]]) -> None:
-    """One row per recording: what became of it, and the time it took against the time it lasts."""
+    """One row per recording: its outcome, and the time it took against the time it lasts."""
     print(
         f"{'recording':44} {'status':10} {'altered %':>9} {'repaired':>8} {'filled':>7} {'open':>5} {'s':>6} {'s/s':>6}"
     )

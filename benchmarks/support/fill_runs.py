@@ -109,7 +109,7 @@ def with_gaps(recording: Recording, gaps: Iterable[Gap]) -> Recording:
 
 @cache
 def walker(frames: int, markers: int, rate: float = 100.0, seed: int = 1) -> Recording:
-    """A synthetic person with so many markers, doing ever other things: takes of a minute, joined standing.
+    """A synthetic person with any number of markers in changing activities: takes of a minute, joined while standing.
 
     Markers beyond the walker's 51 sit within some centimetres of these.
     """

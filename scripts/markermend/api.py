@@ -152,7 +152,7 @@ class Cleaned:
     findings : mapping of str to list of Event
         What each detector found.
     changes : sequence of Change
-        What became of each finding and each gap, or why nothing was done.
+        The outcome of each finding and each gap, or why nothing was done.
     """
 
     measured: Recording

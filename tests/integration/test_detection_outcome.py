@@ -48,11 +48,11 @@ def test_a_sample_has_the_class_that_is_found_first():
         "steps": [Event("B", 0, 6, 1.0)],
         "slow": [Event("C", 0, 4, 1.0)],
     }
-    told = detection.classes(own, recording())
-    names = [["clean", *CLASSES][number] for number in told[[0, 9, 11, 12], 0]]
+    labels = detection.classes(own, recording())
+    names = [["clean", *CLASSES][number] for number in labels[[0, 9, 11, 12], 0]]
     assert names == ["tails", "tails", "peaks", "clean"]
-    assert [["clean", *CLASSES][number] for number in told[[2, 3], 1]] == ["steps", "peaks"]
-    assert [["clean", *CLASSES][number] for number in told[[1, 2, 4], 2]] == ["labels", "slow", "clean"]
+    assert [["clean", *CLASSES][number] for number in labels[[2, 3], 1]] == ["steps", "peaks"]
+    assert [["clean", *CLASSES][number] for number in labels[[1, 2, 4], 2]] == ["labels", "slow", "clean"]
 
 
 def test_forms_count_what_was_found_and_found_right():
@@ -63,10 +63,10 @@ def test_forms_count_what_was_found_and_found_right():
     harm.put("steps", recipe, marker=1, start=50, stop=60, form="together")
     seen = np.ones(clean.missing.shape, bool)
     seen[28:30] = False
-    told = np.zeros(clean.missing.shape, int)
-    told[20:24, 0] = detection.class_of("steps")
-    told[24:25, 0] = detection.class_of("peaks")
-    count = detection.forms(harm, seen, told)
+    labels = np.zeros(clean.missing.shape, int)
+    labels[20:24, 0] = detection.class_of("steps")
+    labels[24:25, 0] = detection.class_of("peaks")
+    count = detection.forms(harm, seen, labels)
     assert [count["steps", "alone", what] for what in ("artifacts", "samples", "any", "right")] == [1, 8, 5, 4]
     assert [count["steps", "together", what] for what in ("artifacts", "samples", "any", "right")] == [1, 10, 0, 0]
 

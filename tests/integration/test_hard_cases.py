@@ -46,8 +46,8 @@ def fill(whole, gaps, **options):
     assert (result.origin[missing & ~open_] == FILLED).all() and (result.origin[open_] == MISSING).all()
     for radius in (result.error, result.error95):
         assert (radius[missing & ~open_] > 0).all() and (radius[~missing] == 0).all() and np.isnan(radius[open_]).all()
-    told = result.fills + result.gaps_left
-    assert sum(entry.stop - entry.start for entry in told) == missing.sum()
+    outcomes = result.fills + result.gaps_left
+    assert sum(entry.stop - entry.start for entry in outcomes) == missing.sum()
     filled = missing & ~open_
     distance = np.linalg.norm((result.positions - whole.positions)[filled], axis=1)
     shares = [
@@ -93,7 +93,7 @@ def first(recording, *, frames=None, markers=None):
 
 
 def filled_well(done, *, gaps, error, inside95=0.8):
-    """All gaps are filled, with a mean error below so many mm, and error95 holds the truth for such a share at least."""
+    """All gaps are filled, with a mean error below a bound in mm, and error95 holds the truth for at least a share of the samples."""
     assert done.left == {} and len(done.result.fills) == gaps
     assert done.distance.mean() < error
     assert done.inside95 >= inside95
@@ -276,10 +276,10 @@ def test_many_markers():
 
 
 def test_many_frames():
-    """Skin that moves by itself, smoothly: what is learned from frames far apart must tell how it goes on from one to the next."""
+    """Skin that moves by itself, smoothly: what is learned from frames far apart must predict how it goes on from one to the next."""
     names, positions, _ = bodies.subject(4, frames=40_000)
     noise = np.random.default_rng(2).normal(0, 1, positions.shape).reshape(len(positions), -1)
-    skin = np.stack([np.convolve(course, np.hanning(41), mode="same") for course in noise.T], axis=1)
+    skin = np.stack([np.convolve(trajectory, np.hanning(41), mode="same") for trajectory in noise.T], axis=1)
     whole = bodies.recording(names, positions + skin.reshape(positions.shape))
     done = fill(whole, [(3, 10_000, 10_010), (15, 30_000, 30_010)], members=["local_ridge"])
     filled_well(done, gaps=2, error=0.25 * np.linalg.norm(skin.reshape(positions.shape), axis=2).mean())

@@ -70,7 +70,7 @@ def test_wrong_short_rectangles_are_taken_for_noise():
 
 
 def test_wrong_clean_motion_is_full_of_findings():
-    """A threshold of so many standard deviations is exceeded somewhere in any signal."""
+    """A threshold of a few standard deviations is exceeded somewhere in any signal."""
     found, _ = detect_signal(motion(100.0), 100.0, "paper")
     flagged = sum(stop - start for own in found.values() for start, stop in own)
     assert len(found["peaks"]) >= 3

@@ -12,7 +12,7 @@ def shift(length):
     return np.ones((length, 1)) * [9, 4, -8]
 
 
-def bump(length):
+def pulse(length):
     return shift(length) * np.sin(np.pi * (np.arange(length) + 0.5) / length)[:, None]
 
 
@@ -53,9 +53,9 @@ def test_noise_and_steps_beside_gaps_and_ends(walker):
 
 def test_peaks_on_a_slow_change_and_amid_a_step(walker):
     peaks = [("C7", 448, 452), ("RKNE", 850, 853)]
-    recording = put(walker.recording, [("C7", 400, 500)], lambda length: 1.5 * bump(length))
+    recording = put(walker.recording, [("C7", 400, 500)], lambda length: 1.5 * pulse(length))
     recording = put(recording, [("RKNE", 800, 960)], shift)
-    found, _ = detect(put(recording, peaks, lambda length: -2 * bump(length)), only=SUDDEN)
+    found, _ = detect(put(recording, peaks, lambda length: -2 * pulse(length)), only=SUDDEN)
     assert places(found, "peaks") == peaks
     assert {marker for marker, _, _ in places(found, "steps")} == {"RKNE"}
     covered = events.mask(found["steps"], recording.frames, recording.markers)

@@ -20,10 +20,10 @@ def test_what_a_person_saw_is_found(data, name, known):
     """Nearly all of it: where it begins and ends is a matter of taste, but for swapped labels."""
     recording = api.read(data / "raw" / name)
     found = api.detect(recording, api.infer_mesh([recording]))
-    told = detection.classes(found, recording)
+    classes = detection.classes(found, recording)
     for kind, places in known.items():
         for marker, start, stop in places:
-            right = told[:, recording.markers.index(marker)] == 1 + detection.CLASSES.index(kind)
+            right = classes[:, recording.markers.index(marker)] == 1 + detection.CLASSES.index(kind)
             assert right[start:stop].mean() > 0.8
             if kind == "labels":
                 assert np.array_equal(np.flatnonzero(np.diff(right.astype(int))) + 1, [194, 801, 904, 936])

@@ -1,4 +1,4 @@
-"""What the tests of predictors and filling share: the default settings, scenes, and neighbours by steadiness."""
+"""What the tests of predictors and filling share: the default options, scenes, and neighbours by steadiness."""
 
 from dataclasses import replace
 
@@ -73,7 +73,7 @@ def neighbours(positions):
 
 
 def scene(positions, rate=100.0):
-    """A scene in which every marker knows every other."""
+    """A scene in which every marker has every other as a neighbour."""
     return Scene(positions, rate, neighbours(positions))
 
 

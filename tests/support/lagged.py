@@ -24,7 +24,7 @@ def scene(positions, segment_mates=None, rate=100.0):
 
 
 def quick(name, **changed):
-    """A lagged regression with default settings, but few steps of training."""
+    """A lagged regression with default options, but few steps of training."""
     made = predictor(name)
     few = {"max_iterations": 150} if name == "replicated_network" else {}
     return type(made)(replace(made.options, **few, **changed))

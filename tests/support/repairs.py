@@ -1,4 +1,4 @@
-"""What the tests of repair share: a body whose truth is known, damage to it, and the repair with small settings."""
+"""What the tests of repair share: a body whose truth is known, damage to it, and the repair with small options."""
 
 from dataclasses import replace
 

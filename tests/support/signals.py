@@ -36,15 +36,15 @@ def options_of(stage, preset):
 
 
 def frames(hundredths, rate):
-    """Frames in so many hundredths of a second."""
+    """Number of frames in some hundredths of a second."""
     return intervals.samples(hundredths / 100, rate)
 
 
 def motion(rate, *, seconds=20.0, seed=0):
     """A coordinate of a moving marker with 0.2 mm of noise, mm."""
     t = np.arange(round(seconds * rate)) / rate
-    course = 300 * np.sin(0.4 * t) + 60 * np.sin(1.7 * t + 1) + 10 * np.sin(6 * t)
-    return course + np.random.default_rng(seed).normal(0, 0.2, len(t))
+    trajectory = 300 * np.sin(0.4 * t) + 60 * np.sin(1.7 * t + 1) + 10 * np.sin(6 * t)
+    return trajectory + np.random.default_rng(seed).normal(0, 0.2, len(t))
 
 
 def detect_signal(signal, rate, preset="coordinates"):

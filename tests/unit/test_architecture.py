@@ -38,14 +38,14 @@ def test_every_import_contract_is_kept():
     [
         ("core/events.py", "markermend.storage.atomic", "A package imports from lower floors only"),
         ("storage/atomic.py", "markermend.report.summary", "A package imports from lower floors only"),
-        ("repair/repair.py", "markermend.filling.fill", "packages on one floor do not know each other"),
-        ("numerics/robust.py", "pyarrow", "Science knows no file, command or workflow"),
-        ("detection/peaks.py", "markermend.detection.steps", "Detectors do not know each other"),
+        ("repair/repair.py", "markermend.filling.fill", "packages on one floor do not import each other"),
+        ("numerics/robust.py", "pyarrow", "Science imports nothing about files, commands or the workflow"),
+        ("detection/peaks.py", "markermend.detection.steps", "Detectors do not import each other"),
         ("detection/neighbour/edges.py", "markermend.detection.published.steps", "Published and neighbour detectors"),
         (
             "detection/slow.py",
             "markermend.detection.published.slow",
-            "The default detectors do not know the published ones",
+            "The default detectors do not import the published ones",
         ),
         ("prediction/scene.py", "torch", "Torch is imported where networks are trained"),
     ],

@@ -50,7 +50,7 @@ class Stage:
     options : type
         The class of its options.
     given : type, optional
-        A class with what the stage is given beside its section of the config.
+        A class with what the stage is given in addition to its section of the config.
     """
 
     def __init__(self, name: str, description: str, options: type = NoOptions, given: type = NoOptions) -> None:

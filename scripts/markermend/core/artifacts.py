@@ -26,7 +26,7 @@ class ArtifactClass:
     number : int
         Number at the start of the name of its events file.
     unmeasured : str
-        Why nobody measured such samples, so that they are never repaired and count as missing; empty where
+        Why such samples do not count as measured, so that they are never repaired and count as missing; empty where
         a repair may start from what was measured.
     """
 

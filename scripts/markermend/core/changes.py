@@ -14,7 +14,7 @@ from markermend.core.reasons import Reason
 from markermend.core.recording import Restored
 
 GAP, DECLARED_MISSING = "gap", "missing"
-"""Beside the classes of artifacts: a gap, and samples that a person declared missing."""
+"""What a stretch can be besides an artifact of a class: a gap, and samples that a person declared missing."""
 
 
 DECIMALS = 3
@@ -99,7 +99,7 @@ class Change:
         How many samples were changed; for a stretch that was left, its length.
     largest_change_mm : float, optional
         The largest distance between a measured sample and what stands there now, mm; None where no measured sample
-        was replaced, or where the stage did not know what was measured.
+        was replaced, or where the measured samples were not available to the stage.
     expected_error_mm, expected_error95_mm : float, optional
         The largest radii of the balls that hold the true position with probability 0.68 and 0.95, mm; None where
         nothing was written.

@@ -1,4 +1,4 @@
-"""What a person decided about a recording, and what that comes to for one finding or gap.
+"""What a person decided about a recording, and what follows from that for one finding or gap.
 
 No limit holds against a person's decision; `protect` wins over all others, and `reject` over those that change samples.
 Frames are rows counted from 0, half-open; only the table of decisions uses the capture program's numbering.
@@ -43,7 +43,7 @@ class Decision:
     note : str
         The person's reason.
     person : bool
-        False where a setting says so and not a person.
+        False where an option of the config says so and not a person.
     """
 
     marker: str
@@ -78,7 +78,7 @@ class Decision:
         return self.value.partition(":")[2] or None
 
     def matches(self, marker: str) -> bool:
-        """Tell whether the decision is about a marker.
+        """Check whether the decision is about a marker.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Decision:
         return marker == self.marker or fnmatchcase(marker, self.marker.replace("[", "[[]"))
 
     def on(self, markers: Iterable[str], start: int, stop: int) -> bool:
-        """Tell whether the decision is about a stretch of one of several markers.
+        """Check whether the decision is about a stretch of one of several markers.
 
         Parameters
         ----------
@@ -112,12 +112,12 @@ class Decision:
 
 @dataclass(frozen=True)
 class Ruling:
-    """What the decisions come to for one finding or gap.
+    """What follows from the decisions for one finding or gap.
 
     Attributes
     ----------
     left : Reason, optional
-        Why it stays as it is; None where nobody says so.
+        Why it stays as it is; None where no decision says so.
     confirmed : bool
         Whether a person confirmed it, so that no limit holds.
     method : str, optional
@@ -161,7 +161,7 @@ def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decisio
 
 
 def protecting(patterns: Iterable[str]) -> list[Decision]:
-    """Make the decisions that stand for the setting `protect`.
+    """Make the decisions that stand for the option `protect`.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def protecting(patterns: Iterable[str]) -> list[Decision]:
     return [Decision(pattern, -EVER, EVER, "protect", person=False) for pattern in patterns]
 
 
-def kind_of(stage: str, event: Event) -> str:
+def class_name(stage: str, event: Event) -> str:
     """Name the class of a finding.
 
     Parameters
@@ -255,7 +255,7 @@ def texts_of(decisions: Iterable[Decision]) -> tuple[str, ...]:
     Parameters
     ----------
     decisions : iterable of Decision
-        The decisions; those of settings are passed over.
+        The decisions; those that stand for an option are passed over.
 
     Returns
     -------

@@ -67,10 +67,10 @@ def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: S
             axes = "".join(axis for axis, hit in zip("xyz", hits, strict=True) if hit)
             best = float(max(1.0, np.nanmax(score[start:stop, m], initial=1.0)))
             found.append(Event(marker, start, stop, best, axes or "xyz"))
-    return tidy(found)
+    return disjoint(found)
 
 
-def tidy(events: Iterable[Event]) -> list[Event]:
+def disjoint(events: Iterable[Event]) -> list[Event]:
     """Sort events, and make those of each marker disjoint.
 
     Parameters
@@ -150,7 +150,7 @@ def coordinates(events: Iterable[Event], frames: int, markers: Sequence[str]) ->
     return np.stack([mask(some, frames, markers) for some in own], axis=2)
 
 
-def carrying(vectors: np.ndarray) -> str:
+def main_axes(vectors: np.ndarray) -> str:
     """Name the axes along which a deviation is large.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Why a stretch was not repaired or filled, with the setting that was the cause."""
+"""Why a stretch was not repaired or filled, with the option that was the cause."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Cause(StrEnum):
     """A person decided so."""
     TOO_MUCH = "too much altered"
     UNMEASURED = "unmeasured"
-    """Nobody measured the samples, so there is nothing to repair."""
+    """The samples were not measured, so there is nothing to repair."""
     FILLED_INSTEAD = "filled instead"
     """A person wants a method that fills gaps."""
     SEVERAL_CLASSES = "several classes"
@@ -37,14 +37,14 @@ class Cause(StrEnum):
 
 @dataclass(frozen=True)
 class Limit:
-    """A setting that kept a stretch from being repaired or filled.
+    """An option that kept a stretch from being repaired or filled.
 
     Attributes
     ----------
     setting : str
         The key in the config, such as `repair.max_error_mm`.
     value : float
-        The value of that setting.
+        The value of that option.
     actual : float
         The value that exceeded it, or that fell short of it, in the same unit.
     """
@@ -55,7 +55,7 @@ class Limit:
 
     @property
     def text(self) -> str:
-        """The setting with its value, as texts name it."""
+        """The option with its value, as texts name it."""
         return f"{self.setting}: {self.value:g}"
 
 
@@ -70,7 +70,7 @@ class Reason:
     text : str
         The reason with its figures, for people; it names the limit where there is one.
     limit : Limit, optional
-        The setting that was the cause, None where no setting was.
+        The option that was the cause, None where no option was.
     """
 
     cause: Cause

@@ -46,7 +46,7 @@ def detect_noise(
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
     )
-    return events.tidy(found)
+    return events.disjoint(found)
 
 
 class NoiseDetector(IncrementDetector):
@@ -66,8 +66,8 @@ class NoiseDetector(IncrementDetector):
         super().__init__(scene, markers, options)
         self.options = options
 
-    def judge(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
-        """Find the stretches of heavy noise of one marker; see `Detector.judge`."""
+    def find_events(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
+        """Find the stretches of heavy noise of one marker; see `Detector.find_events`."""
         score, vector, name = statistics.score[:, marker], statistics.vector[:, marker], self.markers[marker]
         found = []
         for start, stop in runs(~np.isnan(statistics.residual[:, marker, 0])):
@@ -76,7 +76,7 @@ class NoiseDetector(IncrementDetector):
                 quiet = int(np.diff(group).max())
                 first = start if group[0] - start <= quiet else int(group[0])
                 last = stop if stop - group[-1] <= quiet else int(group[-1])
-                found.append(Event(name, first, last, float(score[group].max()), events.carrying(vector[group])))
+                found.append(Event(name, first, last, float(score[group].max()), events.main_axes(vector[group])))
         return found
 
     def _stretches(self, sudden: np.ndarray) -> Iterator[np.ndarray]:

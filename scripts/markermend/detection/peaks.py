@@ -47,7 +47,7 @@ def detect_peaks(
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
     )
-    return events.tidy(found)
+    return events.disjoint(found)
 
 
 class PeakDetector(WindowDetector):
@@ -67,7 +67,7 @@ class PeakDetector(WindowDetector):
         super().__init__(scene, markers, options)
         self.options = options
         self._longest = intervals.samples(options.max_duration_s, scene.rate)
-        self._context = residual_windows.context_samples(scene.rate, options, fewest=pulses.MIN_CONTEXT)
+        self._context = residual_windows.context_samples(scene.rate, options, min_samples=pulses.MIN_CONTEXT)
 
     @property
     def window(self) -> int:
@@ -78,8 +78,8 @@ class PeakDetector(WindowDetector):
         """Make the filter of the longest pulse; see `WindowDetector.central_filter`."""
         return pulses.pulse_filters(covariance, self._longest, self.window, (self._context,))
 
-    def judge(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the pulses of one marker; see `Detector.judge`."""
+    def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the pulses of one marker; see `Detector.find_events`."""
         found = pulses.find_pulses(statistics, marker, rate=self.scene.rate, options=self.options)
         name = self.markers[marker]
-        return [Event(name, one.start, one.stop, one.score, events.carrying(one.deviation)) for one in found]
+        return [Event(name, one.start, one.stop, one.score, events.main_axes(one.deviation)) for one in found]

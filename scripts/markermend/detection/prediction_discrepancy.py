@@ -1,4 +1,4 @@
-"""The discrepancy between samples and their prediction: it shows which samples in the file nobody measured.
+"""The discrepancy between samples and their prediction: it shows which samples in the file were not measured.
 
 Where a marker was out of sight, a capture program may repeat its last position, or let the samples beside the gap wander
 off. Both look like measurements, but disagree with the prediction from the neighbours and from the marker's own trajectory
@@ -74,7 +74,7 @@ def discrepancy(
 
 
 def unmeasured_event(marker: str, start: int, stop: int, score: np.ndarray) -> Event:
-    """Make the event of samples that nobody measured: on all axes, since each sample is wrong as a whole.
+    """Make the event of samples that were not measured: on all axes, since each sample is wrong as a whole.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """Slow changes: a marker drifts away from where its neighbours predict it, and comes back (skurowski2022 3.5).
 
-Natural motion leaves residuals as large as the drift. Two things set a drift apart: its duration (it rises and falls within
+Natural motion leaves residuals as large as the drift. Two things distinguish a drift: its duration (it rises and falls within
 a second or so, from baseline to baseline), and the local scale, which is larger where the pose has high leverage, where
 the body moves fast, and where the neighbours fit badly as well.
 """
@@ -56,7 +56,7 @@ def detect_slow(
     found = [
         event for m, name in enumerate(markers) for event in finder.find(m, name=name) if attribution.is_own(m, event)
     ]
-    return events.tidy(found)
+    return events.disjoint(found)
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class DriftFinder:
             taken[max(0, start - side) : stop + side] = True
             if self.is_drift(marker, peak, start, stop):
                 change = drift_shape.displacement(residual, start, stop, flank=flank)
-                found.append(Event(name, start, stop, float(score[peak]), events.carrying(change[None])))
+                found.append(Event(name, start, stop, float(score[peak]), events.main_axes(change[None])))
         return found
 
     def extent(self, marker: int, peak: int) -> tuple[int, int]:
@@ -136,7 +136,7 @@ class DriftFinder:
         return next((span for span in spans if self.rises_from_baseline(residual, *span)), spans[0])
 
     def is_drift(self, marker: int, peak: int, start: int, stop: int) -> bool:
-        """Tell whether what stands out at a peak of the score is a drift.
+        """Check whether what stands out at a peak of the score is a drift.
 
         Parameters
         ----------
@@ -164,7 +164,7 @@ class DriftFinder:
         )
 
     def rises_from_baseline(self, residual: np.ndarray, start: int, stop: int) -> bool:
-        """Tell whether a residual rises high enough in an interval, from baseline to baseline.
+        """Check whether a residual rises high enough in an interval, from baseline to baseline.
 
         Parameters
         ----------

@@ -51,11 +51,11 @@ def detect_steps(
     # A gap may hide a jump, and so may what was claimed earlier: noise on a step often reaches to its end.
     unseen = ~scene.present | earlier.any(axis=2)
     jumps = [detector.edges(statistics, m) for m in range(len(markers))]
-    found = events.tidy(found)
+    found = events.disjoint(found)
     for m, name in enumerate(markers):
         residual = statistics.residual[:, m]
         truncated = detector.shifts.truncated(residual, jumps[m], found, missing=unseen[:, m], name=name)
-        found = events.tidy([*found, *truncated])
+        found = events.disjoint([*found, *truncated])
     return found, _open_steps(jumps, found, markers)
 
 
@@ -89,7 +89,7 @@ class StepDetector(WindowDetector):
         super().__init__(scene, markers, options)
         self.options, self.missing = options, missing
         self.shifts = LevelShiftFinder(scene.rate, options)
-        self._context = residual_windows.context_samples(scene.rate, options, fewest=edges.MIN_CONTEXT)
+        self._context = residual_windows.context_samples(scene.rate, options, min_samples=edges.MIN_CONTEXT)
 
     @property
     def window(self) -> int:
@@ -106,7 +106,7 @@ class StepDetector(WindowDetector):
         Parameters
         ----------
         statistics : ResidualStatistics
-            What windows are judged by.
+            Statistics of the residuals.
         marker : int
             Index of the marker.
         fraction : float, optional
@@ -119,12 +119,12 @@ class StepDetector(WindowDetector):
         """
         return edges.find_edges(statistics, marker, rate=self.scene.rate, options=self.options, fraction=fraction)
 
-    def judge(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the level shifts of one marker, between weak edges too; see `Detector.judge`."""
+    def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the level shifts of one marker, also between edges below the threshold; see `Detector.find_events`."""
         return self._paired(statistics, marker, self.options.single_jump_fraction)
 
-    def suspect(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the level shifts of one marker between clear edges, since weak ones are often motion; see `Detector.suspect`."""
+    def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the level shifts of one marker between edges above the threshold, since smaller ones are often motion; see `Detector.find_candidates`."""
         return self._paired(statistics, marker, 1.0)
 
     def unexplained(self, statistics: ResidualStatistics, marker: int) -> Sequence[int]:

@@ -22,7 +22,7 @@ def detect_tails(
 ) -> list[Event]:
     """Find the noisy tails on either side of gaps.
 
-    A marker that drifts into a gap without any sudden change cannot be told from one that moves.
+    A marker that drifts into a gap without any sudden change cannot be distinguished from one that moves.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def detect_tails(
             m, start, stop = suspect.stretch
             tail = (stop - length, stop) if suspect.side > 0 else (start, start + length)
             found.append(prediction_discrepancy.unmeasured_event(markers[m], *tail, score))
-    return events.tidy(found)
+    return events.disjoint(found)
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class _Border:
         return self.frame - self.side * np.arange(count, 0, -1) - (self.side < 0)
 
     def stretch(self, length: int) -> Stretch:
-        """Give the stretch of so many samples beside the gap."""
+        """Give the stretch of a number of samples next to the gap."""
         if self.side > 0:
             return self.marker, self.frame - length, self.frame
         return self.marker, self.frame, self.frame + length
@@ -92,7 +92,7 @@ class _Suspect:
 
 
 def _suspects(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[_Suspect]:
-    """The stretches from the first sudden change beside a gap up to it."""
+    """The stretches from the first sudden change next to a gap up to it."""
     lengths = options.max_duration_s, options.min_seen_before_s, options.scale_window_s
     longest, before, around = (max(2, samples(length, scene.rate)) for length in lengths)
     borders = list(_borders(scene.present, unclaimed.present, longest + before))
@@ -111,7 +111,7 @@ def _suspects(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: 
 
 
 def _borders(present: np.ndarray, unclaimed: np.ndarray, shortest: int) -> Iterator[_Border]:
-    """The borders of runs of unclaimed samples with gaps, without runs shorter than so many samples."""
+    """The borders of runs of unclaimed samples with gaps, without runs shorter than `shortest` samples."""
     for m in range(present.shape[1]):
         holes = [(start, stop) for start, stop in runs(~unclaimed[:, m]) if not present[start:stop, m].all()]
         begins, ends = {start for start, _ in holes}, {stop for _, stop in holes}

@@ -61,7 +61,7 @@ def constrain_spacing(
     low, high : float
         Probabilities of the quantiles between which a distance is usual.
     rounds : int
-        Most projections onto each shell, one reference after the other; fewer where every distance is usual before.
+        Largest number of projections onto each shell, one reference after the other; fewer where every distance is usual before.
 
     Returns
     -------

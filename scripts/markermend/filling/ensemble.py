@@ -49,7 +49,7 @@ class Ensemble:
     members : sequence of Predictor
         The predictors.
     trial_members : sequence of Predictor
-        What stands for each member on pseudo-gaps, such as the same predictor with less training; names as in members.
+        The substitute of each member on pseudo-gaps, such as the same predictor with less training; names as in members.
     options : EnsembleOptions
         How they are weighted.
 
@@ -129,7 +129,7 @@ class Ensemble:
         )
         missed = self._cross_validate(self._averaging.distance_model(hidden, gap.marker), trials, candidates, errors)
         ratios = np.array([_mean_square(each) for each in missed])
-        # Each pseudo-gap is judged by the factor of the others.
+        # The factor for each pseudo-gap is estimated from the others.
         scaled = [
             each / deviation_scale(np.delete(ratios, k), options.stated_error_weight) for k, each in enumerate(missed)
         ]

@@ -23,7 +23,7 @@ log = logging.getLogger("markermend")
 
 @dataclass(frozen=True)
 class FilledGaps:
-    """What became of gaps that were filled together.
+    """The outcome of gaps that were filled together.
 
     Attributes
     ----------
@@ -110,11 +110,11 @@ class GapFiller:
 
     def _excess(self, filling: Filling, radius: float) -> Reason | None:
         """Why a filling is too uncertain, given the radius of the 68 % ball; None where it is not."""
-        worst, most = radius * float(filling.deviation.max()), self._max_error_mm
-        if most is None or worst <= most:
+        largest, allowed = radius * float(filling.deviation.max()), self._max_error_mm
+        if allowed is None or largest <= allowed:
             return None
-        limit = Limit("fill.max_error_mm", most, worst)
-        return Reason(Cause.UNCERTAIN, f"expected error {worst:.3g} mm ({limit.text})", limit)
+        limit = Limit("fill.max_error_mm", allowed, largest)
+        return Reason(Cause.UNCERTAIN, f"expected error {largest:.3g} mm ({limit.text})", limit)
 
     def _calibrate(self, filled: dict[Gap, Filling], refused: dict[Gap, Reason]) -> FilledGaps:
         """Estimate the radii from all pseudo-gaps and refuse the gaps whose error exceeds the limit."""

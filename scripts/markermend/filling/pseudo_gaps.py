@@ -100,8 +100,8 @@ def pseudo_gaps(scene: Scene, gap: Gap, *, count: int, hidden_share: float, neig
     # The error of a filled sample lasts about as long as its gap: one direction for each pseudo-gap and marker.
     directions = rng.standard_normal((len(chosen), scene.positions.shape[1], 3))
     pattern = _pattern(scene, gap, length)
-    most = int(hidden_share * np.count_nonzero(scene.present[:, gap.marker]) / pattern.hidden)
-    stride = scene_count(chosen, distance=2 * pattern.hidden, most=most)
+    max_per_scene = int(hidden_share * np.count_nonzero(scene.present[:, gap.marker]) / pattern.hidden)
+    stride = scene_count(chosen, distance=2 * pattern.hidden, max_per_scene=max_per_scene)
     found: dict[int, PseudoGap] = {}
     for first in range(stride):
         shared = _hide(scene, pattern, chosen[first::stride], directions[first::stride])
@@ -130,7 +130,7 @@ def trial_length(seen: np.ndarray, length: int) -> int:
     return min(length, 2 * (longest - 2) // 3)
 
 
-def scene_count(starts: np.ndarray, *, distance: int, most: int) -> int:
+def scene_count(starts: np.ndarray, *, distance: int, max_per_scene: int) -> int:
     """Find the least number of scenes over which pseudo-gaps can be distributed in turn.
 
     Parameters
@@ -139,8 +139,8 @@ def scene_count(starts: np.ndarray, *, distance: int, most: int) -> int:
         First frames, ascending.
     distance : int
         Least distance between the starts of pseudo-gaps of one scene, frames.
-    most : int
-        Most pseudo-gaps in one scene.
+    max_per_scene : int
+        Largest number of pseudo-gaps in one scene.
 
     Returns
     -------
@@ -149,7 +149,7 @@ def scene_count(starts: np.ndarray, *, distance: int, most: int) -> int:
     """
     for stride in range(1, len(starts)):
         near = (starts[stride:] - starts[:-stride]).min() < distance
-        if not near and math.ceil(len(starts) / stride) <= most:
+        if not near and math.ceil(len(starts) / stride) <= max_per_scene:
             return stride
     return len(starts)
 

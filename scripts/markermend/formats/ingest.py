@@ -37,7 +37,7 @@ def ingest_file(
     rate : float or None
         Frame rate in Hz, used in place of the file's; None = the file's.
     options : IngestOptions
-        Which trajectories nobody labelled, and what is static.
+        The names of unlabelled trajectories, and what is static.
 
     Returns
     -------

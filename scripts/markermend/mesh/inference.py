@@ -9,7 +9,7 @@ import numpy as np
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.mesh.pair_statistics import PairStatistics, pair_statistics, recording_name
-from markermend.mesh.segment_summary import Excitation, SegmentSummary, judge_excitation, named, rank_markers
+from markermend.mesh.segment_summary import Excitation, SegmentSummary, assess_excitation, named, rank_markers
 from markermend.mesh.segment_tree import Skeleton, infer_skeleton
 from markermend.mesh.user_mesh import UserMesh
 from markermend.mesh.user_skeleton import fit_to_recordings
@@ -153,7 +153,7 @@ def _skeleton(
 
 def _excitation(statistics: PairStatistics, skeleton: Skeleton, options: MeshOptions) -> Excitation:
     """How much the subject moved, by what the options want."""
-    return judge_excitation(
+    return assess_excitation(
         statistics,
         segments=len(skeleton.members),
         markers=int(np.count_nonzero(statistics.valid >= options.min_frames)),

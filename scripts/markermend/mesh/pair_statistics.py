@@ -82,7 +82,7 @@ def thin(recording: Recording, *, frames: int) -> Recording:
     recording : Recording
         The recording; it is not modified.
     frames : int
-        Most frames to keep.
+        Largest number of frames to keep.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def distance_statistics(positions: np.ndarray, *, valid_frames: int) -> tuple[np
     positions : ndarray, shape (frames, markers, 3)
         Positions, mm; NaN = missing.
     valid_frames : int
-        Fewest frames in which both markers must be seen.
+        Smallest number of frames in which both markers must be seen.
 
     Returns
     -------
@@ -227,7 +227,7 @@ def pair_statistics(
     frames : int
         Each recording is thinned to this number of frames.
     valid_frames : int
-        Fewest joint frames from which a pair is known in a recording.
+        Smallest number of joint frames from which a pair is known in a recording.
     markers : sequence of str
         Names of all markers, sorted.
 

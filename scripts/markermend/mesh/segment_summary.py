@@ -33,8 +33,8 @@ class Excitation:
     warnings: tuple[str, ...]
 
 
-def judge_excitation(statistics: PairStatistics, *, segments: int, markers: int, options: MeshOptions) -> Excitation:
-    """Judge whether the subject moved enough for a mesh to be inferred.
+def assess_excitation(statistics: PairStatistics, *, segments: int, markers: int, options: MeshOptions) -> Excitation:
+    """Assess whether the subject moved enough for a mesh to be inferred.
 
     Parameters
     ----------
@@ -149,9 +149,9 @@ def rank_markers(
     dissimilarity : ndarray, shape (markers, markers)
         Dissimilarity of each pair, mm; NaN = unknown.
     min_predictors : int
-        Fewest predictors of a marker, as far as its component has them.
+        Smallest number of predictors of a marker, as far as its component has them.
     max_neighbours : int
-        Most neighbours of a marker.
+        Largest number of neighbours of a marker.
 
     Returns
     -------

@@ -108,7 +108,7 @@ def _eliminate(
     diagonal: np.ndarray, below: np.ndarray, right: np.ndarray
 ) -> tuple[_Elimination, np.ndarray, np.ndarray, np.ndarray]:
     """Eliminate the odd blocks; the rest is the reduced system: diagonal, below, right."""
-    inner = (len(right) - 1) // 2  # of the eliminated blocks, so many have a right neighbour
+    inner = (len(right) - 1) // 2  # number of eliminated blocks that have a right neighbour
     inverse, to_left, to_right = np.linalg.inv(diagonal[1::2]), below[::2], _transpose(below[1::2])
     left_gain, right_gain = inverse @ to_left, inverse[:inner] @ to_right
     reduced_diagonal, reduced_right = diagonal[::2].copy(), right[::2].copy()

@@ -8,7 +8,7 @@ from markermend.numerics.intervals import runs
 
 
 def bridge_cubic(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.ndarray:
-    """Replace the detected samples of a signal by cubic Hermite curves between the samples beside them.
+    """Replace the detected samples of a signal by cubic Hermite curves between the adjacent samples.
 
     Parameters
     ----------
@@ -17,7 +17,7 @@ def bridge_cubic(signal: np.ndarray, detected: np.ndarray, reach: int) -> np.nda
     detected : np.ndarray
         Samples to replace, bool (frames,).
     reach : int
-        The slope at either border is the mean over so many samples beyond it, fewer where the run ends earlier.
+        Samples beyond either border whose mean slope is that at the border; fewer where the run ends earlier.
 
     Returns
     -------

@@ -147,7 +147,7 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, m
     Returns
     -------
     Covariance
-        The covariance function; next to no noise alone where no sample is known.
+        The covariance function; a minimal white noise alone where no sample is known.
     """
     from scipy.optimize import nnls  # 0.2 s to import, and most detectors never get here
 
@@ -163,7 +163,7 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, m
     weights, _ = nnls(design, empirical)
     if weights.sum() <= 0:
         weights[0] = max(empirical[0], 1e-12)
-    # Noise that is small beside the total variance escapes the fit. A residual taken for noiseless would be
+    # Noise that is small compared with the total variance escapes the fit. A residual taken for noiseless would be
     # extrapolated along the slope that its last samples happen to have.
     weights[0] = max(weights[0], white_noise_variance(residual))
     return Covariance(weights, scales_s)

@@ -1,7 +1,7 @@
 """Matched filters that find raised-cosine pulses in coloured noise.
 
-The filter is the generalised least-squares estimate of the pulse's height beside an unknown constant: of all weights on
-the samples about a moment that do not respond to a constant, those that estimate the height with the least variance.
+The filter is the generalised least-squares estimate of the pulse's height together with an unknown constant: of all
+weights that do not respond to a constant, those that estimate the height with the least variance.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def clipped_covariance(
     signal : np.ndarray
         Signal (frames, axes), mm, NaN = missing.
     sigmas : float
-        Deviations from the axes' medians are clipped to so many robust standard deviations.
+        Deviations from the axes' medians are clipped to this many robust standard deviations.
     rate : float
         Sampling rate, Hz.
     scales_s : np.ndarray

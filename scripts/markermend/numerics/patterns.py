@@ -39,7 +39,7 @@ def group_by_pattern(observed: np.ndarray, minimum: int) -> Iterator[tuple[np.nd
     observed : np.ndarray
         Bool (frames, markers).
     minimum : int
-        If at least so many markers are observed in all frames, only these count, and there is one group.
+        If at least this many markers are observed in all frames, only these count, and there is one group.
 
     Yields
     ------

@@ -183,7 +183,7 @@ def mean_shape(points: np.ndarray) -> np.ndarray:
 
 
 def width(shape: np.ndarray) -> float:
-    """Measure how far a shape extends beside its longest axis.
+    """Measure how far a shape extends across its longest axis.
 
     Parameters
     ----------

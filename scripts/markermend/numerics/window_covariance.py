@@ -1,7 +1,7 @@
-"""Covariance of short windows of residuals, whatever their size: how well a sample follows from those about it.
+"""Covariance of short windows of residuals up to scale: how well a sample is predicted by those around it.
 
 Some systems smooth their trajectories, others jitter, and some bodies move fast. The covariance is estimated from each
-recording, apart from polynomials of a low order and up to a factor of each window's own.
+recording, on the complement of polynomials of a low order, and up to a factor of each window.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ ITERATIONS = 8
 
 @dataclass(frozen=True, eq=False)
 class WindowCovariance:
-    """Covariance of windows, apart from polynomials and up to a factor that differs between windows.
+    """Covariance of windows on the complement of polynomials, up to a factor that differs between windows.
 
     Attributes
     ----------

@@ -68,7 +68,7 @@ class LabelsOptions:
     """The recorded labels count as much as distances of this clearness (0 to 1)."""
 
     min_clearness: Share = 0.1
-    """Smallest clearness with which distances and recorded labels must set the exchanged part apart (0 to 1).
+    """Smallest clearness with which distances and recorded labels must identify the exchanged part (0 to 1).
 
     Change it when exchanges that never swap back are missed (lower), or false ones are found (higher)."""
 
@@ -106,7 +106,7 @@ class FrozenOptions(DetectorOptions):
 
 @dataclass(frozen=True)
 class TailsOptions(DetectorOptions):
-    """Detect noisy tails beside gaps."""
+    """Detect noisy tails next to gaps."""
 
     max_duration_s: Annotated[PositiveSeconds, Laboratory] = 0.1
     """Longest tail.
@@ -151,7 +151,7 @@ class ResidualWindowOptions:
     Change it when deviations too small to matter to you are reported (higher)."""
 
     context_s: PositiveSeconds = 0.05
-    """Context on either side by which a finding is judged."""
+    """Context on either side with which a finding is compared."""
 
     polynomial_order: Annotated[int, AtLeast(0), AtMost(5)] = 2
     """Polynomials in time up to this order are never a finding, whatever their size."""
@@ -172,7 +172,7 @@ class ResidualWindowOptions:
     """Nearest neighbours with which the local scale is compared."""
 
     attribution_rounds: CountOrNone = 2
-    """Rounds in which neighbours that were found together are judged again."""
+    """Rounds in which neighbours with overlapping findings are searched again."""
 
     attribution_neighbours: Count = 12
     """Nearest neighbours to which a finding in several residuals may be attributed."""
@@ -254,7 +254,7 @@ class IncrementOptions:
     """Share of the recording's samples whose changes do not exceed that size (0 to 1)."""
 
     attribution_rounds: CountOrNone = 2
-    """Rounds in which neighbours that were found together are judged again."""
+    """Rounds in which neighbours with overlapping findings are searched again."""
 
     attribution_neighbours: Count = 12
     """Nearest neighbours to which a change in several residuals may be attributed."""
@@ -280,7 +280,7 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
     Change it when findings are too short to be of this class."""
 
     link_s: Seconds = 0.1
-    """Sudden changes that are no further apart belong to one stretch."""
+    """Sudden changes that are no further from each other than this belong to one stretch."""
 
     min_sudden_share: Share = 0.2
     """Share of the samples of a stretch that change suddenly, at least (0 to 1)."""
@@ -329,7 +329,7 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
     context_s: PositiveSeconds = 0.04
-    """Context on either side by which a jump is judged."""
+    """Context on either side with which a jump is compared."""
 
     polynomial_order: Annotated[int, AtLeast(0), AtMost(5)] = 3
     """Polynomials in time up to this order are never a finding, whatever their size."""
@@ -372,7 +372,7 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     truncated_min_shift_fraction: NotNegative = 0.4
     """Shift of such a step against either side as a part of its jump, at least.
 
-    Change it when false steps are found beside gaps (higher)."""
+    Change it when false steps are found next to gaps (higher)."""
 
     recording_end_factor: Factor = 2
     """Size of the jump, in units of the threshold, of a step that an end of the recording cuts short, at least.

@@ -23,7 +23,7 @@ from markermend.options.declaration import (
 from markermend.options.prediction import PredictorOptions
 
 WEIGHTS = ("error", "pma", "both", "equal")
-"""Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all alike."""
+"""Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all equal."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class DistanceOptions:
     """Distances between markers, as likelihood of a position and as constraint on it."""
 
     references: Count = 3
-    """Markers whose distances to the filled one are judged."""
+    """Markers whose distances to the filled one are compared with the usual ones."""
 
     min_frames: Count = 60
     """Frames on which both the marker and a reference must be seen."""
@@ -117,7 +117,7 @@ class EnsembleOptions:
     """Nearest neighbours that are compared for this."""
 
     max_gap_kinds: Count = 12
-    """Kinds of gaps of a marker that have pseudo-gaps of their own, at most; others are judged as the most similar kind.
+    """Kinds of gaps of a marker that have pseudo-gaps of their own, at most; others count as the most similar kind.
 
     Change it when filling takes too long where a marker flickers (lower)."""
 

@@ -50,7 +50,7 @@ class PublishedPeaksOptions:
     """The absolute sum of a peak's changes exceeds the size of their sum by this factor."""
 
     slope_window_s: PositiveSeconds = 0.05
-    """Window over which slopes beside earlier findings are taken."""
+    """Window over which slopes next to earlier findings are taken."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class PublishedNoiseOptions:
     """Sudden changes of a stretch, at least."""
 
     slope_window_s: PositiveSeconds = 0.05
-    """Window over which slopes beside earlier findings are taken."""
+    """Window over which slopes next to earlier findings are taken."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class PublishedStepsOptions:
     """Size of the smaller of the two jumps of a step as a part of the larger, at least (0 to 1)."""
 
     slope_window_s: PositiveSeconds = 0.05
-    """Window over which slopes beside earlier findings are taken."""
+    """Window over which slopes next to earlier findings are taken."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ class PublishedSlowOptions:
     predictor: Literal["replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge"] = (
         "replicated_network"
     )
-    """The predictor whose residual is judged.
+    """The predictor whose residual is examined.
 
     Change it when the network takes too long, or another predictor predicts better."""
 
@@ -150,4 +150,4 @@ class PublishedSlowOptions:
     """Shortest time beyond the lower threshold."""
 
     slope_window_s: PositiveSeconds = 0.05
-    """Window over which slopes beside earlier findings are taken."""
+    """Window over which slopes next to earlier findings are taken."""

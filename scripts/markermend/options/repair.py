@@ -55,7 +55,7 @@ class SeparationOptions:
 
     likelihood_power: Share = 0.15
     """Power to which the likelihood of an artifact counts: 1 takes the assumed shapes and covariances as exact, 0 weighs all
-    alike (0 to 1)."""
+    equally (0 to 1)."""
 
     max_frames: Annotated[int, AtLeast(2)] = 1000
     """Longer artifacts, in frames, are not separated: time and memory grow fast."""

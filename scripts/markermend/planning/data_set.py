@@ -75,7 +75,7 @@ def find_decisions(
     decisions : dict of (str, str) to list of dict
         The decisions on each recording, by the names of its folders.
     warnings : list of str
-        What to tell the user of lines without effect.
+        Warnings for the user of lines without effect.
 
     Raises
     ------

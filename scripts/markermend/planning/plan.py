@@ -64,7 +64,7 @@ class Plan:
     failures
         How often each stage failed so far, by subject, recording and stage.
     warnings
-        What to tell the user before anything runs.
+        Warnings for the user before anything runs.
     started
         When the run began, with its time zone.
     """

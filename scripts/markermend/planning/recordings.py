@@ -116,9 +116,9 @@ def find(folder: str, results: str) -> list[Entry]:
         names = _name_files(files)
         entries += [Entry(printable(subject), printable(names[file]), os.path.join(path, file)) for file in files]
     named = Counter(entry.folders for entry in entries)
-    alike = [printable(entry.source) for entry in entries if named[entry.folders] > 1]
-    if alike:
-        raise BadDataSet("recordings: these cannot be told apart by name; rename one:\n" + "\n".join(alike))
+    same_name = [printable(entry.source) for entry in entries if named[entry.folders] > 1]
+    if same_name:
+        raise BadDataSet("recordings: these cannot be distinguished by name; rename one:\n" + "\n".join(same_name))
     return sorted(entries, key=lambda entry: (entry.subject, entry.recording))
 
 

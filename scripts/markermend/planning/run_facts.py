@@ -20,7 +20,7 @@ PACKAGES = ("numpy", "scipy", "pyarrow", "ezc3d", "jinja2", "plotly", "snakemake
 def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, started: datetime) -> dict[str, Any]:
     """Collect what is true of one run and of no result.
 
-    The results hold no clock and no machine, so that they can be compared; these facts lie apart from them.
+    The results hold no clock and no machine, so that they can be compared; these facts are kept separately.
 
     Parameters
     ----------

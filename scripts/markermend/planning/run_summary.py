@@ -8,14 +8,14 @@ from collections.abc import Iterable
 from pathlib import Path
 
 STATUSES = ("cleaned", "unchanged", "static", "set aside")
-"""What can become of a recording, in the order in which a summary counts them."""
+"""The possible outcomes of a recording, in the order in which a summary counts them."""
 
 LISTED = 10
-"""At most so many recordings set aside are named in a terminal; the report names all."""
+"""Largest number of recordings set aside that a terminal names; the report names all."""
 
 
 def summary(paths: Iterable[Path], report: Path) -> str:
-    """Sum up a run: recordings by what became of them, changed samples, what was set aside and why.
+    """Sum up a run: recordings by outcome, changed samples, what was set aside and why.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ class MovingMedian:
         return out
 
     def _high_pass(self, signal: np.ndarray, window: int) -> np.ndarray:
-        """Signal (frames,) minus its smooth over a window of so many samples."""
+        """Signal (frames,) minus its smooth over a centred window of samples."""
         rest: np.ndarray = signal - filters.moving_median(signal, window)
         return rest
 

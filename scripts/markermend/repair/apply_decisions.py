@@ -9,15 +9,15 @@ import numpy as np
 
 from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS
 from markermend.core.changes import DECLARED_MISSING, Change, Outcome
-from markermend.core.decisions import Decision, Ruling, kind_of, names, rule, texts_of
-from markermend.core.events import Event, tidy
+from markermend.core.decisions import Decision, Ruling, class_name, names, rule, texts_of
+from markermend.core.events import Event, disjoint
 from markermend.core.recording import Recording
 from markermend.numerics.intervals import runs
 from markermend.repair.label_exchanges import concerned
 
 
 @dataclass(frozen=True)
-class Judgement:
+class DecidedFindings:
     """What the decisions leave to be repaired.
 
     Attributes
@@ -35,7 +35,9 @@ class Judgement:
     left: list[Change]
 
 
-def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions: Iterable[Decision]) -> Judgement:
+def apply_decisions(
+    recording: Recording, found: Mapping[str, Sequence[Event]], decisions: Iterable[Decision]
+) -> DecidedFindings:
     """Apply the decisions to the findings, and take away what was declared missing.
 
     Parameters
@@ -45,11 +47,11 @@ def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions:
     found : mapping of str to sequence of Event
         The findings by detector.
     decisions : iterable of Decision
-        The decisions of persons and of the setting `protect`.
+        The decisions of persons and of the option `protect`.
 
     Returns
     -------
-    Judgement
+    DecidedFindings
         What remains. Findings that a person rejected are dropped as a whole, and so are those on which a person set a class;
         findings that reach into protected samples end there. A decision on one marker of a label exchange is about all of
         them.
@@ -58,35 +60,37 @@ def judge(recording: Recording, found: Mapping[str, Sequence[Event]], decisions:
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
     declared = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
     remaining = replace(recording, positions=np.where(declared[..., None], np.nan, recording.positions))
-    judged = Judgement(remaining, {stage: [] for stage in DETECTORS}, _declared_missing(recording, declared, decisions))
-    admission = _Admission(judged, [d for d in decisions if d.verb == "protect"], protected, declared)
+    decided = DecidedFindings(
+        remaining, {stage: [] for stage in DETECTORS}, _declared_missing(recording, declared, decisions)
+    )
+    admission = _Admission(decided, [d for d in decisions if d.verb == "protect"], protected, declared)
     exchanges = found.get("labels", ())
     for stage, event in ((stage, event) for stage, events in found.items() for event in events):
         markers = concerned(event, exchanges)
         against = _against(decisions, stage, event, markers)
         if against.left:
-            judged.left.append(_left(stage, event, event.start, event.stop, against))
+            decided.left.append(_left(stage, event, event.start, event.stop, against))
         else:
             admission.admit(stage, event, markers)
     for stage, events in _found_by_persons(remaining, decisions).items():
         for event in events:
             admission.admit(stage, event, names(event))
-    return judged
+    return decided
 
 
 @dataclass(frozen=True)
 class _Admission:
     """Where findings may be repaired; `protected` and `declared` missing are bool (frames, markers)."""
 
-    judged: Judgement
+    decided: DecidedFindings
     protections: Sequence[Decision]
     protected: np.ndarray
     declared: np.ndarray
 
     def admit(self, stage: str, event: Event, markers: Sequence[str]) -> None:
         """Keep a finding on markers where it may be repaired, and record where it may not."""
-        missing = self.judged.recording.missing
-        columns = [self.judged.recording.markers.index(name) for name in markers]
+        missing = self.decided.recording.missing
+        columns = [self.decided.recording.markers.index(name) for name in markers]
         span = slice(event.start, event.stop)
         protected = np.asarray(self.protected[span, columns].any(axis=1))
         # An exchange of labels takes missing samples along; any other finding ends where samples were taken away.
@@ -94,16 +98,16 @@ class _Admission:
         for start, stop in runs(free):
             if not missing[event.start + start : event.start + stop, columns].all():
                 part = replace(event, start=event.start + start, stop=event.start + stop)
-                self.judged.found[stage].append(part)
+                self.decided.found[stage].append(part)
         for start, stop in runs(protected):
             place = event.start + start, event.start + stop
-            self.judged.left.append(_left(stage, event, *place, rule(self.protections, (), markers, *place)))
+            self.decided.left.append(_left(stage, event, *place, rule(self.protections, (), markers, *place)))
 
 
 def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: Sequence[str]) -> Ruling:
     """Why a finding on markers is dropped: rejected, left, or replaced by what a person says is of another class."""
     others = [decision for decision in decisions if decision.verb != "protect"]
-    ruling = rule(others, [kind_of(stage, event)], markers, event.start, event.stop)
+    ruling = rule(others, [class_name(stage, event)], markers, event.start, event.stop)
     classes = [d for d in others if d.verb == "class" and _replaces(d, markers, event)]
     return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=texts_of(classes))
 
@@ -126,7 +130,7 @@ def _found_by_persons(recording: Recording, decisions: Iterable[Decision]) -> di
             if start < stop and not recording.missing[start:stop, columns].all():
                 (kind,) = decision.kinds
                 made.setdefault(BY_NAME[kind].stage, []).extend(both)
-    return {stage: tidy(events) for stage, events in made.items()}
+    return {stage: disjoint(events) for stage, events in made.items()}
 
 
 def _declared_missing(recording: Recording, declared: np.ndarray, decisions: Iterable[Decision]) -> list[Change]:

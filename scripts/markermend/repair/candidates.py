@@ -134,7 +134,7 @@ class CandidateMaker:
     scene : Scene
         The trajectories without them.
     predictors : mapping of str to Predictor
-        The predictors by name; `local_ridge` gives the prediction by the neighbours that proposals are judged by.
+        The predictors by name; `local_ridge` gives the prediction by the neighbours with which proposals are compared.
     options : RepairOptions
         Options of the methods.
     """
@@ -172,7 +172,7 @@ class CandidateMaker:
         ]
 
     def _candidate(self, proposal: Proposal, measured: np.ndarray, expected: np.ndarray, radius: float) -> Candidate:
-        """A proposal, judged by what was measured and by the prediction of the neighbours, each (n, 3), mm."""
+        """A proposal, compared with what was measured and with the prediction by the neighbours, each (n, 3), mm."""
         after = np.nan
         if proposal.method not in SHAPE_COVARIANCES:
             after = rms_distance(np.where(np.isnan(measured), np.nan, proposal.positions), expected)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
-from markermend.repair.apply_decisions import Judgement
+from markermend.repair.apply_decisions import DecidedFindings
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.findings import Rulings
 from markermend.repair.label_exchanges import cycle_of
@@ -33,7 +33,7 @@ class PlannedExchange:
     reason: Reason | None
 
     def holds(self, event: Event) -> bool:
-        """Tell whether an event belongs to the cycle.
+        """Check whether an event belongs to the cycle.
 
         Parameters
         ----------
@@ -54,13 +54,13 @@ NO_METHOD = Reason(Cause.NO_METHOD, "no method for labels: left as recorded")
 
 
 def plan_exchanges(
-    judged: Judgement, rulings: Rulings, maker: CandidateMaker, *, methods: Sequence[str], usual: bool
+    decided: DecidedFindings, rulings: Rulings, maker: CandidateMaker, *, methods: Sequence[str], usual: bool
 ) -> list[PlannedExchange]:
     """Plan the exchanges of labels.
 
     Parameters
     ----------
-    judged : Judgement
+    decided : DecidedFindings
         What the decisions leave to be repaired.
     rulings : Rulings
         The decisions.
@@ -77,15 +77,15 @@ def plan_exchanges(
         The cycles that are wanted, each once; one that a person confirmed is carried out in any case.
     """
     planned: list[PlannedExchange] = []
-    for event in judged.found["labels"]:
+    for event in decided.found["labels"]:
         ruling = rulings.on([("labels", event)])
         wanted = ruling.method == "exchange" if ruling.method else usual or ruling.confirmed
         new = not any(exchange.holds(event) for exchange in planned)
-        if event.partner in judged.recording.markers and wanted and new:
-            cycle = tuple(cycle_of(event, judged.found["labels"]))
+        if event.partner in decided.recording.markers and wanted and new:
+            cycle = tuple(cycle_of(event, decided.found["labels"]))
             reason = None
             if not ruling.confirmed:
-                reason = _worse(cycle, judged.recording.markers, maker) if "exchange" in methods else NO_METHOD
+                reason = _worse(cycle, decided.recording.markers, maker) if "exchange" in methods else NO_METHOD
             planned.append(PlannedExchange(cycle, ruling, reason))
     return planned
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from markermend.core.decisions import Decision, Ruling, kind_of, rule
+from markermend.core.decisions import Decision, Ruling, class_name, rule
 from markermend.core.events import Event
 from markermend.repair.label_exchanges import concerned
 
@@ -78,7 +78,7 @@ class Rulings:
     Attributes
     ----------
     decisions : sequence of Decision
-        The decisions of persons and of the setting `protect`.
+        The decisions of persons and of the option `protect`.
     exchanges : sequence of Event
         All label exchanges as detected: a decision on one marker of a cycle is about all of them.
     """
@@ -99,7 +99,7 @@ class Rulings:
         Ruling
             What the decisions come to.
         """
-        kinds = {kind_of(stage, event) for stage, event in members}
+        kinds = {class_name(stage, event) for stage, event in members}
         markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.exchanges))
         start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
         return rule(self.decisions, kinds, markers, start, stop)

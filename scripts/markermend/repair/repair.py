@@ -1,10 +1,10 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Labels are exchanged first; what else was found was found on trajectories with the exchanges undone, and follows its samples
-where one of them is not carried out. Every method of a class proposes samples and states their expected error. The
+Labels are exchanged first. All other findings were made on trajectories with the exchanges undone; where an exchange is
+not carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
 proposal with the least expected error is taken if it changes more than it may err by, and if a method that leaves the
 neighbours aside brings the samples nearer to where these predict them. Where no proposal is accurate enough, the samples
-become missing; so do samples that nobody measured. Samples outside the findings are returned bit for bit.
+become missing; so do samples that were not measured. Samples outside the findings are returned bit for bit.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Recording
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Predictor, Scene
-from markermend.repair.apply_decisions import Judgement, judge
+from markermend.repair.apply_decisions import DecidedFindings, apply_decisions
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_exchanges
 from markermend.repair.finding_repair import repair_finding
@@ -100,20 +100,20 @@ def repair_scene(
     static = recording.facts.get("kind") == "static"
     exchanges = found.get("labels", ())
     rulings = Rulings([] if static else [*protecting(options.protect), *decisions], exchanges)
-    judged = judge(recording, found, rulings.decisions)
+    decided = apply_decisions(recording, found, rulings.decisions)
     refusal = (
-        Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(judged, rulings, options)
+        Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(decided, rulings, options)
     )
-    maker = _candidate_maker(judged.recording, judged.found, scene, predictors, options)
+    maker = _candidate_maker(decided.recording, decided.found, scene, predictors, options)
     methods = options.methods.get("labels", ())
-    planned = plan_exchanges(judged, rulings, maker, methods=methods, usual=refusal is None)
+    planned = plan_exchanges(decided, rulings, maker, methods=methods, usual=refusal is None)
     carried = [event for exchange in planned if exchange.reason is None for event in exchange.cycle]
     if set(carried) != set(exchanges):
-        judged = judge(recording, _follow_samples(found, exchanges, carried), rulings.decisions)
-    result = Restoration(judged.recording, judged.left, options.radius)
+        decided = apply_decisions(recording, _follow_samples(found, exchanges, carried), rulings.decisions)
+    result = Restoration(decided.recording, decided.left, options.radius)
     _exchange_labels(result, planned)
-    exchanged = replace(judged.recording, positions=result.positions.copy())
-    remaining = {**judged.found, "labels": not_planned(judged.found["labels"], planned)}
+    exchanged = replace(decided.recording, positions=result.positions.copy())
+    remaining = {**decided.found, "labels": not_planned(decided.found["labels"], planned)}
     maker = _candidate_maker(exchanged, remaining, scene, predictors, options)
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)
@@ -139,12 +139,12 @@ def _covered(recording: Recording, events: Sequence[Event]) -> np.ndarray:
     return found
 
 
-def _too_much(judged: Judgement, rulings: Rulings, options: RepairOptions) -> Reason | None:
+def _too_much(decided: DecidedFindings, rulings: Rulings, options: RepairOptions) -> Reason | None:
     """Why nothing is repaired that no person confirmed; None where it may be."""
-    members = [(stage, event) for stage, events in judged.found.items() for event in events]
+    members = [(stage, event) for stage, events in decided.found.items() for event in events]
     unconfirmed = [event for stage, event in members if not rulings.on([(stage, event)]).confirmed]
-    seen = int((~judged.recording.missing).sum())
-    share = _covered(judged.recording, unconfirmed).sum() / max(1, seen)
+    seen = int((~decided.recording.missing).sum())
+    share = _covered(decided.recording, unconfirmed).sum() / max(1, seen)
     if share <= options.max_altered_share:
         return None
     limit = Limit("repair.max_altered_share", options.max_altered_share, float(share))

@@ -1,4 +1,4 @@
-"""What became of everything that was found: the changes, and the stretches that were left as they are.
+"""The outcome of everything that was found: the changes, and the stretches that were left as they are.
 
 Frames are rows counted from 0, half-open.
 """
@@ -119,7 +119,7 @@ def open_gaps(restored: Recording, changes: Iterable[Change]) -> list[Change]:
 
 
 def overlap(one: Change, other: Change | Event) -> bool:
-    """Tell whether two stretches share a frame.
+    """Check whether two stretches share a frame.
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def _by_marker(changes: Iterable[Change]) -> dict[str, list[Change]]:
 
 
 def _unaccounted(stage: str, event: Event) -> Change:
-    """A finding of which no stage said what became of it."""
+    """A finding of which no stage stated the outcome."""
     return Change(
         event.marker,
         event.start,

@@ -135,7 +135,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
     artifacts = [finding for finding in seen.left if not finding.is_gap]
     chosen = [*seen.changes[: options.plots], *artifacts[: options.plots]]
     drawn = {
-        finding: (f"finding-{number}", cut(seen, finding, options))
+        finding: (f"finding-{number}", plot_of(seen, finding, options))
         for number, finding in enumerate(dict.fromkeys(chosen))
     }
     rows = sample_statistics.per_marker(seen.before, seen.after)
@@ -160,7 +160,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
     )
 
 
-def cut(seen: Evidence, finding: Change, options: QcOptions) -> dict[str, Any]:
+def plot_of(seen: Evidence, finding: Change, options: QcOptions) -> dict[str, Any]:
     """Extract what the plot of a finding shows.
 
     Parameters

@@ -102,7 +102,7 @@ def printable(text: str) -> str:
 
 
 def _ordinary(character: str) -> bool:
-    """Tell whether a character stands for itself in a folder name."""
+    """Check whether a character stands for itself in a folder name."""
     return character in "_-." or unicodedata.category(character)[0] in "LMN"
 
 

@@ -80,10 +80,10 @@ def attribute(detector, predictor, *, rounds, reach):
     def compete(one, other):
         return of(other) in neighbours[of(one)] and share(one, other)
 
-    suspected = [event for m in range(count) for event in detector.suspect(detector.scene.positions, m)]
+    suspected = [event for m in range(count) for event in detector.find_candidates(detector.scene.positions, m)]
     contested = [one for one in suspected if any(compete(one, other) for other in suspected)]
     hidden, residual = hide(detector, predictor, contested)
-    found = [detector.judge(residual, m) for m in range(count)]
+    found = [detector.find_events(residual, m) for m in range(count)]
     accepted = [event for own in found for event in own if samples([event], detector) <= hidden]
     again_later = set()
     for _ in range(rounds):
@@ -113,6 +113,8 @@ def attribute(detector, predictor, *, rounds, reach):
             residual[:, m] = anew[:, m]
         for m in again:
             kept = [event for event in found[m] if event in accepted]
-            judged = [event for event in detector.judge(residual, m) if not any(share(event, own) for own in kept)]
+            judged = [
+                event for event in detector.find_events(residual, m) if not any(share(event, own) for own in kept)
+            ]
             found[m] = kept + judged
     return sorted((event for own in found for event in own), key=lambda event: event.order)

@@ -4,7 +4,7 @@ import pytest
 
 from markermend.core.artifacts import BY_NAME, DETECTORS
 from markermend.core.changes import GAP
-from markermend.core.decisions import EVER, Decision, Ruling, kind_of, protecting, read, rule
+from markermend.core.decisions import EVER, Decision, Ruling, class_name, protecting, read, rule
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
 
@@ -47,9 +47,9 @@ def test_one_frame_in_common_is_enough(start, stop, shares):
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
-    kinds = [kind_of(stage, Event("A", 0, 1, 1.0)) for stage in DETECTORS]
+    kinds = [class_name(stage, Event("A", 0, 1, 1.0)) for stage in DETECTORS]
     assert kinds == ["swap", "frozen", "tail", "peak", "noise", "step", "slow"]
-    assert kind_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
+    assert class_name("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
 
 
 @pytest.mark.parametrize("kind", [*BY_NAME, GAP])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.core.events import Event, from_mask, mask, tidy
+from markermend.core.events import Event, disjoint, from_mask, mask
 
 MARKERS = ("A", "B")
 
@@ -28,7 +28,7 @@ def test_tidy_merges_what_touches_and_keeps_partners_apart():
         Event("A", 7, 12, 3.0, "z", "B"),
         Event("B", 1, 3, 1.0, "z"),
     ]
-    assert tidy(events) == [
+    assert disjoint(events) == [
         Event("A", 1, 8, 4.0, "xy"),
         Event("A", 8, 12, 3.0, "z", "B"),
         Event("B", 1, 3, 1.0, "z"),

@@ -69,8 +69,8 @@ def test_each_sample_names_what_was_found_and_what_stands_there():
         Change("B", 3, 5, ("gap",), Outcome.FILLED, method="ensemble"),
     ]
     originals = find_originals(measured, result, applied_changes(measured, result, changes))
-    told = zip(originals.marker, originals.frame, originals.classes, origin_names(originals), strict=True)
-    assert [("ABC"[m], frame, name, now) for m, frame, name, now in told] == [
+    rows = zip(originals.marker, originals.frame, originals.classes, origin_names(originals), strict=True)
+    assert [("ABC"[m], frame, name, now) for m, frame, name, now in rows] == [
         ("A", 1, "swap", "swap"),
         ("A", 2, "peak", "peak"),
         ("A", 3, "swap", "swap"),

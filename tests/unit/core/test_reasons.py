@@ -1,4 +1,4 @@
-"""Limits name settings that are there, so that a person who reads a reason can change its cause."""
+"""Limits name options that exist, so that a person who reads a reason can change its cause."""
 
 import ast
 
@@ -11,23 +11,23 @@ from support.paths import PROJECT
 CONFIG = yaml.safe_load((PROJECT / "config" / "config.yaml").read_text(encoding="utf-8"))
 
 
-def named_settings():
-    """The settings that repair and filling name in limits."""
+def named_options():
+    """The options that repair and filling name in limits."""
     library = PROJECT / "scripts" / "markermend"
     for path in sorted([*library.glob("repair/*.py"), *library.glob("filling/*.py")]):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Limit":
                 argument = node.args[0]
-                assert isinstance(argument, ast.Constant), f"{path}:{node.lineno} names no setting"
+                assert isinstance(argument, ast.Constant), f"{path}:{node.lineno} names no option"
                 yield argument.value
 
 
 def test_limits_are_named_in_repair_and_in_filling():
-    sections = {name.removeprefix("advanced.").split(".")[0] for name in named_settings()}
+    sections = {name.removeprefix("advanced.").split(".")[0] for name in named_options()}
     assert sections == {"repair", "fill"}
 
 
-@pytest.mark.parametrize("setting", sorted(set(named_settings())))
+@pytest.mark.parametrize("setting", sorted(set(named_options())))
 def test_a_limit_names_a_key_of_the_config(setting):
     value = CONFIG
     for key in setting.split("."):

@@ -1,4 +1,4 @@
-"""Frozen markers: found where the neighbours tell that the marker moved on, and nowhere else."""
+"""Frozen markers: found where the neighbours show that the marker moved on, and nowhere else."""
 
 from dataclasses import replace
 
@@ -92,7 +92,7 @@ def test_a_prop_at_rest_and_a_recording_that_stalls_are_none(walker, near):
 
 
 def test_a_planted_marker_about_which_its_neighbours_turn_is_none(walker, near):
-    """What neighbours tell decides, not that they move."""
+    """The prediction by the neighbours decides, not whether they move."""
     m = walker.recording.markers.index("LFHD")
     hinge = np.array([0.0, 0.0, 1500.0])
     turned = walker.recording.positions - walker.recording.positions[:, m : m + 1] + hinge

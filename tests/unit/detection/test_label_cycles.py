@@ -13,7 +13,7 @@ OPTIONS = LabelsOptions()
 
 
 def moving(seed, frames=30, markers=6):
-    """Markers on smooth courses, and where some of them are exchanged in a cycle."""
+    """Markers on smooth trajectories, and where some of them are exchanged in a cycle."""
     rng = np.random.default_rng(seed)
     t = np.arange(frames)[:, None, None] / 10
     positions = rng.uniform(-90, 90, (markers, 3)) + rng.uniform(-5, 5, (markers, 3)) * t

@@ -95,34 +95,34 @@ def turned(recording, ring, start, stop):
     positions = recording.positions.copy()
     own = [recording.markers.index(name) for name in ring]
     positions[start:stop, np.roll(own, -1)] = recording.positions[start:stop, own]
-    told = sorted((ring[k], start, stop, ring[(k + 1) % len(ring)]) for k in range(len(ring)))
-    return replace(recording, positions=positions), told
+    expected = sorted((ring[k], start, stop, ring[(k + 1) % len(ring)]) for k in range(len(ring)))
+    return replace(recording, positions=positions), expected
 
 
 @pytest.mark.parametrize("ring", [("LTHI", "LKNE", "LTIB"), ("LTIB", "LKNE", "LTHI"), ("LASI", "RASI", "LPSI", "RPSI")])
 @pytest.mark.parametrize("span", [(600, 601), (600, 650), (900, 1200), (0, 300)])
 def test_markers_that_change_places_in_a_ring(walker, ring, span):
-    recording, told = turned(walker.recording, ring, *span)
+    recording, expected = turned(walker.recording, ring, *span)
     found = find(recording)
-    assert intervals(found) == told
+    assert intervals(found) == expected
     assert np.array_equal(undo_exchanges(recording.positions, found, recording.markers), walker.recording.positions)
 
 
 def test_a_ring_that_turns_on_and_on(walker):
-    once, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 400, 450)
+    once, expected = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 400, 450)
     twice, more = turned(once, ("LTIB", "LKNE", "LTHI"), 450, 480)
     found = find(twice)
-    assert intervals(found) == sorted(told + more)
+    assert intervals(found) == sorted(expected + more)
     assert np.array_equal(undo_exchanges(twice.positions, found, twice.markers), walker.recording.positions)
 
 
 def test_a_ring_is_undone_by_the_repair(walker):
-    recording, told = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
+    recording, expected = turned(walker.recording, ("LTHI", "LKNE", "LTIB"), 600, 650)
     options = RepairOptions()
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
     mended = repair_scene(recording, scene, found={"labels": find(recording)}, predictors={}, options=options)
     assert np.array_equal(mended.recording.positions, walker.recording.positions)
-    assert sorted((e.marker, e.start, e.stop, e.partner) for e in mended.changes) == told
+    assert sorted((e.marker, e.start, e.stop, e.partner) for e in mended.changes) == expected
 
 
 def test_undone_bit_for_bit_alone_and_by_the_repair(walker):

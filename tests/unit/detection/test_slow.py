@@ -45,7 +45,7 @@ def test_nothing_where_all_is_well_or_something_does_not_come_back(half):
 
 
 def without_neighbours(recording, places, ranks):
-    """The recording with a gap in neighbours of so many ranks from the middle of each place to well after it."""
+    """The recording with a gap in the neighbours of some ranks from the middle of each place to well after it."""
     positions, near = recording.positions.copy(), neighbours(recording.positions)
     for marker, start, stop in places:
         own = near[recording.markers.index(marker)]

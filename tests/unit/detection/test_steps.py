@@ -41,7 +41,7 @@ def test_an_open_step_of_the_walker_has_its_size(walker):
 
 def test_a_step_that_motion_hides_is_found_by_jumps_that_cancel(walker):
     t = np.arange(60) / 60
-    drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the course beside it, smoothly
+    drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the adjacent trajectory, smoothly
     found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
 

@@ -30,8 +30,8 @@ def with_gaps(recording, tails=(), seed=4, size=15.0):
     for marker, start, stop in GAPS:
         positions[start:stop, recording.markers.index(marker)] = np.nan
     for marker, start, stop, side in tails:
-        course = size * np.arange(1, stop - start + 1)[:, None] / (stop - start)
-        wander = course * (1 + rng.uniform(0, 0.5, course.shape)) * rng.choice([-1, 1], (len(course), 3))
+        trajectory = size * np.arange(1, stop - start + 1)[:, None] / (stop - start)
+        wander = trajectory * (1 + rng.uniform(0, 0.5, trajectory.shape)) * rng.choice([-1, 1], (len(trajectory), 3))
         positions[start:stop, recording.markers.index(marker)] += wander[::side]
     return replace(recording, positions=positions)
 

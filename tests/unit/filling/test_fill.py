@@ -259,7 +259,7 @@ class TestDecisions:
     @pytest.mark.parametrize(
         ("gap", "facts", "options"),
         [((MARKER, 0, 600), {}, {}), (GAP, {"kind": "static"}, {}), (GAP, {}, {"protect": ["*"]})],
-        ids=["never seen", "static", "protected by a setting"],
+        ids=["never seen", "static", "protected by an option"],
     )
     def test_what_no_person_can_change(self, person, gap, facts, options):
         recording = gapped(person, gap, **facts)
@@ -269,7 +269,7 @@ class TestDecisions:
     def test_decisions_on_other_markers_and_frames_change_nothing(self, person):
         recording = gapped(person, GAP, (OTHER, 210, 260))
         decided = [
-            Decision("nobody", -EVER, EVER, "accept", "gap"),
+            Decision("unknown", -EVER, EVER, "accept", "gap"),
             decide(person, "reject", "gap", start=0, stop=200),
             decide(person, "method", "leave", start=240, stop=600),
             decide(person, "reject"),

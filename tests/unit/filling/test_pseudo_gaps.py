@@ -31,12 +31,12 @@ def naive_starts(seen, gap, length, count, neighbours):
     return sorted({starts[int((part + drawn[part]) / count * len(starts))] for part in range(count)})
 
 
-def naive_stride(starts, distance, most):
+def naive_stride(starts, distance, max_per_scene):
     """The least number of scenes, tried one after the other: in each every pair is far enough apart, and not too many."""
     for scenes in range(1, len(starts) + 1):
         groups = [starts[first::scenes] for first in range(scenes)]
         apart = all(b - a >= distance for group in groups for a, b in pairwise(group))
-        if scenes == len(starts) or (apart and max(map(len, groups)) <= most):
+        if scenes == len(starts) or (apart and max(map(len, groups)) <= max_per_scene):
             return scenes
     return 0
 
@@ -57,8 +57,8 @@ def test_pseudo_gaps_equal_the_naive_twin(seed):
     starts = naive_starts(seen, gap, length, count, 3)
     assert [trial.gap for trial in found] == [Gap(2, first, first + length) for first in starts]
     beyond = max(length, 100) if gap.start == 0 else 0
-    most = int(share * seen.present[:, 2].sum() / (length + beyond))
-    scenes = naive_stride(starts, 2 * (length + beyond), most)
+    max_per_scene = int(share * seen.present[:, 2].sum() / (length + beyond))
+    scenes = naive_stride(starts, 2 * (length + beyond), max_per_scene)
     for k, trial in enumerate(found):
         together = starts[k % scenes :: scenes]
         expected = positions.copy()
@@ -78,8 +78,10 @@ def test_the_number_of_scenes_equals_the_naive_twin(seed):
     rng = np.random.default_rng(seed)
     starts = np.unique(rng.integers(0, 300, 9))
     for distance in (1, 10, 60, 1000):
-        for most in (0, 1, 2, 4, 9):
-            assert scene_count(starts, distance=distance, most=most) == naive_stride(starts.tolist(), distance, most)
+        for max_per_scene in (0, 1, 2, 4, 9):
+            assert scene_count(starts, distance=distance, max_per_scene=max_per_scene) == naive_stride(
+                starts.tolist(), distance, max_per_scene
+            )
 
 
 def test_pseudo_gaps_miss_what_the_gap_misses(walker):

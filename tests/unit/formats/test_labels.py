@@ -1,4 +1,4 @@
-"""Labels are printable, unique and told apart from unlabelled trajectories."""
+"""Labels are printable, unique and distinguished from unlabelled trajectories."""
 
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.mesh.pair_statistics import PairStatistics
-from markermend.mesh.segment_summary import SegmentSummary, judge_excitation, named, rank_markers
+from markermend.mesh.segment_summary import SegmentSummary, assess_excitation, named, rank_markers
 from markermend.mesh.segment_tree import Skeleton
 from markermend.options.mesh import MeshOptions
 
@@ -79,15 +79,15 @@ def test_predictors_and_neighbours_equal_those_sorted_one_by_one(statistics):
 )
 def test_what_is_too_little_is_warned_of_and_lowers_the_share(changed, warning, statistics):
     enough = replace(statistics, deviation=np.full((6, 6), 31.0))
-    assert judge_excitation(enough, segments=3, markers=6, options=OPTIONS).share == 1.0
-    judged = judge_excitation(replace(enough, **changed), segments=3, markers=6, options=OPTIONS)
-    assert judged.share == pytest.approx(0.4)
-    (text,) = judged.warnings
+    assert assess_excitation(enough, segments=3, markers=6, options=OPTIONS).share == 1.0
+    excitation = assess_excitation(replace(enough, **changed), segments=3, markers=6, options=OPTIONS)
+    assert excitation.share == pytest.approx(0.4)
+    (text,) = excitation.warnings
     assert text.startswith(warning) and "supply a mesh" in text
 
 
 def test_too_few_segments_are_warned_of(statistics):
     enough = replace(statistics, deviation=np.full((6, 6), 31.0))
-    judged = judge_excitation(enough, segments=1, markers=24, options=OPTIONS)
-    assert judged.share == pytest.approx(0.25)
-    assert judged.warnings[0].startswith("only 1 segments for 24 markers (4 wanted)")
+    excitation = assess_excitation(enough, segments=1, markers=24, options=OPTIONS)
+    assert excitation.share == pytest.approx(0.25)
+    assert excitation.warnings[0].startswith("only 1 segments for 24 markers (4 wanted)")

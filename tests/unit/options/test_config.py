@@ -137,12 +137,12 @@ def test_every_new_name_is_there(section):
 
 
 def test_limits_that_people_are_told_of_are_keys():
-    told = {
+    moved = {
         name
         for path in (PROJECT / "scripts/markermend").rglob("*.py")
         for name in re.findall(r'Limit\(\s*"([\w.]+)"', path.read_text(encoding="utf-8"))
     }
-    assert told and all(find_place(name.removeprefix("advanced.")) == name for name in told)
+    assert moved and all(find_place(name.removeprefix("advanced.")) == name for name in moved)
 
 
 def test_the_shipped_config_holds_every_default():

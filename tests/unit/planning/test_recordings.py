@@ -92,5 +92,5 @@ def test_a_broken_link_is_a_recording_and_alike_names_are_refused(tmp_path):
     assert entry.recording == "gone"
     (tmp_path / "S" / os.fsdecode(b"\xff.c3d")).touch()
     (tmp_path / "S" / r"\xff.c3d").touch()
-    with pytest.raises(BadDataSet, match="told apart"):
+    with pytest.raises(BadDataSet, match="distinguished by name"):
         recordings.find(str(tmp_path), str(tmp_path / "out"))

@@ -51,11 +51,11 @@ def test_methods_compete_and_all_are_told(clean, deviation, method):
         methods={**METHODS, "slow": ["local_ridge", "vague"]},
         extra=vague,
     )
-    (told,) = result.repairs
-    assert told.method == method
-    assert expected(told)["vague"] == pytest.approx(1.8 * deviation, abs=1e-3)
+    (change,) = result.repairs
+    assert change.method == method
+    assert expected(change)["vague"] == pytest.approx(1.8 * deviation, abs=1e-3)
     m = clean.markers.index(MARKER)
-    assert expected(told)[method] == pytest.approx(result.error[START:STOP, m].max(), abs=1e-3)
+    assert expected(change)[method] == pytest.approx(result.error[START:STOP, m].max(), abs=1e-3)
 
 
 @pytest.mark.parametrize("length", [3, 200])
@@ -64,11 +64,11 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
     recording = distorted(clean, 25.0, START, START + length)
     found = {"noise": [Event(MARKER, START, START + length, 4.0)]}
     result = mend(recording, found, methods={**METHODS, "noise": ["local_ridge", "spline"]}, preference_factor=1.0)
-    (told,) = result.repairs
-    assert told.method == min(expected(told), key=expected(told).get)
-    assert len(expected(told)) == 2
+    (change,) = result.repairs
+    assert change.method == min(expected(change), key=expected(change).get)
+    assert len(expected(change)) == 2
     if length > 100:
-        assert told.method == "local_ridge"
+        assert change.method == "local_ridge"
     assert error(clean, result, START, START + length).max() < 2
 
 
@@ -80,6 +80,6 @@ def test_a_step_is_taken_off_where_the_neighbours_tell_less_than_the_jumps(clean
     positions[:, m] += 3.0 * loose / loose.std()
     wobbly = bodies.recording(clean.markers, positions)
     result = mend(distorted(wobbly, np.array([6.0, -5.0, 4.0])), {"steps": [Event(MARKER, START, STOP, 5.0)]})
-    (told,) = result.repairs
-    assert told.method == "separate_step" and expected(told)["local_ridge"] > 3
+    (change,) = result.repairs
+    assert change.method == "separate_step" and expected(change)["local_ridge"] > 3
     assert error(wobbly, result).max() < 0.8

@@ -168,10 +168,10 @@ def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_
 def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
     """Combined forms (skurowski2022 figure 14), as the detectors find them."""
 
-    def bump(length):
+    def pulse(length):
         return 30 * np.sin(np.pi * (np.arange(length) + 0.5) / length)[:, None] * [1, 0.4, -0.5]
 
-    recording = put(walker.recording, [("STRN", 200, 280)], bump)
+    recording = put(walker.recording, [("STRN", 200, 280)], pulse)
     m = recording.markers.index("STRN")
     recording.positions[240:242, m] += [20.0, -25.0, 10.0]
     found = {

@@ -101,8 +101,8 @@ def test_a_protected_part_of_a_stretch_is_not_exchanged_and_keeps_its_findings(c
     result = mend(recording, {"labels": PAIR, "peaks": [Event("2b", *PEAK, 5.0)]}, decisions=protect)
     assert np.array_equal(result.positions[START:620, a], recording.positions[START:620, a])
     assert np.array_equal(result.positions[620:STOP, [a, b]], clean.positions[620:STOP, [a, b]])
-    told = [*result.repairs, *result.repairs_left]
-    assert [(one.marker, one.start) for one in told if one.kind == "peak"] == [("3a", PEAK[0])]
+    changes = [*result.repairs, *result.repairs_left]
+    assert [(one.marker, one.start) for one in changes if one.kind == "peak"] == [("3a", PEAK[0])]
 
 
 @pytest.mark.parametrize("protect", ["2b", "3a", "1a"])

@@ -71,10 +71,10 @@ def test_a_prediction_with_a_hole_is_no_proposal(clean):
 
 def test_a_smoother_needs_the_whole_stretch_and_good_samples_around():
     rng = np.random.default_rng(3)
-    course = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0)
+    trajectory = np.cumsum(rng.normal(0, 1, (60, 3)), axis=0)
     flagged = np.zeros(60, bool)
     flagged[30:34] = True
-    assert smoothed(course, flagged, 30, 34, window=11, order=3).positions.shape == (4, 3)
-    assert smoothed(course, np.ones(60, bool), 30, 34, window=11, order=3) is None
-    course[32] = np.nan
-    assert smoothed(course, flagged, 30, 34, window=11, order=3) is None
+    assert smoothed(trajectory, flagged, 30, 34, window=11, order=3).positions.shape == (4, 3)
+    assert smoothed(trajectory, np.ones(60, bool), 30, 34, window=11, order=3) is None
+    trajectory[32] = np.nan
+    assert smoothed(trajectory, flagged, 30, 34, window=11, order=3) is None

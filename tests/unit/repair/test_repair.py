@@ -34,15 +34,20 @@ def test_prediction_replaces_noise_and_drift(clean, kind):
     result = mend(recording, {kind: [Event(MARKER, START, STOP, 3.0)]})
     check_only(recording, result, START, STOP, kind)
     assert error(clean, result).max() < 1
-    (told,) = result.repairs
-    assert expected(told).keys() == {"local_ridge"}
-    assert (told.marker, told.start, told.stop, told.kind, told.score) == (MARKER, START, STOP, kind, 3.0)
-    assert (told.outcome, told.method, told.samples, told.reason) == ("repaired", "local_ridge", STOP - START, None)
+    (change,) = result.repairs
+    assert expected(change).keys() == {"local_ridge"}
+    assert (change.marker, change.start, change.stop, change.kind, change.score) == (MARKER, START, STOP, kind, 3.0)
+    assert (change.outcome, change.method, change.samples, change.reason) == (
+        "repaired",
+        "local_ridge",
+        STOP - START,
+        None,
+    )
     m = clean.markers.index(MARKER)
     span = slice(START, STOP), m
     moved = np.linalg.norm(result.positions[span] - recording.positions[span], axis=1).max()
     figures = moved, result.error[span].max(), result.error95[span].max()
-    assert (told.largest_change_mm, told.expected_error_mm, told.expected_error95_mm) == pytest.approx(
+    assert (change.largest_change_mm, change.expected_error_mm, change.expected_error95_mm) == pytest.approx(
         figures, abs=5e-4
     )
 

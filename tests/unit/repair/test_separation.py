@@ -75,9 +75,9 @@ def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
 
 
 def test_a_tent_is_one_course_of_any_size():
-    """Its covariance is that of the published course of slow changes times a random amplitude."""
-    course = shape("slow", 40)
-    assert np.allclose(tent_covariance(40), np.outer(course, course) * tent_covariance(40).max())
+    """Its covariance is that of the published shape of slow changes times a random amplitude."""
+    trajectory = shape("slow", 40)
+    assert np.allclose(tent_covariance(40), np.outer(trajectory, trajectory) * tent_covariance(40).max())
     assert tent_covariance(40).max() == pytest.approx(1, abs=0.06)
 
 
@@ -113,19 +113,21 @@ def test_what_remains_unsure_is_stated(method):
 
 def test_predictions_that_err_apart_are_surer_together():
     rng = np.random.default_rng(8)
-    courses = rng.normal(0, 2.0, (2, 4000, 3))
+    trajectories = rng.normal(0, 2.0, (2, 4000, 3))
     mean, deviation = average_by_likelihood(
-        courses, [Separation(course, np.full(4000, 4.0), -7.0) for course in courses]
+        trajectories, [Separation(trajectory, np.full(4000, 4.0), -7.0) for trajectory in trajectories]
     )
-    assert np.allclose(mean, courses.mean(axis=0))
+    assert np.allclose(mean, trajectories.mean(axis=0))
     assert np.sqrt((mean**2).mean()) == pytest.approx(np.sqrt(2), rel=0.03)
     assert np.sqrt(2) < np.sqrt((deviation**2).mean()) < 0.9 * 2
 
 
 def test_predictions_that_err_alike_are_no_surer_together():
-    course = np.random.default_rng(8).normal(0, 2.0, (50, 3))
-    mean, deviation = average_by_likelihood([course, course], [Separation(course, np.full(50, 4.0), -7.0)] * 2)
-    assert np.allclose(mean, course) and np.allclose(deviation, 2)
+    trajectory = np.random.default_rng(8).normal(0, 2.0, (50, 3))
+    mean, deviation = average_by_likelihood(
+        [trajectory, trajectory], [Separation(trajectory, np.full(50, 4.0), -7.0)] * 2
+    )
+    assert np.allclose(mean, trajectory) and np.allclose(deviation, 2)
 
 
 def test_the_likelier_prediction_counts_for_more():

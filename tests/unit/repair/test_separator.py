@@ -37,7 +37,7 @@ DAMAGE = {
 
 @pytest.fixture(scope="module")
 def wobbling(clean):
-    """One marker moves by some mm in ways of its own, of which the neighbours know nothing."""
+    """One marker moves by some mm in ways of its own, of which nothing is in the neighbours."""
     push = np.random.default_rng(6).normal(0, 4.0, (clean.frames + 30, 3))
     own = np.stack([np.convolve(axis, np.hanning(31) / np.sqrt(11.25), "valid") for axis in push.T], axis=1)
     return distorted(clean, own[: clean.frames], 0, clean.frames)
@@ -91,9 +91,9 @@ def test_what_is_too_long_to_separate_is_left_to_others(clean):
 
 
 def test_a_slow_change_may_begin_before_it_was_found(clean):
-    """What of it is left beside the finding would pull the prediction along, if it counted as the true course."""
-    course = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
-    recording, found = distorted(clean, course, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
+    """What of it is left beside the finding would pull the prediction along, if it counted as the true trajectory."""
+    trajectory = np.concatenate([np.arange(1, 27), np.arange(26, 0, -1)])[:, None] / 26 * [12.0, -9.0, 6.0]
+    recording, found = distorted(clean, trajectory, START - 6, STOP + 6), {"slow": [Event(MARKER, START, STOP, 4.0)]}
     given = replace(OPTIONS, amplitudes_mm=(3, 10, 30), roughness_mm=(0.3, 2), border_s=0.15)
     exact, wider = (
         mend(

@@ -9,15 +9,15 @@ from markermend.simulation.artifact_models import SHAPES, Recipe, draw_change, i
 @pytest.mark.parametrize("kind", SHAPES)
 def test_shapes(kind):
     for length in (1, 2, 5, 50):
-        course = shape(kind, length)
-        assert course.max() == 1
-        assert course.min() > 0
+        trajectory = shape(kind, length)
+        assert trajectory.max() == 1
+        assert trajectory.min() > 0
         if kind == "tails":
-            assert (np.diff(course) > 0).all()
+            assert (np.diff(trajectory) > 0).all()
         else:
-            np.testing.assert_allclose(course, course[::-1])
+            np.testing.assert_allclose(trajectory, trajectory[::-1])
     if kind == "slow":
-        assert np.ptp(np.diff(course)[:24]) < 1e-12
+        assert np.ptp(np.diff(trajectory)[:24]) < 1e-12
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Bodies are of human size, left and right alike."""
+"""Bodies are of human size, left and right equally."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,8 @@
 """Attribution of events to markers: an artifact of one marker is in the residuals of its neighbours too.
 
-Suspects are hidden from one another before any is judged. Of findings that overlap on neighbours nevertheless the
-one of highest score is accepted (non-maximum suppression), and the others are judged again without its samples.
+Candidate events are hidden from the predictions of the other markers before the residuals are searched. Where events of
+neighbours overlap nevertheless, the one of the highest score is accepted (non-maximum suppression), and the other markers
+are searched again without its samples.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ class Detector(Protocol[Statistics]):
         ...
 
     def measure(self, residual: np.ndarray) -> Statistics:
-        """Compute the statistics of residuals by which markers are judged.
+        """Compute the statistics of residuals in which events are found.
 
         Parameters
         ----------
@@ -49,7 +50,7 @@ class Detector(Protocol[Statistics]):
         Returns
         -------
         Statistics
-            What markers are judged by.
+            Statistics of the residuals.
         """
         ...
 
@@ -59,7 +60,7 @@ class Detector(Protocol[Statistics]):
         Parameters
         ----------
         statistics : Statistics
-            What markers were judged by.
+            Statistics of the residuals.
         residual : np.ndarray
             The new residuals (frames, markers, 3), mm, NaN = missing.
         markers : Sequence[int]
@@ -68,17 +69,17 @@ class Detector(Protocol[Statistics]):
         Returns
         -------
         Statistics
-            What markers are judged by.
+            Statistics of the residuals.
         """
         ...
 
-    def judge(self, statistics: Statistics, marker: int) -> list[Event]:
+    def find_events(self, statistics: Statistics, marker: int) -> list[Event]:
         """Find the events of one marker.
 
         Parameters
         ----------
         statistics : Statistics
-            What markers are judged by.
+            Statistics of the residuals.
         marker : int
             Index of the marker.
 
@@ -89,7 +90,7 @@ class Detector(Protocol[Statistics]):
         """
         ...
 
-    def suspect(self, statistics: Statistics, marker: int) -> list[Event]:
+    def find_candidates(self, statistics: Statistics, marker: int) -> list[Event]:
         """Find where one marker may have an event.
 
         Parameters
@@ -112,7 +113,7 @@ class Detector(Protocol[Statistics]):
         Parameters
         ----------
         statistics : Statistics
-            What markers are judged by.
+            Statistics of the residuals.
         marker : int
             Index of the marker.
 
@@ -136,7 +137,7 @@ def attribute(
     predictor : ResidualSource
         Predicts each marker from the others.
     rounds : int
-        Largest number of rounds in which markers are judged again without the samples of events that were accepted.
+        Largest number of rounds in which markers are searched again without the samples of events that were accepted.
     neighbours : int
         Number of nearest neighbours that may share an artifact.
 
@@ -149,7 +150,7 @@ def attribute(
     """
     around = Neighbourhood.of(detector.scene, detector.markers, neighbours)
     trajectories = detector.measure(detector.scene.positions)
-    suspected = [event for m in range(len(detector.markers)) for event in detector.suspect(trajectories, m)]
+    suspected = [event for m in range(len(detector.markers)) for event in detector.find_candidates(trajectories, m)]
     contested = around.contested(suspected, len(detector.scene.positions))
     hidden, residual = hide_suspects(
         predictor, detector.scene, contested, markers=detector.markers, border=detector.border
@@ -174,8 +175,8 @@ class _Attribution(Generic[Statistics]):
 
     def __post_init__(self) -> None:
         self.statistics = self.detector.measure(self.residual)
-        self.found = {m: self.detector.judge(self.statistics, m) for m in range(len(self.detector.markers))}
-        # What was hidden as suspect while its neighbours were judged competes with none of them.
+        self.found = {m: self.detector.find_events(self.statistics, m) for m in range(len(self.detector.markers))}
+        # A candidate that was hidden while its neighbours were searched competes with none of them.
         self.accepted = {
             event for m, own in self.found.items() for event in own if self.hidden[event.start : event.stop, m].all()
         }
@@ -186,17 +187,17 @@ class _Attribution(Generic[Statistics]):
         return [event for own in self.found.values() for event in own]
 
     def advance(self) -> bool:
-        """Accept the strongest of the events that compete, and judge the other markers again; False where there are none."""
+        """Accept the strongest of the events that compete, and search the other markers again; False where there are none."""
         competing = set(self.events) - self.accepted
         strongest = self.around.strongest(competing)
-        again = self._to_judge_again(competing - strongest, strongest)
+        again = self._markers_to_search(competing - strongest, strongest)
         self.accepted |= strongest
         self.rejudged.update(again)
         if again:
-            self._judge_again(again, strongest)
+            self._search_again(again, strongest)
         return bool(again)
 
-    def _to_judge_again(self, weaker: set[Event], strongest: set[Event]) -> list[int]:
+    def _markers_to_search(self, weaker: set[Event], strongest: set[Event]) -> list[int]:
         """The markers of weaker events, and those with something unexplained where one of the strongest begins or ends."""
         borders = self.around.borders(strongest)
         for m, frames in borders.items():
@@ -204,7 +205,7 @@ class _Attribution(Generic[Statistics]):
                 self.rejudged.add(m)
         return sorted({self.around.index(event) for event in weaker} | (self.rejudged & borders.keys()))
 
-    def _judge_again(self, again: list[int], strongest: set[Event]) -> None:
+    def _search_again(self, again: list[int], strongest: set[Event]) -> None:
         """Judge markers without the samples of the strongest events of their neighbours; accepted events stay."""
         scene, markers = self.detector.scene, self.detector.markers
         self.hidden |= event_mask(strongest, len(scene.positions), markers, border=self.detector.border)
@@ -213,5 +214,5 @@ class _Attribution(Generic[Statistics]):
         self.statistics = self.detector.update(self.statistics, self.residual, again)
         for m in again:
             kept = [event for event in self.found[m] if event in self.accepted]
-            judged = self.detector.judge(self.statistics, m)
-            self.found[m] = kept + [event for event in judged if not any(overlap(event, own) for own in kept)]
+            renewed = self.detector.find_events(self.statistics, m)
+            self.found[m] = kept + [event for event in renewed if not any(overlap(event, own) for own in kept)]

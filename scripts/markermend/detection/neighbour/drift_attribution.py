@@ -47,7 +47,7 @@ class DriftAttribution:
         return self.scorer.options
 
     def is_own(self, marker: int, event: Event) -> bool:
-        """Tell whether a drift is the marker's own.
+        """Check whether a drift is the marker's own.
 
         It must remain without all neighbours that are observed intermittently. Of each neighbour that deviates as well
         and may have dragged the marker along: the drift remains without it; or, as on a rigid segment where the residual
@@ -143,7 +143,7 @@ class DriftAttribution:
         return suspects
 
     def remains_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
-        """Tell whether a drift of a marker remains when some neighbours are hidden.
+        """Check whether a drift of a marker remains when some neighbours are hidden.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ class DriftAttribution:
         return bool(score[event.start : event.stop].max() > self.options.remaining_fraction * required)
 
     def distances_change_more(self, one: int, other: int, event: Event) -> bool:
-        """Tell whether a marker's distances to the neighbours of two change clearly more during a drift than the other's.
+        """Check whether a marker's distances to the neighbours of two change clearly more during a drift than the other's.
 
         Parameters
         ----------

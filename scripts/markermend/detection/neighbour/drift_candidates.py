@@ -167,7 +167,7 @@ class DriftScorer:
         return response, deviation
 
     def required_score(self, score: np.ndarray, start: int, stop: int) -> float:
-        """Raise the threshold of a drift by what its marker does at other times: what it does again and again is motion.
+        """Raise the threshold of a drift by the scores of its marker at other times, since deviations that recur are motion.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""The shape of a drift in a residual: its extent, its height, and whether the residual is at its baseline beside it."""
+"""The shape of a drift in a residual: its extent, its height, and whether the residual is at its baseline before and after."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ MIN_CONTEXT = 5
 """Samples of context on either side, at least: they estimate the noise scale."""
 
 MIN_GAP_DISTANCE = 2
-"""Samples between an edge and a gap, at least: with a single one an edge cannot be told from a peak."""
+"""Samples between an edge and a gap, at least: with a single one an edge and a peak are the same."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def find_edges(
     Parameters
     ----------
     statistics : ResidualStatistics
-        What windows are judged by.
+        Statistics of the residuals.
     marker : int
         Index of the marker.
     rate : float
@@ -94,7 +94,7 @@ def find_edges(
     list[Edge]
         The edges, by frame.
     """
-    context = residual_windows.context_samples(rate, options, fewest=MIN_CONTEXT)
+    context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
     size = 2 * context
     candidates: list[Edge] = []
     for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):

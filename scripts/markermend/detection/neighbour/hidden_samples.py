@@ -70,7 +70,7 @@ def residuals_without(
 def hide_suspects(
     predictor: ResidualSource, scene: Scene, suspected: Sequence[Event], *, markers: Sequence[str], border: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Hide suspected events from the predictions of all other markers, as far as every marker can still be judged.
+    """Hide suspected events from the predictions of all other markers, as far as every marker still has a residual.
 
     Events are released until no residual is lost for their sake: neither that of a suspect itself, whose neighbours would
     all be hidden, nor that of a marker for which too few frames would be left to train its predictor.
@@ -112,13 +112,13 @@ def _needed(predictor: ResidualSource, scene: Scene, hidden: np.ndarray, residua
     """The samples, bool (frames, markers), without which residuals are lost that there would be with nothing hidden."""
     needed = np.zeros_like(hidden)
     near = [np.asarray(own, int) for own in scene.neighbours]
-    beside = np.stack([hidden[:, own].any(axis=1) for own in near], axis=1)
-    lost = np.isnan(residual).any(axis=2) & scene.present & (hidden | ~beside)
+    near_hidden = np.stack([hidden[:, own].any(axis=1) for own in near], axis=1)
+    lost = np.isnan(residual).any(axis=2) & scene.present & (hidden | ~near_hidden)
     if not (hidden.any() and lost.any()):
         return needed
     complete = residuals_without(predictor, scene, np.zeros_like(hidden), np.flatnonzero(lost.any(axis=0)).tolist())
     lost &= ~np.isnan(complete).any(axis=2)
     for m in np.flatnonzero(lost.any(axis=0)).tolist():
-        there = lost[:, m] & beside[:, m]
-        needed[np.ix_(there if there.any() else np.ones_like(there), near[m])] = True
+        affected = lost[:, m] & near_hidden[:, m]
+        needed[np.ix_(affected if affected.any() else np.ones_like(affected), near[m])] = True
     return needed

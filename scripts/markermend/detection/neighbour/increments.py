@@ -71,7 +71,7 @@ def detrended_increments(values: np.ndarray, window: int) -> np.ndarray:
 
 
 class IncrementDetector(ABC):
-    """What the detectors of sudden increments share: a Detector for the attribution, but for its judgement.
+    """What the detectors of sudden increments share: a Detector for the attribution, which lacks only `find_events`.
 
     Parameters
     ----------
@@ -87,15 +87,15 @@ class IncrementDetector(ABC):
         self.scene, self.markers, self.increment_options = scene, markers, options
 
     @abstractmethod
-    def judge(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
-        """Find the events of one marker; see `Detector.judge`."""
+    def find_events(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
+        """Find the events of one marker; see `Detector.find_events`."""
 
-    def suspect(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
-        """Find where the trajectory of one marker itself has an event; see `Detector.suspect`."""
-        return self.judge(statistics, marker)
+    def find_candidates(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
+        """Find where the trajectory of one marker itself has an event; see `Detector.find_candidates`."""
+        return self.find_events(statistics, marker)
 
     def unexplained(self, statistics: IncrementStatistics, marker: int) -> Sequence[int]:
-        """Find nothing that belongs to no event; see `Detector.unexplained`."""
+        """Give no frames: increments leave nothing unexplained; see `Detector.unexplained`."""
         return ()
 
     @property

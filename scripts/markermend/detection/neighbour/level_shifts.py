@@ -93,7 +93,7 @@ class LevelShiftFinder:
         residual : np.ndarray
             Residual of the marker (frames, 3), mm, NaN = missing.
         found_edges : Sequence[Edge]
-            Its edges by frame, weak ones too.
+            Its edges by frame, those below the threshold included.
         missing : np.ndarray
             Frames in which it is not observed, bool (frames,): no level shift goes on across them. What an earlier
             detector claimed is not missing.
@@ -119,7 +119,7 @@ class LevelShiftFinder:
                 used[k : j + 1] = True
                 jumps = np.array([found_edges[k].jump, found_edges[j].jump])
                 score = joint_score(found_edges[k], found_edges[j]) / self.options.joint_jump_fraction
-                found.append(Event(name, int(frames[k]), int(frames[j]), score, events.carrying(jumps)))
+                found.append(Event(name, int(frames[k]), int(frames[j]), score, events.main_axes(jumps)))
         return found
 
     def truncated(
@@ -158,7 +158,7 @@ class LevelShiftFinder:
         for start, stop, edge in self._sides([edge for edge in found_edges if edge.frame not in reflected], missing):
             free = all(stop < other.start or other.stop < start for other in [*own, *found])
             if free and self._is_displaced(residual, (start, stop), edge, missing):
-                found.append(Event(name, start, stop, edge.score, events.carrying(edge.jump[None])))
+                found.append(Event(name, start, stop, edge.score, events.main_axes(edge.jump[None])))
         return found
 
     def _is_level_shift(self, residual: np.ndarray, first: Edge, second: Edge) -> bool:

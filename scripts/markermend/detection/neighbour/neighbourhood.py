@@ -126,7 +126,7 @@ class Neighbourhood:
 
 
 def overlap(one: Event, other: Event) -> bool:
-    """Tell whether two events share a frame.
+    """Check whether two events share a frame.
 
     Parameters
     ----------

@@ -127,7 +127,7 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
     Parameters
     ----------
     statistics : ResidualStatistics
-        What windows are judged by.
+        Statistics of the residuals.
     marker : int
         Index of the marker.
     rate : float
@@ -140,7 +140,7 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
     list[Pulse]
         The pulses, the strongest first.
     """
-    context = residual_windows.context_samples(rate, options, fewest=MIN_CONTEXT)
+    context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
     longest = intervals.samples(options.max_duration_s, rate)
     candidates: list[Pulse] = []
     for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):

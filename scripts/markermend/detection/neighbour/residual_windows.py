@@ -1,7 +1,7 @@
 """Matched filters on short windows of residuals: the adaptive normalised matched filter.
 
-The covariance of residual windows is estimated from each recording. What a window leaves beside the pattern in question is
-the noise scale, so that the threshold rises with the local residual scale, amid fast motion or heavy noise, and false
+The covariance of residual windows is estimated from each recording. What remains of a window after the pattern is
+fitted is the noise scale, so that the threshold rises with the local residual scale, amid fast motion or heavy noise, and false
 alarms do not depend on it (Conte, Lops, Ricci 1995). A pattern must be in the trajectory as recorded too: the artifact of
 a neighbour is in the residual alone.
 """
@@ -31,7 +31,7 @@ class WindowFilters:
     deviation : np.ndarray
         Standard deviation of the amplitude (c,) where the residual mean square is 1.
     misfit_form : np.ndarray
-        Quadratic forms (c, n, n) of the residual mean square beside the pattern.
+        Quadratic forms (c, n, n) that give the mean square remaining after the fit of the pattern.
     """
 
     offsets: np.ndarray
@@ -47,7 +47,7 @@ class WindowFilters:
 
 @dataclass(frozen=True)
 class ResidualStatistics:
-    """What windows are judged by.
+    """Statistics of the residuals.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class ResidualStatistics:
     positions : np.ndarray
         Positions as recorded (frames, markers, 3), mm, NaN = missing.
     misfit : np.ndarray
-        Root mean square (frames, markers), mm, that the window about a frame leaves beside the pattern; NaN in runs
+        Root mean square (frames, markers), mm, that remains of the window about a frame after the fit of the pattern; NaN in runs
         shorter than a window.
     local_scale : np.ndarray
         The usual misfit about a frame (frames, markers), mm, NaN likewise.
@@ -88,7 +88,7 @@ class Exceedances:
     score : np.ndarray
         Amplitude in units of the threshold (i,).
     misfit : np.ndarray
-        Root mean square beside the pattern (i,), mm.
+        Root mean square (i,), mm, that remains after the fit of the pattern.
     """
 
     residual: np.ndarray
@@ -145,7 +145,7 @@ def root_mean_form(windows: np.ndarray, form: np.ndarray) -> np.ndarray:
     return root
 
 
-def context_samples(rate: float, options: ResidualWindowOptions, *, fewest: int) -> int:
+def context_samples(rate: float, options: ResidualWindowOptions, *, min_samples: int) -> int:
     """Count the samples on either side of a pattern.
 
     Parameters
@@ -154,15 +154,15 @@ def context_samples(rate: float, options: ResidualWindowOptions, *, fewest: int)
         Sampling rate, Hz.
     options : ResidualWindowOptions
         The options.
-    fewest : int
-        So many, at least, estimate the noise scale.
+    min_samples : int
+        Smallest number, so that the noise scale can be estimated.
 
     Returns
     -------
     int
         Samples on one side.
     """
-    return max(intervals.samples(options.context_s, rate), fewest)
+    return max(intervals.samples(options.context_s, rate), min_samples)
 
 
 def window_spans(start: int, stop: int, length: int, context: int) -> list[tuple[slice, tuple[int, ...]]]:
@@ -223,7 +223,7 @@ def exceedances(
     Parameters
     ----------
     statistics : ResidualStatistics
-        What windows are judged by.
+        Statistics of the residuals.
     marker : int
         Index of the marker.
     span : slice

@@ -17,7 +17,7 @@ from markermend.prediction.scene import Scene
 
 
 class WindowDetector(ABC):
-    """What the detectors of patterns in residual windows share: a Detector for the attribution, but for its judgement.
+    """What the detectors of patterns in residual windows share: a Detector for the attribution, which lacks only `find_events`.
 
     Parameters
     ----------
@@ -53,15 +53,15 @@ class WindowDetector(ABC):
         """
 
     @abstractmethod
-    def judge(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the events of one marker; see `Detector.judge`."""
+    def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the events of one marker; see `Detector.find_events`."""
 
-    def suspect(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find where the trajectory of one marker itself has an event; see `Detector.suspect`."""
-        return self.judge(statistics, marker)
+    def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find where the trajectory of one marker itself has an event; see `Detector.find_candidates`."""
+        return self.find_events(statistics, marker)
 
     def unexplained(self, statistics: ResidualStatistics, marker: int) -> Sequence[int]:
-        """Find nothing that belongs to no event; see `Detector.unexplained`."""
+        """Give no frames: by default nothing is unexplained; see `Detector.unexplained`."""
         return ()
 
     @property

@@ -125,7 +125,7 @@ def find_peaks(signal: np.ndarray, *, rate: float, options: PublishedPeaksOption
 
 
 def _balanced(sudden: np.ndarray, window: int, ratio: float) -> np.ndarray:
-    """Where sudden changes (frames,) cancel over a window, and none are beside it (skurowski2022 eq 20-25)."""
+    """Where sudden changes (frames,) cancel over a window, and there are none on either side (skurowski2022 eq 20-25)."""
     total, absolute = filters.moving_sum(sudden, window), filters.moving_sum(np.abs(sudden), window)
     candidate = ((absolute > 0) & (absolute > ratio * np.abs(total))).astype(float)
     candidate[np.isnan(sudden)] = np.nan

@@ -22,7 +22,7 @@ from markermend.prediction.scene import ResidualSource, Scene
 from markermend.prediction.time_smoothers import MovingMedian, SavitzkyGolay
 
 PREDICTORS = ("replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge")
-"""The predictors whose residual may be judged: the four of the paper, and the local ridge."""
+"""The predictors whose residual may be examined: the four of the paper, and the local ridge."""
 
 
 def detect_slow(

@@ -65,7 +65,7 @@ def decode(stored: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarr
 
 
 def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
-    """Take word 4 of points apart into residual and camera mask.
+    """Split word 4 of points into residual and camera mask.
 
     Word 4 is a signed 16-bit integer, in float files the float of one, signed or unsigned; negative means missing.
 

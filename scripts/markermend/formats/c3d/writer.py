@@ -59,7 +59,7 @@ class Content:
         In `unit`; negative = missing (word 4 = -1, the position is written). Without them every present sample has
         residual 0 and four cameras.
     analog : ndarray of float, shape (frames, samples, channels), optional
-        Analog signals, so many samples per frame.
+        Analog signals; `samples` is their number per frame.
     groups : Groups, optional
         Further parameters, which replace those made of the other fields where group and name are equal.
     """

@@ -192,11 +192,11 @@ def _positions(numbers: np.ndarray, why: np.ndarray, unit: str) -> tuple[np.ndar
 
 
 def _unit_warnings(named: str | None, small: bool) -> list[str]:
-    """Say what unit was assumed, or that the named one is doubtful."""
+    """Say what unit was assumed, or that the named one is implausible."""
     if named is None:
         return [f"The file names no unit; by the size of its numbers, {'m' if small else 'mm'} is assumed."]
-    doubtful = small and named == "mm"
-    return ["The file's unit is mm, but the coordinates are so small that they may be metres."] if doubtful else []
+    implausible = small and named == "mm"
+    return ["The file's unit is mm, but the coordinates are so small that they may be metres."] if implausible else []
 
 
 def _row_warnings(layout: Layout, missing: dict[str, int], short: int) -> list[str]:

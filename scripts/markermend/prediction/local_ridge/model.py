@@ -259,7 +259,7 @@ def robust_weights(local: np.ndarray, *, ridge: float, sigmas: float) -> np.ndar
     ridge : float
         Penalty of the regression, mm^2.
     sigmas : float
-        Residuals beyond so many robust standard deviations lose weight.
+        Residuals beyond this many robust standard deviations lose weight.
 
     Returns
     -------

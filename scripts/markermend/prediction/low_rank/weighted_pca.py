@@ -102,7 +102,7 @@ class WeightedPca:
 
 
 def _distances(scene: Scene, marker: int, others: np.ndarray, frames: int) -> np.ndarray:
-    """Mean distance (k,), mm, of a marker to others over at most so many of its frames; infinite if never together."""
+    """Mean distance (k,), mm, of a marker to others over at most `count` of its frames; infinite if never together."""
     rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
     distance = np.linalg.norm(scene.positions[np.ix_(rows, others)] - scene.positions[rows, marker][:, None], axis=2)
     count = np.count_nonzero(~np.isnan(distance), axis=0)

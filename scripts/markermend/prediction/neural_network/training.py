@@ -2,7 +2,7 @@
 
 This is the only module that imports torch, which takes seconds: it is imported where networks train, and nowhere else.
 Networks of a batch are independent. Where they differ in size they are padded with zeros, which change neither outputs
-nor gradients, so each learns what it would learn alone, apart from rounding.
+nor gradients, so each learns what it would learn alone, up to rounding.
 """
 
 from __future__ import annotations

@@ -173,7 +173,7 @@ def fit_linear_dynamics(
     dimensions : int
         Dimensions of the state, at most.
     lag : int
-        The first guess of the states consists of the principal components of frames together with those so many frames
+        The first guess of the states consists of the principal components of frames together with those this many frames
         later. With 0 it contains no velocities, and expectation maximisation hardly finds them.
     iterations : int
         Largest number of iterations.

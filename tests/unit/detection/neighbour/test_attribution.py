@@ -36,12 +36,12 @@ class Displaced:
         moved = [v[SPAN, m, 0].mean() - v[BESIDE, m, 0].mean() for v in (statistics, self.scene.positions)]
         return float(np.nan_to_num(np.clip(moved[0], 0, max(moved[1], 0))))
 
-    def judge(self, statistics, m):
+    def find_events(self, statistics, m):
         displacement = self.displacement(statistics, m)
         return [Event(self.markers[m], SPAN.start, SPAN.stop, displacement, "x")] if displacement > EVENT else []
 
-    def suspect(self, statistics, m):
-        return self.judge(statistics, m) if self.suspected is None else self.suspected[m : m + 1]
+    def find_candidates(self, statistics, m):
+        return self.find_events(statistics, m) if self.suspected is None else self.suspected[m : m + 1]
 
     def unexplained(self, statistics, m):
         return () if self.explains or self.displacement(statistics, m) <= OPEN else (SPAN.start, SPAN.stop)
@@ -116,10 +116,10 @@ class Jumps:
     def update(self, statistics, residual, markers):
         return residual
 
-    def judge(self, statistics, m):
+    def find_events(self, statistics, m):
         return naive.displaced_runs(statistics[:, m, 0], self.scene.positions[:, m, 0], self.markers[m], level=3.0)
 
-    def suspect(self, statistics, m):
+    def find_candidates(self, statistics, m):
         return naive.displaced_runs(statistics[:, m, 0], self.scene.positions[:, m, 0], self.markers[m], level=5.0)
 
     def unexplained(self, statistics, m):

@@ -1,4 +1,4 @@
-"""Sudden increments against the neighbours: in residual and trajectory alike, beyond what is usual there."""
+"""Sudden increments against the neighbours: in both residual and trajectory, beyond what is usual there."""
 
 import numpy as np
 import pytest

@@ -21,13 +21,13 @@ def test_the_local_scale_follows_the_marker_no_further_than_its_neighbours():
 def test_the_fitted_scale_rises_where_the_neighbours_fit_badly_or_move_fast():
     rng = np.random.default_rng(3)
     near = [np.delete(np.arange(6), m) for m in range(6)]
-    lively = np.where((np.arange(2000) // 250) % 2, 4.0, 1.0)
-    size = np.abs(rng.normal(size=(2000, 6))) * lively[:, None]
+    scale_ratio = np.where((np.arange(2000) // 250) % 2, 4.0, 1.0)
+    size = np.abs(rng.normal(size=(2000, 6))) * scale_ratio[:, None]
     still = np.zeros((2, 2000, 6))
-    moving = np.broadcast_to(100 * lively[:, None], (2, 2000, 6))
+    moving = np.broadcast_to(100 * scale_ratio[:, None], (2, 2000, 6))
     for kinds in (still, moving):
         found = residual_scale.fitted_scale(size, near, kinds, count=5, window=50, min_scale=0.1)
-        ratio = np.median(found[lively > 1]) / np.median(found[lively == 1])
+        ratio = np.median(found[scale_ratio > 1]) / np.median(found[scale_ratio == 1])
         assert 3 < ratio < 5
     broken = size.copy()
     broken[600:650, 0] += 50

@@ -27,7 +27,7 @@ def test_steps_exceed_as_generalised_least_squares_says(seed):
     positions = residual + np.random.default_rng(seed).normal(0, 0.5, residual.shape)
     low = replace(STEPS, threshold_sigmas=1.2, floor_mm=0.5)
     statistics = step_statistics(residual, positions, 100.0, low)
-    size = 2 * residual_windows.context_samples(100.0, low, fewest=edges.MIN_CONTEXT)
+    size = 2 * residual_windows.context_samples(100.0, low, min_samples=edges.MIN_CONTEXT)
     offsets = (2, size // 2, size - 3)
     filters = edges.step_filters(statistics.covariance, size, offsets)
     found = residual_windows.exceedances(statistics, 0, slice(10, 140), filters, low)
@@ -51,7 +51,7 @@ def test_pulses_exceed_as_generalised_least_squares_says(length):
     residual = coloured(150, 7)
     low = replace(PEAKS, threshold_sigmas=1.5, floor_mm=0.5)
     statistics = peak_statistics(residual, residual, 100.0, low)
-    size = length + 2 * residual_windows.context_samples(100.0, low, fewest=pulses.MIN_CONTEXT)
+    size = length + 2 * residual_windows.context_samples(100.0, low, min_samples=pulses.MIN_CONTEXT)
     offset = (size - length) // 2
     filters = pulses.pulse_filters(statistics.covariance, length, size, (offset,))
     found = residual_windows.exceedances(statistics, 0, slice(0, 150), filters, low)
@@ -108,6 +108,6 @@ def test_the_artifact_of_a_neighbour_is_in_the_residual_alone_and_does_not_excee
     positions = residual.copy()
     residual[100:] += 10
     statistics = step_statistics(residual, positions, 100.0)
-    size = 2 * residual_windows.context_samples(100.0, STEPS, fewest=edges.MIN_CONTEXT)
+    size = 2 * residual_windows.context_samples(100.0, STEPS, min_samples=edges.MIN_CONTEXT)
     filters = edges.step_filters(statistics.covariance, size, (size // 2,))
     assert not len(residual_windows.exceedances(statistics, 0, slice(0, 200), filters, STEPS).frame)

@@ -27,7 +27,11 @@ def test_the_trajectory_itself_is_judged_for_suspects_and_nothing_is_unexplained
     residual[100:102, 1] += 9
     detector = PeakDetector(Scene(residual, 100.0, [np.array([1]), np.array([0])]), "AB", PEAKS)
     statistics = detector.measure(residual)
-    assert detector.suspect(statistics, 0) == [] and detector.suspect(statistics, 1) == detector.judge(statistics, 1)
-    assert [(event.marker, event.start, event.stop) for event in detector.judge(statistics, 1)] == [("B", 100, 102)]
+    assert detector.find_candidates(statistics, 0) == [] and detector.find_candidates(
+        statistics, 1
+    ) == detector.find_events(statistics, 1)
+    assert [(event.marker, event.start, event.stop) for event in detector.find_events(statistics, 1)] == [
+        ("B", 100, 102)
+    ]
     assert detector.unexplained(statistics, 1) == ()
     assert detector.border == detector.window // 2

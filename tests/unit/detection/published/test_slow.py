@@ -88,7 +88,7 @@ def test_a_smoother_sees_a_hill_where_the_motion_is_slower(name, height, expecte
     found = slow.detect_slow(
         scene, markers=["A"], earlier=nothing, options=own, predictor=slow.make_predictor(own, PredictorOptions())
     )
-    assert {event.axes for event in found} == expected  # a polynomial rings beside the hill as well
+    assert {event.axes for event in found} == expected  # a polynomial rings next to the drift as well
     assert any(event.start < 950 < event.stop for event in found) == bool(expected)
 
 
@@ -114,8 +114,8 @@ def test_a_hill_is_found_where_the_pose_comes_again_without_it(name):
     assert abs(event.start - 1000) <= 30 and abs(event.stop - 1100) <= 30
 
 
-def test_a_loose_predictor_follows_a_hill_in_a_pose_that_comes_once():
-    """What the published way gets wrong: it judges what it was trained on, and a standing person's sway tells the time."""
+def test_a_loose_predictor_follows_a_drift_in_a_pose_that_comes_once():
+    """What the published way gets wrong: it judges what it was trained on, and the sway of a standing person identifies the frame."""
     rng = np.random.default_rng(2022)
     person = walk(
         body=make_body(rng=rng),

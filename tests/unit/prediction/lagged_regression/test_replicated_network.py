@@ -8,11 +8,11 @@ from support.lagged import limb, quick, scene
 
 
 def test_the_network_sees_the_average_of_what_is_seen_of_its_marker():
-    course = np.arange(50.0)[:, None] * [1, 2, 3]
-    course[20:30] = np.nan
-    average = moving_average(course, 6)
+    trajectory = np.arange(50.0)[:, None] * [1, 2, 3]
+    trajectory[20:30] = np.nan
+    average = moving_average(trajectory, 6)
     for n in range(50):
-        around = course[max(n - 3, 0) : n + 4]
+        around = trajectory[max(n - 3, 0) : n + 4]
         if np.isfinite(around).any():
             assert np.allclose(average[n], np.nanmean(around, axis=0))
     assert np.isfinite(average[23:27]).all()

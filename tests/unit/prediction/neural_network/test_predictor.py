@@ -88,12 +88,12 @@ def test_a_marker_that_its_neighbours_tell_is_learned(name, walker):
 
 def test_a_linear_map_is_learned_exactly():
     rng = np.random.default_rng(4)
-    courses = rng.standard_normal((500, 4, 3)) * 100
-    courses[:, 3] = courses[:, 0] * 0.5 - courses[:, 1] * 0.2 + courses[:, 2][:, ::-1] * 0.3 + 40
-    seen = hidden(courses, (3, 200, 210))
+    trajectories = rng.standard_normal((500, 4, 3)) * 100
+    trajectories[:, 3] = trajectories[:, 0] * 0.5 - trajectories[:, 1] * 0.2 + trajectories[:, 2][:, ::-1] * 0.3 + 40
+    seen = hidden(trajectories, (3, 200, 210))
     one = network(epochs=600, centred=False, min_joint_share=0.0, learning_rate_factor=1.0)
     found = one.predict(seen, 3, 200, 210).positions[1:-1]
-    assert np.abs(found - courses[200:210, 3]).max() < 0.5
+    assert np.abs(found - trajectories[200:210, 3]).max() < 0.5
 
 
 def test_what_was_filled_teaches_nothing(person):

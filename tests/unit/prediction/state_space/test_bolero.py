@@ -12,8 +12,8 @@ from support.fillings import predictor, rigid_body, scene
 
 
 def mean_error(found, positions, marker, start, stop):
-    course = constrain_time(found.positions, positions[[start - 1, stop], marker])[1:-1]
-    return np.linalg.norm(course - positions[start:stop, marker], axis=1).mean()
+    trajectory = constrain_time(found.positions, positions[[start - 1, stop], marker])[1:-1]
+    return np.linalg.norm(trajectory - positions[start:stop, marker], axis=1).mean()
 
 
 def test_bones_help_on_a_body(walker):

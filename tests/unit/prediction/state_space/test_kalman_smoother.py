@@ -80,8 +80,8 @@ def test_a_blackout_is_bridged_better_than_by_a_straight_line(left, walker):
             found = predictor("kalman").predict(hidden, marker, start, start + 30)
             assert np.isfinite(found.positions).all() and (found.error > 0).all()
             straight = predictor("linear").predict(hidden, marker, start, start + 30).positions
-            course = constrain_time(found.positions, positions[[start - 1, start + 30], marker])
-            error.append(np.linalg.norm(course[1:-1] - truth, axis=1).mean())
+            trajectory = constrain_time(found.positions, positions[[start - 1, start + 30], marker])
+            error.append(np.linalg.norm(trajectory[1:-1] - truth, axis=1).mean())
             line.append(np.linalg.norm(straight[1:-1] - truth, axis=1).mean())
         assert np.mean(error) < 25
         assert np.mean(error) < np.mean(line) + 2

@@ -142,10 +142,10 @@ def test_missing_samples_of_a_known_system_are_recovered():
 
 
 def test_a_first_guess_that_looks_ahead_carries_velocities_across_a_blackout():
-    """A marker on an ellipse, and nothing else: the place alone does not tell where it goes."""
+    """A marker on an ellipse, and nothing else: the place alone does not determine where it goes."""
     angle = np.arange(300) / 20
-    course = np.stack([np.sin(angle), 2 * np.sin(angle + 1), 0.3 * np.sin(2 * angle)], axis=1)
-    whole = course[:, None] + np.random.default_rng(6).normal(size=(300, 1, 3)) * 0.01
+    trajectory = np.stack([np.sin(angle), 2 * np.sin(angle + 1), 0.3 * np.sin(2 * angle)], axis=1)
+    whole = trajectory[:, None] + np.random.default_rng(6).normal(size=(300, 1, 3)) * 0.01
     gapped = whole.copy()
     gapped[140:180] = np.nan
     error = []
