@@ -531,4 +531,5 @@ def read_decisions(lines: Sequence[Mapping[str, Any]], recording: Recording) -> 
     list of Decision
         The decisions on frames counted from 0.
     """
-    return core_decisions.read([dict(line) for line in lines], recording.first_frame)
+    given = [{column: value for column, value in line.items() if value not in (None, "")} for line in lines]
+    return core_decisions.read(given, recording.first_frame)

@@ -23,7 +23,7 @@ from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
 from markermend.options.prediction import PredictorOptions
-from markermend.options.renamed import renamed
+from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
 from markermend.options.reporting import NoOptions, QcOptions
 from markermend.options.values import Reader, inside, plain
@@ -220,13 +220,15 @@ def _mapping(value: Any, where: str, reader: Reader) -> Mapping[str, Any]:
 def _moved(where: str, value: Any) -> Iterator[str]:
     """Where the options are now that an unknown key once held, or that were written into the other tier."""
     if isinstance(value, Mapping):
-        inner = [list(_moved(inside(where, key), own)) for key, own in value.items()]
-        if inner and all(inner):
-            for problems in inner:
-                yield from problems
+        inner = {inside(where, key): list(_moved(inside(where, key), own)) for key, own in value.items()}
+        if any(inner.values()):
+            for key, problems in inner.items():
+                yield from problems or [f"{key}: there is no such key"]
             return
     path = where.removeprefix(f"{ADVANCED}.")
     places = [find_place(candidate) for candidate in (renamed(path), path) if candidate]
     now = next((place for place in places if place not in (None, where)), None)
     if now is not None:
         yield f"{where}: this is now {now}"
+    elif path in RENAMED and where == path:
+        yield f"{where}: its options are now in {RENAMED[path][0]}"

@@ -10,9 +10,11 @@ from markermend.options.declaration import (
     Above,
     Count,
     CountOrNone,
+    Distinct,
     Factor,
     Laboratory,
     Millimetres,
+    NotEmpty,
     NotNegative,
     Positive,
     PositiveMillimetres,
@@ -166,7 +168,7 @@ class FillOptions:
 
     Change it when you know that it is safe to extrapolate there."""
 
-    min_seen_share: Annotated[NotNegative, Laboratory] = 0.3
+    min_seen_share: Annotated[Share, Laboratory] = 0.3
     """Markers that are seen in a smaller share of the frames are left alone (0 to 1).
 
     Change it when markers that are seen for a small part of the recording matter to you."""
@@ -176,12 +178,12 @@ class FillOptions:
 
     Change it when your purpose can bear a larger error, or only a smaller one."""
 
-    max_altered_share: Annotated[NotNegative, Laboratory] = 0.25
-    """Nothing is filled if more than this share of the samples would be altered.
+    max_altered_share: Annotated[Share, Laboratory] = 0.25
+    """Nothing is filled if more than this share of the samples would be altered (0 to 1).
 
     Change it when recordings of poor quality are refused as a whole (higher, with care)."""
 
-    members: Annotated[tuple[str, ...], Laboratory] = (
+    members: Annotated[tuple[str, ...], NotEmpty, Distinct, Laboratory] = (
         "local_ridge",
         "local_ridge_wide",
         "local_ridge_fine",

@@ -183,7 +183,8 @@ class Reader:
         if moved := self._elsewhere(place, value):
             self.problems += moved
             return
-        close = difflib.get_close_matches(place.rpartition(".")[2], known, n=1)
+        key = place.rpartition(".")[2]
+        close = difflib.get_close_matches(key, known, n=1) or [name for name in known if name.endswith(f"_{key}")]
         advice = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}" if known else ""
         self.problems.append(f"{place}: there is no such key{'; ' if advice else ''}{advice}")
 
@@ -274,8 +275,21 @@ class Reader:
     def _wrong(self, kind: Any, marks: tuple[Any, ...], value: Any, place: str, example: Any) -> None:
         """Report a value of another type."""
         example = EXAMPLES.get(kind) if example is None else example
+        if get_origin(kind) is tuple and peel(get_args(kind)[0])[0] is str and isinstance(value, str):
+            example = [value]
         such = f", such as {text(plain(example))}" if example or example == 0 else ""
-        self.problems.append(f"{place}: {value!r} is not {spell(kind, marks)}{such}")
+        self.problems.append(f"{place}: {value!r} is not {spell(kind, marks)}{such}{_without_quotes(kind, value)}")
+
+
+def _without_quotes(kind: Any, value: Any) -> str:
+    """What to write in place of a number, or of true or false, that came as a text; nothing for other values."""
+    try:
+        meant = text(float(value)) if kind in (int, float) else {"true": "true", "false": "false"}[value]
+    except (KeyError, TypeError, ValueError):
+        return ""
+    if not isinstance(value, str):
+        return ""
+    return f"; write {meant} without quotes, and in a file: --config SECTION='{{...}}' makes texts of numbers"
 
 
 def inside(place: str, key: Any) -> str:
@@ -371,13 +385,22 @@ def text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict | list):
-        return json.dumps(value, sort_keys=True, ensure_ascii=False)
+        return json.dumps(_shortest(value), sort_keys=True, ensure_ascii=False)
     if isinstance(value, float):
         if value.is_integer() and abs(value) < 1e15:
             return str(int(value))
         mantissa, mark, exponent = repr(value).partition("e")
         return f"{mantissa}{'.0' if mark and '.' not in mantissa else ''}{mark}{exponent}"
     return str(value)
+
+
+def _shortest(value: Any) -> Any:
+    """A plain value with whole numbers as such, so that 1 and 1.0 give the same text, and the same run."""
+    if isinstance(value, dict):
+        return {key: _shortest(own) for key, own in value.items()}
+    if isinstance(value, list):
+        return [_shortest(own) for own in value]
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
 
 
 def parse(option: Option, words: str) -> Any:

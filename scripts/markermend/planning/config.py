@@ -76,12 +76,36 @@ def check(config: Mapping[str, Any], *, deployed: bool) -> dict[str, Any]:
     found = unknown("fill.members", fill.members, known)
     found += unknown("advanced.fill.ensemble.fallback_members", fill.ensemble.fallback_members, known)
     for kind, methods in repair.methods.items():
-        found += unknown(f"repair.methods.{kind}", methods, METHODS)
+        if "swap" in methods:
+            found.append(
+                f"repair.methods.{kind}: swap is now exchange, the method of repair.methods.labels and of no other class"
+            )
+        usable = [name for name in METHODS if (name == "exchange") == (kind == "labels")]
+        found += unknown(f"repair.methods.{kind}", [name for name in methods if name != "swap"], usable)
     if not deployed and (reason := cannot_train(fill.members)):
         found.append(f"fill.members: {reason}")
     if found:
         raise BadDataSet("\n".join([REFUSED, *found]))
     return options
+
+
+def warnings(options: Mapping[str, Any]) -> list[str]:
+    """Say what in a config may not be what was meant.
+
+    Parameters
+    ----------
+    options : mapping
+        The options of each section.
+
+    Returns
+    -------
+    list of str
+        A line for each.
+    """
+    detect = options["general"].detect
+    if "steps" in detect and "labels" not in detect:
+        return ["detect: without labels, exchanged labels stay as they are; steps no longer finds them"]
+    return []
 
 
 def methods(options: Mapping[str, Any]) -> list[str]:

@@ -308,5 +308,5 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         meshes=meshes,
         decisions=decisions,
         failures=planning_config.failures(results),
-        warnings=warnings,
+        warnings=[*planning_config.warnings(options), *warnings],
     )

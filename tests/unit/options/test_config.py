@@ -6,6 +6,7 @@ import pytest
 import yaml
 
 from markermend.options.config import SECTIONS, find_place, own_options, read_config, write_config
+from markermend.options.flags import write_flags
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.values import BadOptions
 from support.paths import PROJECT
@@ -69,11 +70,27 @@ def test_about_forty_options_are_for_laboratories():
             {"advanced": {"predictors": {"bolero": {"tolerance": "1e-6"}}}},
             "advanced.predictors.bolero.tolerance: '1e-6' is not a number, such as 0.0001",
         ),
+        (
+            {"fill": {"max_error_mm": "5"}},
+            "fill.max_error_mm: '5' is not a number of millimetres, such as 50; write 5 without",
+        ),
+        (
+            {"fill": {"fill_ends": "true"}},
+            "fill.fill_ends: 'true' is not true or false, such as false; write true without",
+        ),
+        ({"fill": {"min_seen_share": 30}}, "fill.min_seen_share: 30 is out of bounds; it must be at most 1"),
+        ({"fill": {"max_altered_share": 25}}, "fill.max_altered_share: 25 is out of bounds; it must be at most 1"),
+        ({"repair": {"max_altered_share": 10}}, "repair.max_altered_share: 10 is out of bounds; it must be at most 1"),
+        ({"fill": {"members": []}}, "fill.members: it must not be empty"),
+        ({"fill": {"members": ["spline", "spline"]}}, "fill.members: 'spline' is there twice"),
+        ({"protect": "LASI"}, "protect: 'LASI' is not a list of texts, such as [\"LASI\"]"),
         ({"results": ""}, "results: it must not be empty"),
         ({"qc": 3}, "qc: 3 is not a mapping of keys to values"),
         ({"peeks": {}}, "peeks: there is no such key; did you mean peaks?"),
         ({"fill": {"max_gaps_s": 1}}, "fill.max_gaps_s: there is no such key; did you mean max_gap_s?"),
         ({"repair": {"methods": {"peak": []}}}, "repair.methods.peak: there is no such key; did you mean peaks?"),
+        ({"peaks": {"sigmas": 7}}, "peaks.sigmas: there is no such key; did you mean threshold_sigmas?"),
+        ({"swaps": {}}, "swaps: its options are now in labels"),
         ({"peaks": {"context_s": 1}}, "peaks.context_s: this is now advanced.peaks.context_s"),
         ({"advanced": {"peaks": {"floor_mm": 1}}}, "advanced.peaks.floor_mm: this is now peaks.floor_mm"),
         ({"advanced": {"fill": {"ensemble": {"radius": {"inner": 4}}}}}, "advanced.fill.ensemble.radius: radii: 0 < "),
@@ -148,3 +165,21 @@ def test_limits_that_people_are_told_of_are_keys():
 def test_the_shipped_config_holds_every_default():
     shipped = yaml.safe_load((PROJECT / "config/config.yaml").read_text(encoding="utf-8"))
     assert write_config(read_config({})) == shipped
+
+
+def test_former_keys_beside_unknown_ones_are_all_named():
+    assert problems({"peaks": {"default": {"sigmas": 7, "nope": 1}}}) == [
+        "peaks.default.sigmas: this is now peaks.threshold_sigmas",
+        "peaks.default.nope: there is no such key",
+    ]
+
+
+@pytest.mark.parametrize(
+    "config", [{"advanced": None}, write_config(read_config({})), {"peaks": None}], ids=["none", "all", "peaks"]
+)
+def test_what_is_left_out_gives_the_flags_of_its_default_written_out(config):
+    """Otherwise an empty `advanced:` in a user's file would rerun every stage."""
+    written, left_out = read_config(config), read_config({})
+    assert {name: write_flags(own) for name, own in written.items()} == {
+        name: write_flags(own) for name, own in left_out.items()
+    }

@@ -79,7 +79,7 @@ def test_a_flag_is_read_and_written(name, words, value):
         ("limit_s", "soon", "limit_s: 'soon' is not a number of seconds, such as 1.5"),
         ("deep", "yes", "deep: 'yes' is not true or false, such as false"),
         ("kind", "c", "kind: 'c' is none of a, b"),
-        ("lengths", "1", "lengths: 1 is not a list of numbers, such as [1.0, 2.0]"),
+        ("lengths", "1", "lengths: 1 is not a list of numbers, such as [1, 2]"),
         ("part", "[]", "part: [] is not a mapping of keys to values"),
         ("part", '{"sizes": 1}', "part.sizes: there is no such key; did you mean size?"),
         ("methods", "[]", "methods: [] is not a mapping of names to lists of texts"),
@@ -119,7 +119,8 @@ def test_plain_values_are_what_json_knows():
 
 
 @pytest.mark.parametrize(
-    ("value", "words"), [(None, "none"), (True, "true"), (2.0, "2"), (1e-6, "1.0e-06"), ([1], "[1]"), ("-x", "-x")]
+    ("value", "words"),
+    [(None, "none"), (True, "true"), (2.0, "2"), (1e-6, "1.0e-06"), ([1, 2.0, 0.5], "[1, 2, 0.5]"), ("-x", "-x")],
 )
 def test_a_value_as_text(value, words):
     assert text(value) == words

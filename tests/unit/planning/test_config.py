@@ -54,7 +54,16 @@ def test_failures_are_counted_by_subject_recording_and_stage(tmp_path):
     ("config", "words"),
     [
         ({"fill": {"members": ["spline", "splin"]}}, "fill.members: there is no 'splin'; did you mean spline?"),
-        ({"repair": {"methods": {"peaks": ["nope"]}}}, "repair.methods.peaks: there is no 'nope'; known are exchange"),
+        (
+            {"repair": {"methods": {"peaks": ["nope"]}}},
+            "repair.methods.peaks: there is no 'nope'; known are separate_noise",
+        ),
+        ({"repair": {"methods": {"steps": ["swap"]}}}, "repair.methods.steps: swap is now exchange, the method of"),
+        ({"repair": {"methods": {"steps": ["exchange"]}}}, "repair.methods.steps: there is no 'exchange'; "),
+        (
+            {"repair": {"methods": {"labels": ["spline"]}}},
+            "repair.methods.labels: there is no 'spline'; known are exchange",
+        ),
         ({"ingest": {"static_names": ["("]}}, "not a regular expression"),
         ({"fill": {"max_gap_s": float("nan")}}, "fill.max_gap_s: nan"),
         ({"fill": {"ends": True}}, "fill.ends: this is now fill.fill_ends"),
@@ -79,3 +88,9 @@ def test_a_person_may_decide_on_every_method_that_the_stages_can_run():
     assert "network_lstm" not in known and len(set(known)) == len(known)
     options = planning_config.check({"fill": {"members": ["network_lstm"]}}, deployed=True)
     assert "network_lstm" in planning_config.methods(options)
+
+
+@pytest.mark.parametrize(("detect", "warned"), [(["steps"], 1), (["labels", "steps"], 0), (["peaks"], 0), ([], 0)])
+def test_a_run_that_looks_for_steps_and_not_for_exchanged_labels_is_warned_of(detect, warned):
+    options = planning_config.check({"detect": detect}, deployed=False)
+    assert [line.startswith("detect: without labels") for line in planning_config.warnings(options)] == [True] * warned
