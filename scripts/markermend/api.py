@@ -57,6 +57,11 @@ from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
 from markermend.options.repair import RepairOptions
+from markermend.options.values import BadOptions, text
+from markermend.planning import config as planning_config
+from markermend.planning import decision_cells
+from markermend.planning.contradictions import Line, find_contradictions
+from markermend.planning.decision_table import COLUMNS, in_order
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, mesh_file, originals_file
 from markermend.storage.folder_names import printable
@@ -330,7 +335,7 @@ def repair(
         mesh_of(recording, mesh),
         found=findings,
         options=(options or Options.read()).repair,
-        decisions=read_decisions(decisions, recording),
+        decisions=read_decisions(decisions, recording, options),
     )
 
 
@@ -369,7 +374,7 @@ def fill(
         recording,
         mesh_of(recording, mesh),
         options=(options or Options.read()).fill,
-        decisions=read_decisions(decisions, recording),
+        decisions=read_decisions(decisions, recording, options),
         repairs=repaired.changes,
     )
 
@@ -443,12 +448,18 @@ def write(
     ------
     BadRecording
         Where the original has changed since it was read, or another byte would differ.
+    ValueError
+        Where the copy would replace the original, or has the ending of another format.
 
     Examples
     --------
     >>> write(cleaned, "walk.c3d", "walk_cleaned.c3d")["changed_samples"]  # doctest: +SKIP
     17
     """
+    if Path(path).resolve() == Path(original).resolve():
+        raise ValueError(f"{path} is the original, which is never overwritten: name another file")
+    if Path(path).suffix.lower() != Path(original).suffix.lower():
+        raise ValueError(f"the copy has the format of the original: name it *{Path(original).suffix}")
     certificate = write_back.write_cleaned(Path(original), Path(path), cleaned.measured, cleaned.recording)
     applied = applied_changes(cleaned.measured, cleaned.recording, cleaned.changes)
     if changes is not None:
@@ -516,7 +527,9 @@ def mesh_of(recording: Recording, mesh: Mesh) -> Mesh:
     return mesh.without(set(mesh.markers) - set(recording.markers))
 
 
-def read_decisions(lines: Sequence[Mapping[str, Any]], recording: Recording) -> list[Decision]:
+def read_decisions(
+    lines: Sequence[Mapping[str, Any]], recording: Recording, options: Options | None = None
+) -> list[Decision]:
     """Read what a person decided about a recording.
 
     Parameters
@@ -525,11 +538,30 @@ def read_decisions(lines: Sequence[Mapping[str, Any]], recording: Recording) -> 
         The columns of the table of decisions with a value; frames as the capture program numbers them.
     recording : Recording
         The recording.
+    options : Options, optional
+        The options, which name the methods that a person may choose.
 
     Returns
     -------
     list of Decision
         The decisions on frames counted from 0.
+
+    Raises
+    ------
+    BadOptions
+        With all lines that mean nothing or contradict each other.
     """
-    given = [{column: value for column, value in line.items() if value not in (None, "")} for line in lines]
-    return core_decisions.read(given, recording.first_frame)
+    own = (options or Options.read()).fill
+    methods = planning_config.methods({"fill": own, "predictors": own.predictors})
+    problems, read = [], []
+    for number, line in enumerate(lines, start=1):
+        problems += planning_config.unknown(f"decision {number}", line, COLUMNS)
+        cells = {column: text(value) for column, value in line.items() if value not in (None, "")}
+        try:
+            read.append(Line(number, dict(decision_cells.parse({"recording": "this", **cells}, methods))))
+        except decision_cells.Problem as problem:
+            problems.append(f"decision {number}, {problem}")
+    problems += find_contradictions(read)
+    if problems:
+        raise BadOptions("\n".join(problems))
+    return core_decisions.read(in_order(read), recording.first_frame)

@@ -84,6 +84,39 @@ def test_a_person_decides(recording, cleaned):
     assert all(change.outcome is Outcome.LEFT for change in decided.changes if change.marker in ("M1", "M2"))
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ({"decision": "rejct"}, "decision 2, column decision: 'rejct' is none of .* did you mean 'reject'"),
+        ({"value": "swp"}, "decision 2, column value: 'swp' is none of .* did you mean 'swap'"),
+        ({"first_fame": 3}, "decision 2: there is no 'first_fame'; did you mean first_frame"),
+        ({"first_frame": 3}, "decision 2, column last_frame: is empty"),
+        ({"decision": "accept", "marker": "M*"}, "lines 1 and 2 contradict each other"),
+    ],
+)
+def test_decisions_that_cannot_be_meant_are_refused(recording, cleaned, line, words):
+    decisions = [{"marker": "M1", "decision": "reject"}, {"marker": "M1", "decision": "reject", **line}]
+    with pytest.raises(BadOptions, match=words):
+        api.clean(recording, cleaned.mesh, decisions=decisions)
+
+
+def test_frames_of_a_decision_may_be_texts_or_empty(recording):
+    line = {"marker": "M1", "decision": "reject"}
+    [decision] = api.read_decisions([{**line, "first_frame": "3", "last_frame": 4.0, "note": None}], recording)
+    assert (decision.start, decision.stop) == (3 - recording.first_frame, 5 - recording.first_frame)
+    whole = api.read_decisions([{**line, "first_frame": None, "last_frame": ""}], recording)
+    assert whole == api.read_decisions([line], recording)
+
+
+def test_the_original_is_never_overwritten(cleaned, tmp_path):
+    original = tmp_path / "walk.c3d"
+    for copy in (original, tmp_path / "x" / ".." / "walk.c3d"):
+        with pytest.raises(ValueError, match="is the original"):
+            api.write(cleaned, original, copy)
+    with pytest.raises(ValueError, match=r"name it \*\.c3d"):
+        api.write(cleaned, original, tmp_path / "walk.trc")
+
+
 def test_recordings_of_unlike_marker_sets_need_several_meshes(recording, tmp_path):
     other = api.read(path_of_others(tmp_path))
     with pytest.raises(ValueError, match=r"these recordings need 2 meshes, .*: .*walk"):

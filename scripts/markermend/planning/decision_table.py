@@ -69,7 +69,7 @@ def load(
             lines.setdefault(found.folders, []).append(line)
     for several in lines.values():
         problems += find_contradictions(several)
-    decided = {folders: _in_order(several) for folders, several in lines.items()}
+    decided = {folders: in_order(several) for folders, several in lines.items()}
     problems += [
         f"{len(objects)} lines on {'/'.join(folders)} are too many; use patterns and longer stretches"
         for folders, objects in decided.items()
@@ -99,7 +99,18 @@ def _absent(row: Mapping[str, str], entries: Sequence[Entry]) -> str:
     return f"no recording {row['recording']!r} among the recordings{close}"
 
 
-def _in_order(lines: Sequence[Line]) -> list[dict[str, Any]]:
-    """The decisions on a recording, each once, by marker and frame."""
+def in_order(lines: Sequence[Line]) -> list[dict[str, Any]]:
+    """Put the decisions on a recording in order.
+
+    Parameters
+    ----------
+    lines
+        The lines on the recording.
+
+    Returns
+    -------
+    list of dict
+        The decisions as the stages read them, each once, by marker and frame.
+    """
     unique = {line.decision: dict(line.entry) for line in lines}
     return [unique[decision] for decision in sorted(unique)]
