@@ -14,7 +14,7 @@ def command(arguments: Sequence[str]) -> list[str]:
 
     Parameters
     ----------
-    arguments
+    arguments : sequence of str
         Arguments of Snakemake, such as `--cores all --config recordings=FOLDER results=FOLDER`.
 
     Returns

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from markermend.core.events import Event
+
 MISSING = "missing"
 """The origin of samples that count as missing."""
 
@@ -81,3 +83,21 @@ BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact i
 
 BY_NAME: Mapping[str, ArtifactClass] = {artifact.name: artifact for artifact in ARTIFACTS}
 """The classes by their names."""
+
+
+def class_name(stage: str, event: Event) -> str:
+    """Name the class of a finding.
+
+    Parameters
+    ----------
+    stage : str
+        The detector.
+    event : Event
+        The finding.
+
+    Returns
+    -------
+    str
+        The class as people name it.
+    """
+    return "swap" if event.partner else BY_STAGE[stage].name

@@ -1,18 +1,16 @@
-"""What a person decided about a recording, and what follows from that for one finding or gap.
+"""What a person decided about a recording.
 
-No limit holds against a person's decision; `protect` wins over all others, and `reject` over those that change samples.
 Frames are rows counted from 0, half-open; only the table of decisions uses the capture program's numbering.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
-from markermend.core.artifacts import BY_NAME, BY_STAGE
-from markermend.core.events import Event
+from markermend.core.artifacts import BY_NAME
 from markermend.core.reasons import Cause, Reason
 
 VERBS = ("accept", "reject", "protect", "class", "method", "missing")
@@ -110,28 +108,6 @@ class Decision:
         return start < self.stop and self.start < stop and any(map(self.matches, markers))
 
 
-@dataclass(frozen=True)
-class Ruling:
-    """What follows from the decisions for one finding or gap.
-
-    Attributes
-    ----------
-    left : Reason, optional
-        Why it stays as it is; None where no decision says so.
-    confirmed : bool
-        Whether a person confirmed it, so that no limit holds.
-    method : str, optional
-        The only method to use; None where no person named one.
-    texts : tuple of str
-        The decisions that bear on it, in the words of the table.
-    """
-
-    left: Reason | None = None
-    confirmed: bool = False
-    method: str | None = None
-    texts: tuple[str, ...] = ()
-
-
 def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decision]:
     """Make the decisions on one recording from their JSON values.
 
@@ -174,92 +150,3 @@ def protecting(patterns: Iterable[str]) -> list[Decision]:
         One for each pattern, about all frames.
     """
     return [Decision(pattern, -EVER, EVER, "protect", person=False) for pattern in patterns]
-
-
-def class_name(stage: str, event: Event) -> str:
-    """Name the class of a finding.
-
-    Parameters
-    ----------
-    stage : str
-        The detector.
-    event : Event
-        The finding.
-
-    Returns
-    -------
-    str
-        The class as people name it.
-    """
-    return "swap" if event.partner else BY_STAGE[stage].name
-
-
-def names(event: Event) -> tuple[str, ...]:
-    """Name the markers of a finding.
-
-    Parameters
-    ----------
-    event : Event
-        The finding.
-
-    Returns
-    -------
-    tuple of str
-        The event's own marker, and its partner where labels are exchanged.
-    """
-    return (event.marker, event.partner) if event.partner else (event.marker,)
-
-
-def rule(
-    decisions: Iterable[Decision],
-    kinds: Collection[str],
-    markers: Collection[str],
-    start: int,
-    stop: int,
-    methods: Collection[str] | None = None,
-) -> Ruling:
-    """Combine the decisions that bear on a finding or a gap.
-
-    Parameters
-    ----------
-    decisions : iterable of Decision
-        All decisions on the recording.
-    kinds : collection of str
-        The classes of the finding, or `gap`.
-    markers : collection of str
-        The markers of the finding.
-    start, stop : int
-        First frame, and the frame after the last.
-    methods : collection of str, optional
-        The methods that can be used here; None = any.
-
-    Returns
-    -------
-    Ruling
-        What the decisions come to: what protects stands over what rejects, and that over what confirms.
-    """
-    own = [decision for decision in decisions if decision.on(markers, start, stop)]
-    against = [d for d in own if d.verb == "protect"]
-    against += [d for d in own if d.verb == "reject" and not d.kinds.isdisjoint(kinds)]
-    against += [d for d in own if d.verb == "method" and d.value == LEAVE]
-    if against:
-        return Ruling(against[0].reason, texts=texts_of(against[:1]))
-    wanted = [d for d in own if d.verb == "method" and (methods is None or d.value in methods)]
-    confirming = [d for d in own if d.verb in ("accept", "class") and not d.kinds.isdisjoint(kinds)] + wanted
-    return Ruling(None, bool(confirming), wanted[0].value if wanted else None, texts_of(confirming))
-
-
-def texts_of(decisions: Iterable[Decision]) -> tuple[str, ...]:
-    """List what persons decided, in the words of the table.
-
-    Parameters
-    ----------
-    decisions : iterable of Decision
-        The decisions; those that stand for an option are passed over.
-
-    Returns
-    -------
-    tuple of str
-        Each text once.
-    """
-    return tuple(dict.fromkeys(decision.text for decision in decisions if decision.person))

@@ -36,6 +36,11 @@ class Event:
     partner: str | None = None
 
     @property
+    def markers(self) -> tuple[str, ...]:
+        """Names of its marker and, where labels are exchanged, of the partner."""
+        return (self.marker, self.partner) if self.partner else (self.marker,)
+
+    @property
     def order(self) -> tuple[str, int, int, str]:
         """What events are sorted by."""
         return self.marker, self.start, self.stop, self.partner or ""

@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from markermend.core.decisions import Ruling
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Restored
+from markermend.core.rulings import Ruling
 from markermend.filling.gap import Gap
 from markermend.options.filling import FillOptions
 

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.core.changes import GAP
-from markermend.core.decisions import Decision, Ruling, rule
+from markermend.core.decisions import Decision
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import MEASURED, MISSING, Restored
+from markermend.core.rulings import Ruling, rule
 from markermend.filling.eligibility import Eligibility
 from markermend.filling.gap import Gap, find_gaps
 from markermend.options.filling import FillOptions

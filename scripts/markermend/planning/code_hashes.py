@@ -30,9 +30,9 @@ def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
 
     Parameters
     ----------
-    script
+    script : Path
         The script.
-    extra
+    extra : iterable of Path, optional
         Files that the script reads when it runs, such as templates; a folder stands for the files in it.
 
     Returns
@@ -57,9 +57,9 @@ def name_of(file: Path, folders: Iterable[Path]) -> str:
 
     Parameters
     ----------
-    file
+    file : Path
         The file.
-    folders
+    folders : iterable of Path
         Folders, the first of which that holds the file counts.
 
     Returns
@@ -77,7 +77,7 @@ def content_hash(file: Path) -> str:
 
     Parameters
     ----------
-    file
+    file : Path
         The file.
 
     Returns

@@ -16,11 +16,11 @@ def check(value: Any, schema: Path, *, where: str) -> None:
 
     Parameters
     ----------
-    value
+    value : Any
         What was read: dictionaries, lists, text, numbers.
-    schema
+    schema : Path
         File of the schema, as YAML.
-    where
+    where : str
         What the value is, for people, such as the path of a table.
 
     Raises

@@ -17,9 +17,9 @@ class Line:
 
     Attributes
     ----------
-    number
+    number : int
         Its number in the file.
-    entry
+    entry : mapping of str to Any
         The decision as the stages read it.
     """
 
@@ -37,7 +37,7 @@ def find_contradictions(lines: Sequence[Line]) -> Iterator[str]:
 
     Parameters
     ----------
-    lines
+    lines : sequence of Line
         The lines on the recording.
 
     Yields
@@ -56,7 +56,7 @@ def exclude_each_other(one: Decision, other: Decision) -> bool:
 
     Parameters
     ----------
-    one, other
+    one, other : Decision
         The decisions.
 
     Returns
@@ -80,7 +80,7 @@ def patterns_overlap(one: str, other: str) -> bool:
 
     Parameters
     ----------
-    one, other
+    one, other : str
         Patterns with `*` and `?`.
 
     Returns

@@ -25,11 +25,11 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
 
     Parameters
     ----------
-    name
+    name : str
         Folder or table, as the config has it.
-    results
+    results : str
         Absolute path of the folder of results, which holds no recordings.
-    schemas
+    schemas : Path
         The folder of the schemas.
 
     Returns
@@ -65,9 +65,9 @@ def find_decisions(
 
     Parameters
     ----------
-    options
+    options : mapping of str to Any
         The options of each section of the config.
-    entries
+    entries : sequence of Entry
         The recordings.
 
     Returns
@@ -94,9 +94,9 @@ def supplied_meshes(entries: Mapping[Folders, Entry], files: Sequence[str]) -> d
 
     Parameters
     ----------
-    entries
+    entries : mapping of Folders to Entry
         The recordings, by the names of their folders.
-    files
+    files : sequence of str
         Mesh files for all subjects of which the table of recordings names none.
 
     Returns
@@ -125,7 +125,7 @@ def nameable(path: str) -> bool:
 
     Parameters
     ----------
-    path
+    path : str
         Path of the file.
 
     Returns

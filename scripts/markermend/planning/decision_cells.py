@@ -22,9 +22,9 @@ class Problem(Exception):
 
     Parameters
     ----------
-    column
+    column : str
         Name of its column.
-    text
+    text : str
         What is wrong with it.
     """
 
@@ -37,9 +37,9 @@ def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[st
 
     Parameters
     ----------
-    row
+    row : mapping of str to str
         The cells that are not empty, by their columns.
-    methods
+    methods : Collection[str]
         Names that the decision `method` may give.
 
     Yields
@@ -115,9 +115,9 @@ def suggestion(word: str, known: Collection[str]) -> str:
 
     Parameters
     ----------
-    word
+    word : str
         What somebody wrote.
-    known
+    known : Collection[str]
         The words that mean something.
 
     Returns

@@ -31,11 +31,11 @@ def load(
 
     Parameters
     ----------
-    path
+    path : str
         The table.
-    entries
+    entries : sequence of Entry
         The recordings.
-    methods
+    methods : Collection[str]
         Names that the decision `method` may give.
 
     Returns

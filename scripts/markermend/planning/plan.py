@@ -49,23 +49,23 @@ class Plan:
 
     Parameters
     ----------
-    options
+    options : mapping of str to Any
         The options of each section of the config.
-    project
+    project : Path
         The folder of the Snakefile.
-    files
+    files : ResultFiles
         Names of the result files.
-    entries
+    entries : mapping of Folders to Entry
         The recordings, by the names of their folders.
-    meshes
+    meshes : Mapping[str, list[str]]
         Mesh files that the user supplies, by the names of the subjects' folders.
-    decisions
+    decisions : Mapping[Folders, list[dict[str, Any]]]
         What a person decided about each recording, by the names of its folders.
-    failures
+    failures : Counter[tuple[str, str, str]]
         How often each stage failed so far, by subject, recording and stage.
-    warnings
+    warnings : sequence of str, optional
         Warnings for the user before anything runs.
-    started
+    started : datetime, optional
         When the run began, with its time zone.
     """
 
@@ -107,7 +107,7 @@ class Plan:
 
         Parameters
         ----------
-        before
+        before : str, optional
             A detector; only those before it are named.
 
         Returns
@@ -123,7 +123,7 @@ class Plan:
 
         Parameters
         ----------
-        wildcards
+        wildcards : Wildcards
             The names of its folders.
 
         Returns
@@ -147,7 +147,7 @@ class Plan:
 
         Parameters
         ----------
-        wildcards
+        wildcards : Wildcards
             The names of the recording's folders.
 
         Returns
@@ -185,7 +185,7 @@ class Plan:
 
         Parameters
         ----------
-        suffix
+        suffix : str
             The format.
 
         Returns
@@ -201,9 +201,9 @@ class Plan:
 
         Parameters
         ----------
-        stage
+        stage : str
             Name of its script.
-        *extra
+        *extra : str
             Files and folders of the package that the stage reads besides.
 
         Returns
@@ -218,7 +218,7 @@ class Plan:
 
         Parameters
         ----------
-        stage
+        stage : str
             Its name.
 
         Returns
@@ -238,7 +238,7 @@ class Plan:
 
         Parameters
         ----------
-        stage
+        stage : str
             Its name.
 
         Returns
@@ -275,11 +275,11 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
 
     Parameters
     ----------
-    config
+    config : dict of str to Any
         The config as Snakemake read it; values from the command line are brought into its types in place.
-    project
+    project : Path
         The folder of the Snakefile.
-    deployed
+    deployed : bool
         Whether stages run in environments of their own.
 
     Returns

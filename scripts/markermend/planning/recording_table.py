@@ -18,7 +18,7 @@ def read_rows(path: str) -> list[dict[str, Any]]:
 
     Parameters
     ----------
-    path
+    path : str
         File of the table.
 
     Returns
@@ -51,9 +51,9 @@ def from_rows(rows: list[dict[str, Any]], path: str) -> list[Entry]:
 
     Parameters
     ----------
-    rows
+    rows : list[dict[str, Any]]
         The rows, held against their schema.
-    path
+    path : str
         File of the table; files in it are relative to its folder.
 
     Returns

@@ -24,15 +24,15 @@ class Entry:
 
     Attributes
     ----------
-    subject, recording
+    subject, recording : str
         Their names.
-    source
+    source : str
         Absolute path of the original file.
-    kind
+    kind : str
         `auto`, `dynamic` or `static`.
-    rate
+    rate : float or None
         Frame rate that replaces the file's, Hz.
-    mesh
+    mesh : str or None
         Absolute path of a mesh file for the subject.
     """
 
@@ -59,7 +59,7 @@ def suffix(path: str) -> str:
 
     Parameters
     ----------
-    path
+    path : str
         Its path.
 
     Returns
@@ -80,9 +80,9 @@ def find(folder: str, results: str) -> list[Entry]:
 
     Parameters
     ----------
-    folder
+    folder : str
         The folder.
-    results
+    results : str
         The folder of results.
 
     Returns

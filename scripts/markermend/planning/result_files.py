@@ -16,7 +16,7 @@ class ResultFiles:
 
     Parameters
     ----------
-    results
+    results : str
         Absolute path of the folder of results, without braces.
     """
 

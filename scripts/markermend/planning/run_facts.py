@@ -24,13 +24,13 @@ def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, star
 
     Parameters
     ----------
-    project
+    project : Path
         The folder of the Snakefile.
-    config
+    config : mapping of str to Any
         The config.
-    recordings
+    recordings : int
         Number of recordings.
-    started
+    started : datetime
         When the run began, with its time zone.
 
     Returns
@@ -57,7 +57,7 @@ def commit(project: Path) -> str | None:
 
     Parameters
     ----------
-    project
+    project : Path
         Its folder.
 
     Returns

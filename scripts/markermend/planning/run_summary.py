@@ -19,9 +19,9 @@ def summary(paths: Iterable[Path], report: Path) -> str:
 
     Parameters
     ----------
-    paths
+    paths : iterable of Path
         Quality files of the recordings; those that do not exist count as unfinished.
-    report
+    report : Path
         First page of the report; the last line names it where it exists.
 
     Returns

@@ -16,13 +16,13 @@ def read_table(
 
     Parameters
     ----------
-    path
+    path : str
         File of the table.
-    what
+    what : str
         The option that names it, for messages.
-    columns
+    columns : sequence of str
         The columns that mean something.
-    required
+    required : sequence of str
         The columns that must be there.
 
     Returns

@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS
+from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS, class_name
 from markermend.core.changes import DECLARED_MISSING, Change, Outcome
-from markermend.core.decisions import Decision, Ruling, class_name, names, rule, texts_of
+from markermend.core.decisions import Decision
 from markermend.core.events import Event, disjoint
 from markermend.core.recording import Recording
+from markermend.core.rulings import Ruling, rule, texts_of
 from markermend.numerics.intervals import runs
 from markermend.repair.label_exchanges import concerned
 
@@ -74,7 +75,7 @@ def apply_decisions(
             admission.admit(stage, event, markers)
     for stage, events in _found_by_persons(remaining, decisions).items():
         for event in events:
-            admission.admit(stage, event, names(event))
+            admission.admit(stage, event, event.markers)
     return decided
 
 
@@ -126,7 +127,7 @@ def _found_by_persons(recording: Recording, decisions: Iterable[Decision]) -> di
         for marker in filter(decision.matches, recording.markers):
             event = Event(marker, start, stop, 1.0, partner=decision.partner)
             both = [event] if event.partner is None else [event, replace(event, marker=event.partner, partner=marker)]
-            columns = [recording.markers.index(name) for name in names(event)]
+            columns = [recording.markers.index(name) for name in event.markers]
             if start < stop and not recording.missing[start:stop, columns].all():
                 (kind,) = decision.kinds
                 made.setdefault(BY_NAME[kind].stage, []).extend(both)

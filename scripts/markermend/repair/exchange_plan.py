@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
+from markermend.core.rulings import Ruling
 from markermend.repair.apply_decisions import DecidedFindings
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.findings import Rulings

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from markermend.core.artifacts import ARTIFACTS
-from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Limit, Reason
+from markermend.core.rulings import Ruling
 from markermend.repair.candidates import Candidate, CandidateMaker, choose
 from markermend.repair.findings import Finding
 from markermend.repair.methods import METHODS

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from markermend.core.decisions import Decision, Ruling, class_name, rule
+from markermend.core.artifacts import class_name
+from markermend.core.decisions import Decision
 from markermend.core.events import Event
+from markermend.core.rulings import Ruling, rule
 from markermend.repair.label_exchanges import concerned
 
 Member = tuple[str, Event]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from markermend.core.decisions import names
 from markermend.core.events import Event
 
 
@@ -49,4 +48,4 @@ def concerned(event: Event, exchanges: Sequence[Event]) -> tuple[str, ...]:
     tuple of str
         The event's own marker first; for a label exchange all markers of its cycle.
     """
-    return tuple(one.marker for one in cycle_of(event, exchanges)) if event.partner else names(event)
+    return tuple(one.marker for one in cycle_of(event, exchanges)) if event.partner else event.markers

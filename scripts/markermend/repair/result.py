@@ -9,10 +9,10 @@ import numpy as np
 
 from markermend.core.artifacts import ARTIFACTS, BY_STAGE
 from markermend.core.changes import DECIMALS, Alternative, Change, Outcome, largest
-from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
+from markermend.core.rulings import Ruling
 from markermend.options.repair import RepairRadiusOptions
 from markermend.repair.candidates import Candidate
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.core.decisions import Ruling
 from markermend.core.reasons import Cause, Reason
+from markermend.core.rulings import Ruling
 from markermend.filling.eligibility import Eligibility, max_gap_s
 from markermend.filling.gap import Gap
 from support.fillings import fill_options, restored, rigid_body

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from markermend.core.changes import Alternative
-from markermend.core.decisions import Ruling
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording
+from markermend.core.rulings import Ruling
 from markermend.repair.candidates import Candidate
 from markermend.repair.methods import Proposal
 from markermend.repair.result import Restoration
