@@ -34,7 +34,7 @@ def detect_frozen(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : FrozenOptions
-        The options.
+        Shortest stretch, smallest motion, threshold of the discrepancy, and number of neighbours.
     predictor : Predictor
         Predicts each marker from its neighbours and its own trajectory.
 

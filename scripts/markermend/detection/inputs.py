@@ -10,7 +10,7 @@ from markermend.prediction.scene import Scene
 
 
 def without_claimed(scene: Scene, claimed: np.ndarray) -> Scene:
-    """Hide the samples of which any coordinate is claimed: they serve neither as inputs nor for training, and have no residual.
+    """Hide the samples of which any coordinate is claimed: they are no inputs, train nothing, and have no residual.
 
     Parameters
     ----------

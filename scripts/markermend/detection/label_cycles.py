@@ -47,7 +47,7 @@ def find_cycle_exchanges(scene: Scene, sudden: np.ndarray, options: LabelsOption
     sudden : np.ndarray
         Where the velocity of a marker breaks, bool (frames, markers).
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def find_cycle_changes(positions: np.ndarray, sudden: np.ndarray, options: Label
     sudden : np.ndarray
         Where the velocity of a marker breaks, bool (frames, markers).
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------

@@ -53,7 +53,7 @@ def find_pair_exchanges(
     window : int
         Window of the usual motion, samples.
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def find_pair_changes(scene: Scene, sudden: np.ndarray, *, window: int, options:
     window : int
         Window of the usual motion, samples.
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------
@@ -207,7 +207,7 @@ def exchanged_stretches(
     changes : Sequence[PairChange]
         Their changes.
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------

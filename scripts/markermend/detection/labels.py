@@ -27,7 +27,7 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
     markers : Sequence[str]
         Names of the markers.
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def sudden_steps(positions: np.ndarray, *, window: int, options: LabelsOptions) 
     window : int
         Window of the usual motion, samples.
     options : LabelsOptions
-        The options.
+        Thresholds of a change of labels, and how clear the distances must be.
 
     Returns
     -------

@@ -31,7 +31,7 @@ def detect_noise(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : NoiseOptions
-        The options.
+        Threshold of an increment; length and density of a stretch; attribution.
     predictor : ResidualSource
         Predicts each marker from its neighbours.
 
@@ -59,7 +59,7 @@ class NoiseDetector(IncrementDetector):
     markers : Sequence[str]
         Names of the markers.
     options : NoiseOptions
-        The options.
+        Threshold of an increment; length and density of a stretch; attribution.
     """
 
     def __init__(self, scene: Scene, markers: Sequence[str], options: NoiseOptions) -> None:

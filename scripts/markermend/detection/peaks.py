@@ -32,7 +32,7 @@ def detect_peaks(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : PeaksOptions
-        The options.
+        Longest pulse, threshold, context, and attribution.
     predictor : ResidualSource
         Predicts each marker from its neighbours.
 
@@ -60,7 +60,7 @@ class PeakDetector(WindowDetector):
     markers : Sequence[str]
         Names of the markers.
     options : PeaksOptions
-        The options.
+        Longest pulse, threshold, context, and attribution.
     """
 
     def __init__(self, scene: Scene, markers: Sequence[str], options: PeaksOptions) -> None:

@@ -20,7 +20,7 @@ Stretch = tuple[int, int, int]
 
 
 def hide_stretches(scene: Scene, stretches: Sequence[Stretch]) -> Scene:
-    """Hide suspected stretches, so that none of them supports another.
+    """Hide candidate stretches, so that none of them supports another.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def detect_slow(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : SlowOptions
-        The options.
+        Lengths of the templates, threshold, local scale, and attribution.
     predictor : LocalRidge
         Predicts each marker from its neighbours; some of its options are changed.
 

@@ -33,7 +33,7 @@ def detect_steps(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : StepsOptions
-        The options.
+        Lengths and thresholds of a step and its two jumps, context, and attribution.
     predictor : ResidualSource
         Predicts each marker from its neighbours.
 
@@ -80,7 +80,7 @@ class StepDetector(WindowDetector):
     markers : Sequence[str]
         Names of the markers.
     options : StepsOptions
-        The options.
+        Lengths and thresholds of a step and its two jumps, context, and attribution.
     missing : np.ndarray
         Where markers were not observed, bool (frames, markers); what earlier detectors claimed was.
     """
@@ -124,7 +124,10 @@ class StepDetector(WindowDetector):
         return self._paired(statistics, marker, self.options.single_jump_fraction)
 
     def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the level shifts of one marker between edges above the threshold, since smaller ones are often motion; see `Detector.find_candidates`."""
+        """Find the level shifts between edges above the threshold: smaller ones are often motion.
+
+        See `Detector.find_candidates`.
+        """
         return self._paired(statistics, marker, 1.0)
 
     def unexplained(self, statistics: ResidualStatistics, marker: int) -> Sequence[int]:

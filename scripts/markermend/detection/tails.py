@@ -33,7 +33,7 @@ def detect_tails(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions: it is no gap, but where it touches one a tail may end.
     options : TailsOptions
-        The options.
+        Longest tail, onset threshold, threshold of the discrepancy.
     predictor : LocalRidge
         Predicts each marker from its neighbours and its own trajectory.
 
@@ -43,23 +43,23 @@ def detect_tails(
         Disjoint events, sorted.
     """
     unclaimed = inputs.without_claimed(scene, earlier)
-    suspects = _suspects(scene, unclaimed, options, predictor)
-    hidden = prediction_discrepancy.hide_stretches(unclaimed, [one.stretch for one in suspects])
+    candidates = _candidates(scene, unclaimed, options, predictor)
+    hidden = prediction_discrepancy.hide_stretches(unclaimed, [one.stretch for one in candidates])
     found = []
-    for suspect in suspects:
+    for candidate in candidates:
         score = prediction_discrepancy.discrepancy(
             unclaimed,
             hidden,
-            suspect.stretch,
+            candidate.stretch,
             predictor=predictor,
             sigmas=options.threshold_sigmas,
             floor_mm=options.floor_mm,
         )
-        high = score[:: suspect.side] >= options.half_fraction  # towards the gap
+        high = score[:: candidate.side] >= options.half_fraction  # towards the gap
         length = len(high) - int(np.argmax(high))
         if score.max() >= 1 and high[-length:].mean() >= 0.5:
-            m, start, stop = suspect.stretch
-            tail = (stop - length, stop) if suspect.side > 0 else (start, start + length)
+            m, start, stop = candidate.stretch
+            tail = (stop - length, stop) if candidate.side > 0 else (start, start + length)
             found.append(prediction_discrepancy.unmeasured_event(markers[m], *tail, score))
     return events.disjoint(found)
 
@@ -84,14 +84,14 @@ class _Border:
 
 
 @dataclass(frozen=True)
-class _Suspect:
+class _Candidate:
     """A stretch that may be a tail, from its first sudden change up to the gap, before (side 1) or after (side -1) it."""
 
     stretch: Stretch
     side: int
 
 
-def _suspects(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[_Suspect]:
+def _candidates(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: LocalRidge) -> list[_Candidate]:
     """The stretches from the first sudden change next to a gap up to it."""
     lengths = options.max_duration_s, options.min_seen_before_s, options.scale_window_s
     longest, before, around = (max(2, samples(length, scene.rate)) for length in lengths)
@@ -99,15 +99,15 @@ def _suspects(scene: Scene, unclaimed: Scene, options: TailsOptions, predictor: 
     residual = predictor.residuals(unclaimed, np.unique([border.marker for border in borders]).astype(int))
     size = np.linalg.norm(np.diff(residual, axis=0), axis=2)
     overall = [_known_median(own) for own in size.T]
-    suspects = []
+    candidates = []
     for border in borders:
         m, rows = border.marker, border.samples(longest + before)
         near = slice(max(0, rows.min() - around), rows.max() + around)
         usual = max(_known_median(size[near, m]), overall[m])
         onset = _onset(unclaimed.positions[rows, m], residual[rows, m], before, options.onset_factor * usual)
         if onset is not None:
-            suspects.append(_Suspect(border.stretch(longest - onset), border.side))
-    return suspects
+            candidates.append(_Candidate(border.stretch(longest - onset), border.side))
+    return candidates
 
 
 def _borders(present: np.ndarray, unclaimed: np.ndarray, shortest: int) -> Iterator[_Border]:

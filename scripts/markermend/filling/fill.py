@@ -44,8 +44,8 @@ def fill_gaps(
     Returns
     -------
     TreatedRecording
-        The recording after filling; what repair did, then the outcome of every gap, by marker and frame. Only missing samples are written, a gap completely or not at all;
-        static recordings are left as they are.
+        The recording after filling; what repair did, then the outcome of every gap, by marker and frame. Only missing
+        samples are written, a gap completely or not at all; static recordings are left as they are.
     """
     scene = Scene.of(restored, mesh)
     return fill_scene(restored, scene, make_ensembles(options, decisions), options, decisions, repairs)

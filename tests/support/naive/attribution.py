@@ -47,9 +47,9 @@ def share(one, other):
     return bool(set(range(one.start, one.stop)) & set(range(other.start, other.stop)))
 
 
-def hide(detector, predictor, suspected):
-    """Hide suspects, but for those for whose sake a residual would be lost; start again until none is."""
-    hidden = samples(suspected, detector, border=detector.border)
+def hide(detector, predictor, candidates):
+    """Hide candidates, but for those for whose sake a residual would be lost; start again until none is."""
+    hidden = samples(candidates, detector, border=detector.border)
     residual, complete = predicted(detector, predictor, hidden), predicted(detector, predictor, set())
     scene, needed = detector.scene, set()
     for m, around in enumerate(scene.neighbours):
@@ -64,8 +64,8 @@ def hide(detector, predictor, suspected):
         }
         places = lost & beside if lost & beside else set(range(len(scene.positions))) if lost else set()
         needed |= {(frame, int(other)) for frame in places for other in around}
-    kept = [event for event in suspected if not samples([event], detector, border=detector.border) & needed]
-    return (hidden, residual) if len(kept) == len(suspected) else hide(detector, predictor, kept)
+    kept = [event for event in candidates if not samples([event], detector, border=detector.border) & needed]
+    return (hidden, residual) if len(kept) == len(candidates) else hide(detector, predictor, kept)
 
 
 def attribute(detector, predictor, *, rounds, reach):
@@ -80,8 +80,8 @@ def attribute(detector, predictor, *, rounds, reach):
     def compete(one, other):
         return of(other) in neighbours[of(one)] and share(one, other)
 
-    suspected = [event for m in range(count) for event in detector.find_candidates(detector.scene.positions, m)]
-    contested = [one for one in suspected if any(compete(one, other) for other in suspected)]
+    candidates = [event for m in range(count) for event in detector.find_candidates(detector.scene.positions, m)]
+    contested = [one for one in candidates if any(compete(one, other) for other in candidates)]
     hidden, residual = hide(detector, predictor, contested)
     found = [detector.find_events(residual, m) for m in range(count)]
     accepted = [event for own in found for event in own if samples([event], detector) <= hidden]

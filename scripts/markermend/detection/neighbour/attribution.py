@@ -14,7 +14,7 @@ from typing import Generic, Protocol, TypeVar
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.neighbour.hidden_samples import event_mask, hide_suspects, residuals_without
+from markermend.detection.neighbour.hidden_samples import event_mask, hide_candidates, residuals_without
 from markermend.detection.neighbour.neighbourhood import Neighbourhood, overlap
 from markermend.prediction.scene import ResidualSource, Scene
 
@@ -103,7 +103,7 @@ class Detector(Protocol[Statistics]):
         Returns
         -------
         list[Event]
-            The suspected events.
+            The candidate events.
         """
         ...
 
@@ -150,9 +150,9 @@ def attribute(
     """
     around = Neighbourhood.of(detector.scene, detector.markers, neighbours)
     trajectories = detector.measure(detector.scene.positions)
-    suspected = [event for m in range(len(detector.markers)) for event in detector.find_candidates(trajectories, m)]
-    contested = around.contested(suspected, len(detector.scene.positions))
-    hidden, residual = hide_suspects(
+    candidates = [event for m in range(len(detector.markers)) for event in detector.find_candidates(trajectories, m)]
+    contested = around.contested(candidates, len(detector.scene.positions))
+    hidden, residual = hide_candidates(
         predictor, detector.scene, contested, markers=detector.markers, border=detector.border
     )
     attribution = _Attribution(detector, predictor, around, hidden, residual)

@@ -57,7 +57,7 @@ class DriftScorer:
     rate : float
         Sampling rate, Hz.
     options : SlowOptions
-        The options.
+        Lengths of the templates, threshold, local scale, and attribution.
     """
 
     rate: float

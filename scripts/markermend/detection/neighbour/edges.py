@@ -85,7 +85,7 @@ def find_edges(
     rate : float
         Sampling rate, Hz.
     options : ResidualWindowOptions
-        The options.
+        Threshold, context, and how the covariance of windows is estimated.
     fraction : float, optional
         Part of the threshold that is enough.
 

@@ -1,4 +1,4 @@
-"""Residuals of markers that are predicted from their neighbours without the samples of suspected events."""
+"""Residuals of markers that are predicted from their neighbours without the samples of candidate events."""
 
 from __future__ import annotations
 
@@ -67,12 +67,12 @@ def residuals_without(
     return predictor.residuals(both, count + np.array(markers))[:, count:]
 
 
-def hide_suspects(
-    predictor: ResidualSource, scene: Scene, suspected: Sequence[Event], *, markers: Sequence[str], border: int
+def hide_candidates(
+    predictor: ResidualSource, scene: Scene, candidates: Sequence[Event], *, markers: Sequence[str], border: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Hide suspected events from the predictions of all other markers, as far as every marker still has a residual.
+    """Hide candidate events from the predictions of all other markers, as far as every marker still has a residual.
 
-    Events are released until no residual is lost for their sake: neither that of a suspect itself, whose neighbours would
+    Events are released until no residual is lost for their sake: neither that of a candidate itself, whose neighbours would
     all be hidden, nor that of a marker for which too few frames would be left to train its predictor.
 
     Parameters
@@ -81,7 +81,7 @@ def hide_suspects(
         The predictor.
     scene : Scene
         What is observed.
-    suspected : Sequence[Event]
+    candidates : Sequence[Event]
         The events.
     markers : Sequence[str]
         Names of the markers.
@@ -96,7 +96,7 @@ def hide_suspects(
         Residuals (frames, markers, 3), mm, predicted without them.
     """
     index = {name: m for m, name in enumerate(markers)}
-    hiding = list(suspected)
+    hiding = list(candidates)
     while True:
         hidden = event_mask(hiding, len(scene.positions), markers, border=border)
         residual = residuals_without(predictor, scene, hidden, range(len(markers)))

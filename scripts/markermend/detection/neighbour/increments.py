@@ -80,7 +80,7 @@ class IncrementDetector(ABC):
     markers : Sequence[str]
         Names of the markers.
     options : IncrementOptions
-        The options.
+        Window of the moving median, threshold, and window of the local scale.
     """
 
     def __init__(self, scene: Scene, markers: Sequence[str], options: IncrementOptions) -> None:

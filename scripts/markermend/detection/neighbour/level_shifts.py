@@ -65,7 +65,7 @@ class LevelShiftFinder:
     rate : float
         Sampling rate, Hz.
     options : StepsOptions
-        The options.
+        Lengths and thresholds of a step and its two jumps, context, and attribution.
     """
 
     rate: float

@@ -133,7 +133,7 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
     rate : float
         Sampling rate, Hz.
     options : PeaksOptions
-        The options.
+        Longest pulse, threshold, context, and attribution.
 
     Returns
     -------

@@ -56,8 +56,8 @@ class ResidualStatistics:
     positions : np.ndarray
         Positions as recorded (frames, markers, 3), mm, NaN = missing.
     misfit : np.ndarray
-        Root mean square (frames, markers), mm, that remains of the window about a frame after the fit of the pattern; NaN in runs
-        shorter than a window.
+        Root mean square (frames, markers), mm, that remains of the window about a frame after the fit of the pattern;
+        NaN in runs shorter than a window.
     local_scale : np.ndarray
         The usual misfit about a frame (frames, markers), mm, NaN likewise.
     covariance : WindowCovariance
@@ -153,7 +153,7 @@ def context_samples(rate: float, options: ResidualWindowOptions, *, min_samples:
     rate : float
         Sampling rate, Hz.
     options : ResidualWindowOptions
-        The options.
+        Threshold, context, and how the covariance of windows is estimated.
     min_samples : int
         Smallest number, so that the noise scale can be estimated.
 
@@ -231,7 +231,7 @@ def exceedances(
     filters : WindowFilters
         The filters.
     options : ResidualWindowOptions
-        The options.
+        Threshold, context, and how the covariance of windows is estimated.
     fraction : float, optional
         Part of the threshold that is enough.
 

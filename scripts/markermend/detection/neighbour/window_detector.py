@@ -26,7 +26,7 @@ class WindowDetector(ABC):
     markers : Sequence[str]
         Names of the markers.
     options : ResidualWindowOptions
-        The options.
+        Threshold, context, and how the covariance of windows is estimated.
     """
 
     def __init__(self, scene: Scene, markers: Sequence[str], options: ResidualWindowOptions) -> None:

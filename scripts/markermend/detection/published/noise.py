@@ -29,7 +29,7 @@ def detect_noise(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions: it is bridged, and not found again.
     options : PublishedNoiseOptions
-        The options.
+        Windows, thresholds and shortest stretch of the published detector.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def find_noise(signal: np.ndarray, *, rate: float, options: PublishedNoiseOption
     rate : float
         Sampling rate, Hz.
     options : PublishedNoiseOptions
-        The options.
+        Windows, thresholds and shortest stretch of the published detector.
 
     Returns
     -------

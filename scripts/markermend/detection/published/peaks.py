@@ -28,7 +28,7 @@ def detect_peaks(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions: it is bridged, and not found again.
     options : PublishedPeaksOptions
-        The options.
+        Windows, thresholds and balance ratio of the published detector.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def find_peaks(signal: np.ndarray, *, rate: float, options: PublishedPeaksOption
     rate : float
         Sampling rate, Hz.
     options : PublishedPeaksOptions
-        The options.
+        Windows, thresholds and balance ratio of the published detector.
 
     Returns
     -------

@@ -44,7 +44,7 @@ def detect_slow(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions: it is bridged for the predictor, and not found again.
     options : PublishedSlowOptions
-        The options.
+        Predictor, and thresholds of the hysteresis.
     predictor : ResidualSource
         Source of the residuals; see `make_predictor`.
 
@@ -84,7 +84,7 @@ def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) 
     Parameters
     ----------
     options : PublishedSlowOptions
-        The options.
+        Predictor, and thresholds of the hysteresis.
     predictors : PredictorOptions
         Options of the predictors.
 
@@ -147,7 +147,7 @@ def find_slow(residual: np.ndarray, *, rate: float, options: PublishedSlowOption
     rate : float
         Sampling rate, Hz.
     options : PublishedSlowOptions
-        The options.
+        Predictor, and thresholds of the hysteresis.
 
     Returns
     -------

@@ -29,7 +29,7 @@ def detect_steps(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions: it is bridged, and not found again.
     options : PublishedStepsOptions
-        The options.
+        Windows, thresholds and lengths of the published detector.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def find_steps(
     rate : float
         Sampling rate, Hz.
     options : PublishedStepsOptions
-        The options.
+        Windows, thresholds and lengths of the published detector.
 
     Returns
     -------

@@ -23,7 +23,7 @@ class Displaced:
     scene: Scene
     markers: str
     border: int = 0
-    suspected: list = field(default_factory=list)
+    candidates: list = field(default_factory=list)
     explains: bool = True
 
     def measure(self, residual):
@@ -41,7 +41,7 @@ class Displaced:
         return [Event(self.markers[m], SPAN.start, SPAN.stop, displacement, "x")] if displacement > EVENT else []
 
     def find_candidates(self, statistics, m):
-        return self.find_events(statistics, m) if self.suspected is None else self.suspected[m : m + 1]
+        return self.find_events(statistics, m) if self.candidates is None else self.candidates[m : m + 1]
 
     def unexplained(self, statistics, m):
         return () if self.explains or self.displacement(statistics, m) <= OPEN else (SPAN.start, SPAN.stop)
@@ -73,31 +73,31 @@ def test_both_of_two_that_compete_may_be_right():
     assert found(20, 18, 0) == ["A", "B"]
 
 
-def test_what_several_hide_from_one_another_is_found_where_all_are_suspected():
+def test_what_several_hide_from_one_another_is_found_where_all_are_candidates():
     levels = (20, 19, 11, 0, 0)
     assert found(*levels) == ["A", "B"]
-    assert found(*levels, suspected=None) == ["A", "B", "C"]
+    assert found(*levels, candidates=None) == ["A", "B", "C"]
 
 
 def test_a_marker_is_not_left_without_any_neighbour_to_judge_it_by():
     levels = (30, 9, 6)
     assert found(*levels) == ["A"]
-    assert found(*levels, suspected=None) == ["A"]
-    assert found(*levels, suspected=None, border=3) == ["A"]
+    assert found(*levels, candidates=None) == ["A"]
+    assert found(*levels, candidates=None, border=3) == ["A"]
 
 
 def test_a_marker_is_not_left_with_too_few_frames_to_learn_from():
     levels = (30, 9, 0, 0)
-    assert found(*levels, suspected=None, rounds=0, predictor=NeedsFrames()) == found(*levels, rounds=0) == ["A"]
+    assert found(*levels, candidates=None, rounds=0, predictor=NeedsFrames()) == found(*levels, rounds=0) == ["A"]
 
 
 def test_suspicion_alone_is_no_event():
     both = [Event(name, SPAN.start, SPAN.stop, 9.0) for name in "AB"]
-    assert found(12, 12, 12, 12, suspected=both) == []
+    assert found(12, 12, 12, 12, candidates=both) == []
 
 
 def test_a_hidden_neighbour_takes_the_samples_beside_with_it():
-    given = {"at": (0, 0, -100), "suspected": None}
+    given = {"at": (0, 0, -100), "candidates": None}
     assert found(12, 0, 12, **given) == ["C"]
     assert found(12, 0, 12, **given, border=2) == ["A", "C"]
 

@@ -1,10 +1,10 @@
-"""Hidden samples: markers are predicted without what is suspected of their neighbours, and none is left unpredicted."""
+"""Hidden samples: markers are predicted without what is candidates of their neighbours, and none is left unpredicted."""
 
 import numpy as np
 import pytest
 
 from markermend.core.events import Event
-from markermend.detection.neighbour.hidden_samples import event_mask, hide_suspects, residuals_without
+from markermend.detection.neighbour.hidden_samples import event_mask, hide_candidates, residuals_without
 from markermend.prediction.scene import Scene
 from support.predictors import MeanOfOthers, NeedsFrames
 
@@ -32,21 +32,21 @@ def test_a_marker_is_judged_as_recorded_among_neighbours_without_their_hidden_sa
     assert np.isnan(found[:, [1, 3]]).all()
 
 
-def test_suspects_are_released_where_a_marker_could_not_be_predicted_any_more():
+def test_candidates_are_released_where_a_marker_could_not_be_predicted_any_more():
     positions = np.random.default_rng(1).normal(0, 10, (40, 3, 3))
     all_at_once = [Event(name, 10, 15, 2.0) for name in "ABC"]
-    hidden, residual = hide_suspects(MeanOfOthers(), scene(positions), all_at_once, markers="ABC", border=0)
+    hidden, residual = hide_candidates(MeanOfOthers(), scene(positions), all_at_once, markers="ABC", border=0)
     assert not hidden.any() and np.isfinite(residual).all()
     two = all_at_once[:2]
-    hidden, residual = hide_suspects(MeanOfOthers(), scene(positions), two, markers="ABC", border=0)
+    hidden, residual = hide_candidates(MeanOfOthers(), scene(positions), two, markers="ABC", border=0)
     assert hidden[10:15, :2].all() and hidden.sum() == 10
     assert np.isfinite(residual[:, :2]).all()
 
 
-def test_suspects_are_released_where_too_few_frames_would_be_left():
+def test_candidates_are_released_where_too_few_frames_would_be_left():
     positions = np.random.default_rng(1).normal(0, 10, (40, 4, 3))
     long = [Event("A", 10, 30, 2.0)]
-    hidden, residual = hide_suspects(NeedsFrames(), scene(positions), long, markers="ABCD", border=0)
+    hidden, residual = hide_candidates(NeedsFrames(), scene(positions), long, markers="ABCD", border=0)
     assert not hidden.any() and np.isfinite(residual).all()
 
 
@@ -56,5 +56,5 @@ def test_a_predictor_that_nothing_helps_ends_the_search():
             return np.full(scene.positions.shape, np.nan)
 
     positions = np.zeros((20, 3, 3))
-    hidden, _ = hide_suspects(Never(), scene(positions), [Event("A", 5, 9, 2.0)], markers="ABC", border=1)
+    hidden, _ = hide_candidates(Never(), scene(positions), [Event("A", 5, 9, 2.0)], markers="ABC", border=1)
     assert np.flatnonzero(hidden[:, 0]).tolist() == [4, 5, 6, 7, 8, 9]

@@ -22,7 +22,7 @@ def test_an_update_is_a_measurement_of_some_markers_under_the_same_covariance():
     assert np.array_equal(again.misfit, before.misfit) and np.array_equal(again.local_scale, before.local_scale)
 
 
-def test_the_trajectory_itself_is_judged_for_suspects_and_nothing_is_unexplained():
+def test_the_trajectory_itself_is_judged_for_candidates_and_nothing_is_unexplained():
     residual = np.stack([rough(200, seed) for seed in range(2)], axis=1)
     residual[100:102, 1] += 9
     detector = PeakDetector(Scene(residual, 100.0, [np.array([1]), np.array([0])]), "AB", PEAKS)
