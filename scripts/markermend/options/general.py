@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from markermend.options.declaration import Distinct, Laboratory, NotEmpty
 
@@ -26,15 +26,7 @@ class GeneralOptions:
 
     Change it when you clean your own recordings; it may also be given on the command line."""
 
-    detect: Annotated[tuple[Stages, ...], Distinct, Laboratory] = (
-        "labels",
-        "frozen",
-        "tails",
-        "peaks",
-        "noise",
-        "steps",
-        "slow",
-    )
+    detect: Annotated[tuple[Stages, ...], Distinct, Laboratory] = get_args(Stages)
     """The classes of artifacts to look for; an empty list fills gaps only.
 
     Change it when your laboratory does not want a class to be touched; `[]` fills gaps only."""

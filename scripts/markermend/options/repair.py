@@ -25,6 +25,15 @@ from markermend.options.declaration import (
 )
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 
+USUAL_METHODS: Mapping[str, tuple[str, ...]] = {
+    "labels": ("exchange",),
+    "peaks": ("spline", "local_ridge"),
+    "noise": ("separate_noise", "local_ridge"),
+    "steps": ("separate_step", "local_ridge"),
+    "slow": ("separate_slow",),
+}
+"""The usual methods of each class of artifacts that is repaired."""
+
 
 @dataclass(frozen=True)
 class SeparationOptions:
@@ -84,16 +93,8 @@ class RepairOptions:
     protect: Annotated[tuple[str, ...], Shared()] = ()
     """Markers that are not touched, as name patterns with `*` and `?`."""
 
-    methods: Annotated[
-        Mapping[str, tuple[str, ...]], Keys(("labels", "peaks", "noise", "steps", "slow")), Laboratory
-    ] = field(
-        default_factory=lambda: {
-            "labels": ("exchange",),
-            "peaks": ("spline", "local_ridge"),
-            "noise": ("separate_noise", "local_ridge"),
-            "steps": ("separate_step", "local_ridge"),
-            "slow": ("separate_slow",),
-        }
+    methods: Annotated[Mapping[str, tuple[str, ...]], Keys(tuple(USUAL_METHODS)), Laboratory] = field(
+        default_factory=lambda: dict(USUAL_METHODS)
     )
     """For each class the methods that are compared, in order of preference; an empty list makes its findings missing (exchanged labels: leaves them).
 

@@ -1,14 +1,37 @@
 """The table of classes agrees with the origins, and names every stage and class once."""
 
+import tomllib
+from dataclasses import fields
+from typing import get_args
+
+from markermend import api
 from markermend.core.artifacts import ARTIFACTS, BY_NAME, BY_STAGE, DETECTORS, class_name
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS
+from markermend.options.config import SECTIONS
+from markermend.options.general import Stages
+from markermend.options.repair import USUAL_METHODS
+from support.paths import PROJECT
 
 
 def test_every_stage_and_class_is_named_once():
     assert len({artifact.stage for artifact in ARTIFACTS}) == len({artifact.name for artifact in ARTIFACTS})
     assert tuple(BY_STAGE) == DETECTORS
     assert tuple(BY_NAME) == tuple(artifact.name for artifact in ARTIFACTS)
+
+
+def test_every_class_is_known_wherever_detectors_are_named():
+    """Who adds a detector is told here what is still missing."""
+    assert get_args(Stages) == DETECTORS
+    assert [name for name in SECTIONS if name in DETECTORS] == list(DETECTORS)
+    assert tuple(USUAL_METHODS) == tuple(artifact.stage for artifact in ARTIFACTS if not artifact.unmeasured)
+    assert tuple(api.DETECTORS) == DETECTORS
+    assert {*DETECTORS} <= {field.name for field in fields(api.Options)}
+    contracts = tomllib.loads((PROJECT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
+        "contracts"
+    ]
+    [detectors] = [own["modules"] for own in contracts if own["name"] == "Detectors do not import each other"]
+    assert detectors == [f"markermend.detection.{stage}" for stage in DETECTORS]
 
 
 def test_files_are_an_interface():
