@@ -1,8 +1,8 @@
 """Exchanges of labels of three and more markers in a cycle.
 
-Nothing is estimated from the recording but distances, so that a permutation that lasts cannot hide by being learned. At
-the frame of a change every marker of the cycle goes on under another label; between changes the distances to other
-markers decide which labels are right.
+Only distances are estimated from the recording: a regression would learn a permutation that lasts, and hide it. At the
+frame of a change every marker of the cycle continues under another label; between changes the distances to other markers
+decide which labels are right.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from markermend.detection.label_distances import markers_around, usual_distances
 from markermend.detection.label_permutations import ExchangedStretch, Permutation, possible_permutations
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -83,17 +84,17 @@ def find_cycle_changes(positions: np.ndarray, sudden: np.ndarray, options: Label
     """
     ratio, found = options.max_remaining_fraction, []
     for t in np.flatnonzero(sudden.sum(axis=1) >= 3):
-        who = np.flatnonzero(sudden[t] & ~np.isnan(positions[max(t - 2, 0) : t + 1]).any(axis=(0, 2)))
-        if len(who) < 3 or t < 2:
+        candidates = np.flatnonzero(sudden[t] & ~np.isnan(positions[max(t - 2, 0) : t + 1]).any(axis=(0, 2)))
+        if len(candidates) < 3 or t < 2:
             continue
-        before, last = positions[t - 2 : t, who]
-        # A marker moves on, or stays: after an exchange of a single frame the step before is no estimate of its velocity.
-        far = np.minimum(*(_distances(expected, positions[t, who]) for expected in (2 * last - before, last)))
+        before, last = positions[t - 2 : t, candidates]
+        # A marker continues its motion, or stays: after an exchange of a single frame the step before is no estimate of its velocity.
+        far = np.minimum(*(_distances(expected, positions[t, candidates]) for expected in (2 * last - before, last)))
         for cycle in map_cycles(np.argmin(far, axis=1)):
             own = np.array(cycle)
             jump, remaining = far[own, own].min(), far[own, np.roll(own, -1)].max()
             if jump >= options.floor_mm and remaining <= ratio * jump:
-                members = who[own].tolist()
+                members = candidates[own].tolist()
                 first = members.index(min(members))
                 score = float(ratio * jump / max(remaining, 1e-3 * jump))
                 found.append(CycleChange(int(t), tuple(members[first:] + members[:first]), score))
@@ -132,15 +133,15 @@ def map_cycles(following: np.ndarray) -> list[list[int]]:
     return found
 
 
-def shape_clearness(scene: Scene, permutation: Permutation, start: int, stop: int, *, neighbours: int) -> float:
-    """Compare the distances to other markers with what they would be with labels exchanged.
+def exchange_clearness(scene: Scene, permutation: Permutation, start: int, stop: int, *, neighbours: int) -> float:
+    """Compare the deviations of distances from their usual values under the recorded and under exchanged labels.
 
     Parameters
     ----------
     scene : Scene
         What is observed.
     permutation : Permutation
-        Under which label each marker may be.
+        The label under which each marker may be recorded.
     start, stop : int
         The stretch, [start, stop).
     neighbours : int
@@ -153,24 +154,19 @@ def shape_clearness(scene: Scene, permutation: Permutation, start: int, stop: in
         from their medians over the recording, steady distances counting most.
     """
     markers, labels = np.array(permutation.markers), np.array(permutation.labels)
-    around = dict.fromkeys(n for m in markers for n in np.asarray(scene.neighbours[m], int)[:neighbours].tolist())
-    others = np.array([n for n in around if n not in markers], int)
-
-    everything = _separations(scene.positions, markers, others)
-    known = ~np.isnan(everything).all(axis=0)
-    low, usual, high = np.full((3, *known.shape), np.nan)
-    low[known], usual[known], high[known] = np.nanpercentile(everything[:, known], [16, 50, 84], axis=0)
-    weight, rows = 1 / (1 + (high - low) ** 2), scene.positions[start:stop]
+    others = markers_around(scene, permutation.markers, neighbours)
+    usual, spread = usual_distances(_distances_over_time(scene.positions, markers, others))
+    weight, rows = 1 / (1 + spread**2), scene.positions[start:stop]
     recorded, exchanged = (
-        np.nansum(weight * (_separations(rows, who, others) - usual) ** 2) for who in (markers, labels)
+        np.nansum(weight * (_distances_over_time(rows, own, others) - usual) ** 2) for own in (markers, labels)
     )
     return float((recorded - exchanged) / max(recorded + exchanged, 1e-9))
 
 
-def _separations(positions: np.ndarray, some: np.ndarray, others: np.ndarray) -> np.ndarray:
+def _distances_over_time(positions: np.ndarray, some: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Distances (frames, n, m) of some markers from others over time."""
-    separation: np.ndarray = np.linalg.norm(positions[:, some, None] - positions[:, None, others], axis=3)
-    return separation
+    distance: np.ndarray = np.linalg.norm(positions[:, some, None] - positions[:, None, others], axis=3)
+    return distance
 
 
 def _exchanged_stretches(
@@ -181,7 +177,7 @@ def _exchanged_stretches(
     best: list[tuple[Permutation, float]] = []
     for permutations in possible_permutations(markers, [change.cycle for change in changes]):
         clearness = [
-            0.0 if one.is_identity else shape_clearness(scene, one, *place, neighbours=options.shape_neighbours)
+            0.0 if one.is_identity else exchange_clearness(scene, one, *place, neighbours=options.shape_neighbours)
             for one, place in zip(permutations, stretches, strict=True)
         ]
         candidate = list(zip(permutations, clearness, strict=True))

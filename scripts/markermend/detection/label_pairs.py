@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from markermend.detection.label_distances import markers_around, usual_distances
 from markermend.detection.label_permutations import ExchangedStretch, Permutation
 from markermend.numerics.intervals import runs
 from markermend.options.detection import LabelsOptions
@@ -159,8 +160,8 @@ def _strongest(found: Sequence[PairChange]) -> list[PairChange]:
     return sorted(kept, key=lambda c: (c.frame, c.first, c.second))
 
 
-def shape_clearness(scene: Scene, pair: tuple[int, int], *, neighbours: int) -> np.ndarray:
-    """Compare the distances of two markers to others with what they would be with the labels exchanged.
+def label_clearness(scene: Scene, pair: tuple[int, int], *, neighbours: int) -> np.ndarray:
+    """Compare the deviations of distances from their usual values under the recorded and under exchanged labels.
 
     Parameters
     ----------
@@ -178,13 +179,10 @@ def shape_clearness(scene: Scene, pair: tuple[int, int], *, neighbours: int) -> 
         deviations of the distances from their medians over the recording, steady distances counting most.
     """
     a, b = pair
-    around = dict.fromkeys([*scene.neighbours[a][:neighbours], *scene.neighbours[b][:neighbours]])
-    others = np.array([n for n in around if n not in pair], int)
+    others = markers_around(scene, pair, neighbours)
     distance = length(scene.positions[:, [a, b], None] - scene.positions[:, None, others])
-    known = ~np.isnan(distance).all(axis=0)
-    low, usual, high = np.full((3, *known.shape), np.nan)
-    low[known], usual[known], high[known] = np.nanpercentile(distance[:, known], [16, 50, 84], axis=0)
-    weight = 1 / (1 + ((high - low) ** 2).sum(axis=0))
+    usual, spread = usual_distances(distance)
+    weight = 1 / (1 + (spread**2).sum(axis=0))
     recorded, exchanged = (np.nansum(weight * (distance - own) ** 2, axis=(1, 2)) for own in (usual, usual[::-1]))
     clearness: np.ndarray = (exchanged - recorded) / np.maximum(exchanged + recorded, 1e-9)
     return clearness
@@ -214,7 +212,7 @@ def exchanged_stretches(
     list[ExchangedStretch]
         The stretches, by frame.
     """
-    clearness = shape_clearness(scene, pair, neighbours=options.shape_neighbours)
+    clearness = label_clearness(scene, pair, neighbours=options.shape_neighbours)
     score = {change.frame: change.score for change in changes}
     found = []
     for start, stop in runs(scene.present[:, pair[0]] | scene.present[:, pair[1]]):

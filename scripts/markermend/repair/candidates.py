@@ -23,7 +23,7 @@ NOT_PROPOSING = ("exchange", "blank")
 
 @dataclass(frozen=True)
 class Candidate:
-    """A proposal, and what would be better with it.
+    """A proposal, with the figures by which it is compared with what was measured.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Candidate:
     prediction_radius: float
 
     @property
-    def no_better(self) -> Reason | None:
+    def reason_no_better(self) -> Reason | None:
         """Why the recording would be no better with it, None where it would."""
         if self.expected_error > self.largest_change:
             text = f"expected error {self.expected_error:.1f} mm for a change of {self.largest_change:.1f} mm"
@@ -71,8 +71,8 @@ class Candidate:
         Reason or None
             The reason; None where it may be taken.
         """
-        if self.no_better or self.expected_error <= max_error_mm:
-            return self.no_better
+        if self.reason_no_better or self.expected_error <= max_error_mm:
+            return self.reason_no_better
         limit = Limit("repair.max_error_mm", max_error_mm, self.expected_error)
         return Reason(Cause.UNCERTAIN, f"expected error {self.expected_error:.1f} mm ({limit.text})", limit)
 
@@ -92,7 +92,7 @@ def choose(candidates: Sequence[Candidate], *, max_error_mm: float, preference_f
     Returns
     -------
     Candidate or None
-        None where nothing stands for any of them, or where the one of least expected error would change less than its
+        None where none can be taken, or where the one of least expected error would change less than its
         expected error: then what was measured is as good as any.
     """
     best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)

@@ -70,7 +70,7 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     """Write the best candidate; without any that may be taken the samples become missing.
 
     Where the best candidate would leave the recording no better, the samples stay as measured. Where a person confirmed the
-    finding, the best candidate is taken whatever stands against it.
+    finding, the best candidate is taken despite any objection.
     """
     options = maker.options
     methods = [ruling.method] if ruling.method else options.methods[finding.stage]
@@ -83,28 +83,28 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     if taken:
         result.write(finding.stage, event, taken, candidates, ruling)
         return
-    against = {own.proposal.method: own.reason_against(options.max_error_mm) for own in candidates}
-    reason = _none_taken(finding.stage, methods, against, best)
-    harmless = best is not None and best.no_better is not None
+    objections = {own.proposal.method: own.reason_against(options.max_error_mm) for own in candidates}
+    reason = _none_taken(finding.stage, methods, objections, best)
+    harmless = best is not None and best.reason_no_better is not None
     result.leave(event, finding.stages, reason, ruling, blank=not harmless, candidates=candidates)
 
 
 def _none_taken(
-    stage: str, methods: Sequence[str], against: Mapping[str, Reason | None], best: Candidate | None
+    stage: str, methods: Sequence[str], objections: Mapping[str, Reason | None], best: Candidate | None
 ) -> Reason:
-    """Say why no candidate was taken: what stands against each method, and the cause that stood against the best."""
+    """Say why no candidate was taken: the objection to each method, and the cause of that to the best."""
     applicable = [method for method in methods if method != "exchange"]
     if not applicable:
         return Reason(Cause.NO_METHOD, f"no method for {stage}: treated as a gap")
-    texts = [f"{method}: {_why_not(method, against)}" for method in applicable]
+    texts = [f"{method}: {_why_not(method, objections)}" for method in applicable]
     text = f"no repair is accurate enough ({'; '.join(texts)})"
-    cause = against[best.proposal.method] if best else None
+    cause = objections[best.proposal.method] if best else None
     return Reason(cause.cause, text, cause.limit) if cause else Reason(Cause.NO_METHOD, text)
 
 
-def _why_not(method: str, against: Mapping[str, Reason | None]) -> str:
-    """Why a method was not used, given what stands against the candidates."""
-    if method not in against:
+def _why_not(method: str, objections: Mapping[str, Reason | None]) -> str:
+    """Why a method was not used, given the objections to the candidates."""
+    if method not in objections:
         return "not applicable"
-    reason = against[method]
+    reason = objections[method]
     return reason.text if reason else "larger expected error than another"

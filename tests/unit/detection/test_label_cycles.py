@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.label_cycles import find_cycle_changes, find_cycle_exchanges, map_cycles, shape_clearness
+from markermend.detection.label_cycles import exchange_clearness, find_cycle_changes, find_cycle_exchanges, map_cycles
 from markermend.detection.label_permutations import Permutation
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -57,7 +57,7 @@ def test_the_shape_is_compared_distance_by_distance(seed):
     recorded[3:5, 0] = np.nan
     near = [np.delete(np.arange(6), m) for m in range(6)]
     labels = np.random.default_rng(seed).permutation([0, 1, 2]).tolist()
-    found = shape_clearness(Scene(recorded, 100.0, near), Permutation((0, 1, 2), tuple(labels)), 4, 12, neighbours=5)
+    found = exchange_clearness(Scene(recorded, 100.0, near), Permutation((0, 1, 2), tuple(labels)), 4, 12, neighbours=5)
     assert found == pytest.approx(naive.clearness(recorded, (0, 1, 2), labels, (3, 4, 5), 4, 12))
 
 

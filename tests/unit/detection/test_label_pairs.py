@@ -8,8 +8,8 @@ from markermend.detection.label_pairs import (
     exchanged_stretches,
     find_pair_changes,
     find_pair_exchanges,
+    label_clearness,
     length,
-    shape_clearness,
 )
 from markermend.detection.labels import sudden_steps
 from markermend.options.detection import LabelsOptions
@@ -63,11 +63,11 @@ def test_a_marker_takes_part_in_its_strongest_change_alone():
 
 
 def test_the_shape_says_where_they_are_exchanged():
-    clearness = shape_clearness(scene((40, 60)), (0, 1), neighbours=6)
+    clearness = label_clearness(scene((40, 60)), (0, 1), neighbours=6)
     assert clearness[40:60].max() < -0.9 and np.delete(clearness, np.s_[40:60]).min() > 0.9
     gone = scene()
     gone.positions[10:20, :2] = np.nan
-    assert not shape_clearness(gone, (0, 1), neighbours=6)[10:20].any()
+    assert not label_clearness(gone, (0, 1), neighbours=6)[10:20].any()
 
 
 @pytest.mark.parametrize("spans", [[(40, 60)], [(100, 120)], [(0, 30)], [(20, 30), (50, 70)]])
