@@ -7,9 +7,10 @@ import numpy as np
 from markermend.core.decisions import Decision
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.interpolation import Interpolation
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 from markermend.repair.repair import repair_scene
 from support import bodies
 from support.treated import treated

@@ -11,7 +11,8 @@ from markermend.detection import inputs, prediction_discrepancy
 from markermend.detection.prediction_discrepancy import Stretch
 from markermend.numerics.intervals import runs
 from markermend.options.detection import FrozenOptions
-from markermend.prediction.scene import Predictor, Scene
+from markermend.prediction.interface import Predictor
+from markermend.prediction.scene import Scene
 
 MIN_NEIGHBOURS = 3
 """Neighbours that must be observed throughout a stretch, at least."""

@@ -14,7 +14,8 @@ from markermend.detection.neighbour.increments import IncrementDetector, Increme
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection import NoiseOptions
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
 
 
 def detect_noise(

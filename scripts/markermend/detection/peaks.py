@@ -15,7 +15,8 @@ from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics import intervals
 from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import PeaksOptions
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
 
 
 def detect_peaks(

@@ -13,7 +13,8 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.prediction.scene import Predictor, Scene
+from markermend.prediction.interface import Predictor
+from markermend.prediction.scene import Scene
 
 Stretch = tuple[int, int, int]
 """A stretch of one marker: its index, and the half-open interval."""

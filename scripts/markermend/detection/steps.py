@@ -16,7 +16,8 @@ from markermend.detection.neighbour.residual_windows import ResidualStatistics, 
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics.window_covariance import WindowCovariance
 from markermend.options.detection import StepsOptions
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
 
 
 def detect_steps(

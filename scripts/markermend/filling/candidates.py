@@ -9,8 +9,9 @@ import numpy as np
 
 from markermend.filling.constraints import constrain_time
 from markermend.filling.gap import Gap
+from markermend.prediction.interface import Predictor
 from markermend.prediction.interpolation import KINDS
-from markermend.prediction.scene import Predictor, Scene
+from markermend.prediction.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,8 @@ from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
 from markermend.filling.member_weights import MemberWeights, deviation_scale, squared_errors
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
-from markermend.prediction.scene import Predictor, Scene, Trainable
+from markermend.prediction.interface import Predictor, Trainable
+from markermend.prediction.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,9 @@ import numpy as np
 
 from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import GlobalRegressionOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 CENTRINGS = ("complete", "available")
 """What is subtracted from every frame: the mean of the neighbours that are never missing (of the inputs where there are

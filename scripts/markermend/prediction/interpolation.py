@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.interface import Prediction
+from markermend.prediction.scene import Scene
 
 KINDS = ("linear", "spline", "pchip", "makima")
 """Straight line, cubic spline (not-a-knot), monotone piecewise cubic, modified Akima."""

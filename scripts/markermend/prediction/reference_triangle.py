@@ -16,8 +16,9 @@ import numpy as np
 
 from markermend.numerics.rigid_alignment import LocalFrames
 from markermend.options.prediction import ReferenceTriangleOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 MIN_SHAPE_STD_MM = 1e-3
 """A rigid triangle has no shape to regress on: its noise must not be blown up to unit variance."""

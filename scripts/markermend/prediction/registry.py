@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from markermend.options.prediction import PredictorOptions
 from markermend.prediction.global_regression import GlobalRegression
+from markermend.prediction.interface import Predictor
 from markermend.prediction.interpolation import KINDS, Interpolation
 from markermend.prediction.lagged_regression.polynomial import Polynomial
 from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
@@ -17,7 +18,6 @@ from markermend.prediction.low_rank.weighted_pca import WeightedPca
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.neural_network.predictor import Network
 from markermend.prediction.reference_triangle import LocalGRNN, LocalInterpolation, LocalQuadratic
-from markermend.prediction.scene import Predictor
 from markermend.prediction.state_space.bolero import Bolero
 from markermend.prediction.state_space.kalman_smoother import KalmanSmoother
 

@@ -11,8 +11,9 @@ import numpy as np
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.numerics.intervals import samples
 from markermend.options.repair import RepairOptions
+from markermend.prediction.interface import Prediction, Predictor
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.scene import Prediction, Predictor, Scene
+from markermend.prediction.scene import Scene
 from markermend.repair.methods import Proposal, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 from markermend.repair.separator import Separator

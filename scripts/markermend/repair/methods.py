@@ -8,9 +8,10 @@ import numpy as np
 
 from markermend.numerics.filters import high_pass
 from markermend.numerics.intervals import runs
+from markermend.prediction.interface import Predictor
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
-from markermend.prediction.scene import Predictor, Scene
+from markermend.prediction.scene import Scene
 from markermend.repair.separation import SHAPE_COVARIANCES
 
 METHODS = ("exchange", *SHAPE_COVARIANCES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)

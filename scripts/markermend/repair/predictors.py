@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from markermend.core.decisions import Decision
 from markermend.options.repair import RepairOptions
+from markermend.prediction.interface import Predictor
 from markermend.prediction.registry import REGISTRY, members
-from markermend.prediction.scene import Predictor
 from markermend.repair.methods import METHODS
 
 

@@ -22,7 +22,8 @@ from markermend.core.mesh import Mesh
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Recording
 from markermend.options.repair import RepairOptions
-from markermend.prediction.scene import Predictor, Scene
+from markermend.prediction.interface import Predictor
+from markermend.prediction.scene import Scene
 from markermend.repair.apply_decisions import DecidedFindings, apply_decisions
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_exchanges

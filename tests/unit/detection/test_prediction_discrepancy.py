@@ -3,7 +3,8 @@
 import numpy as np
 
 from markermend.detection.prediction_discrepancy import discrepancy, hide_stretches, unmeasured_event
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.interface import Prediction
+from markermend.prediction.scene import Scene
 
 
 class Straight:

@@ -7,7 +7,7 @@ import pytest
 
 from markermend.filling.candidates import predict_candidates
 from markermend.filling.gap import Gap
-from markermend.prediction.scene import Prediction
+from markermend.prediction.interface import Prediction
 from support.fillings import rigid_body, scene
 
 GAP = Gap(2, 100, 120)

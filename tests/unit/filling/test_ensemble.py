@@ -10,7 +10,7 @@ from markermend.filling.gap import Gap
 from markermend.filling.member_weights import inverse_power_weights, squared_errors, typical_errors
 from markermend.filling.pseudo_gaps import pseudo_gaps
 from markermend.options.filling import DistanceOptions
-from markermend.prediction.scene import Prediction
+from markermend.prediction.interface import Prediction
 from support.fillings import ensemble, ensemble_options, predictor, rigid_body, scene
 from support.naive.filling import weighted_average
 

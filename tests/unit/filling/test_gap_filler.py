@@ -10,7 +10,7 @@ from markermend.filling.ensemble import Ensemble
 from markermend.filling.gap import Gap
 from markermend.filling.gap_filler import GapFiller
 from markermend.filling.growing_scene import GrowingScene
-from markermend.prediction.scene import Prediction
+from markermend.prediction.interface import Prediction
 from support.fillings import ensemble_options, rigid_body, scene
 
 FIRST, SECOND, OTHER = Gap(1, 100, 110), Gap(1, 150, 160), Gap(4, 100, 110)

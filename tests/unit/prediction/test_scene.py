@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.prediction.scene import CACHE_SIZE, Prediction
+from markermend.prediction.scene import CACHE_SIZE
 from support.fillings import rigid_body, scene
 
 
@@ -29,9 +29,6 @@ def test_gaps_have_two_borders_and_those_outside_the_recording_are_left_out():
     assert seen.bordered(5, 8).tolist() == [4, 5, 6, 7, 8]
     assert seen.bordered(0, 2).tolist() == [0, 1, 2]
     assert seen.bordered(28, 30).tolist() == [27, 28, 29]
-    empty = Prediction.empty(5, 8)
-    assert empty.positions.shape == (5, 3) and empty.error.shape == (5,)
-    assert np.isnan(empty.positions).all() and np.isnan(empty.error).all()
 
 
 def test_results_are_computed_once_and_the_oldest_are_dropped():

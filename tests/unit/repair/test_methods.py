@@ -6,9 +6,10 @@ import pytest
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.options.prediction import PredictorOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import members
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 from markermend.repair.methods import hidden_stretch_error, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 from support.repairs import MARKER, METHODS, START, STOP, body, distorted, error, mend, neighbours_of

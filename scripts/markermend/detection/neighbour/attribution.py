@@ -16,7 +16,8 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.detection.neighbour.hidden_samples import event_mask, hide_candidates, residuals_without
 from markermend.detection.neighbour.neighbourhood import Neighbourhood, overlap
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
 
 Statistics = TypeVar("Statistics")
 

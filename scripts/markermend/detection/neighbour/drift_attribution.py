@@ -11,7 +11,8 @@ from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_candidates import DriftScorer, DriftScores
 from markermend.numerics import intervals, robust
 from markermend.options.detection import SlowOptions
-from markermend.prediction.scene import ScaledResidualSource, Scene
+from markermend.prediction.interface import ScaledResidualSource
+from markermend.prediction.scene import Scene
 
 RIGID_MM = 0.1
 """Deviation of distances that every segment is granted, mm: rounded positions of a rigid body have as much."""

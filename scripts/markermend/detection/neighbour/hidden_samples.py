@@ -9,7 +9,8 @@ import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
 
 
 def event_mask(found: Iterable[Event], frames: int, markers: Sequence[str], *, border: int = 0) -> np.ndarray:

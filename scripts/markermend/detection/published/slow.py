@@ -15,10 +15,11 @@ from markermend.numerics.intervals import runs
 from markermend.options.detection import SlowOptions
 from markermend.options.prediction import PredictorOptions
 from markermend.options.published import PublishedSlowOptions
+from markermend.prediction.interface import ResidualSource
 from markermend.prediction.lagged_regression.polynomial import Polynomial
 from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.scene import ResidualSource, Scene
+from markermend.prediction.scene import Scene
 from markermend.prediction.time_smoothers import MovingMedian, SavitzkyGolay
 
 PREDICTORS = ("replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge")

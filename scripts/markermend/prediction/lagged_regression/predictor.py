@@ -14,8 +14,9 @@ import numpy as np
 
 from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import LaggedRegressionOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 LAGGED_REGRESSIONS = ("polynomial", "replicated_network")
 """The lagged regressions by name."""

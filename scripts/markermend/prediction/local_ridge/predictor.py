@@ -15,10 +15,11 @@ import numpy as np
 
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
 from markermend.options.prediction import LocalRidgeOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.local_ridge.inputs import Assignment, InputSelection
 from markermend.prediction.local_ridge.leverage import LeverageScale, fit_leverage_scale
 from markermend.prediction.local_ridge.model import LocalInputs, Regression, RidgeRegression, TrainingSet
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 MAX_BLOCKS = 12
 """Parts of a recording that are left out of the training in turn, at most; they are about as long as the gap."""

@@ -6,8 +6,9 @@ import numpy as np
 
 from markermend.numerics.low_rank import complete_matrix
 from markermend.options.prediction import IteratedSvdOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 
 class IteratedSvd:

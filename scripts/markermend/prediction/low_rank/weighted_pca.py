@@ -7,8 +7,9 @@ import numpy as np
 from markermend.numerics.low_rank import components_for_share
 from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction import WeightedPcaOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 STRATEGIES = ("together", "single")
 """Reconstruct all markers that miss the same frames at once (strategy R1 of the paper), or one at a time (R2)."""

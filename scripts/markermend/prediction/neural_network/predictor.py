@@ -15,6 +15,7 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 from markermend.options.prediction import NeuralNetworkOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced
 from markermend.prediction.neural_network.inputs import (
     Standardisation,
@@ -23,7 +24,7 @@ from markermend.prediction.neural_network.inputs import (
     features,
     sequences,
 )
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 
 if TYPE_CHECKING:
     from markermend.prediction.neural_network.training import TrainingSet, Weights

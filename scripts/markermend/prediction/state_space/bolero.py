@@ -13,8 +13,9 @@ from functools import partial
 import numpy as np
 
 from markermend.options.prediction import BoleroOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import reference_markers
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 from markermend.prediction.state_space.bone_lengths import BoneConstrainedSmoother, select_bones
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics, fit_linear_dynamics
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from markermend.numerics.low_rank import conditional_mean
 from markermend.options.prediction import KalmanSmootherOptions
+from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
-from markermend.prediction.scene import Prediction, Scene
+from markermend.prediction.scene import Scene
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics
 
 DIFFUSE = 10

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from markermend.prediction.interface import Trainable
 from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
-from markermend.prediction.scene import Scene, Trainable
+from markermend.prediction.scene import Scene
 from markermend.repair.methods import METHODS, predicted
 from support.lagged import limb, quick, scene
 

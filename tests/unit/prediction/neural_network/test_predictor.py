@@ -14,10 +14,11 @@ from markermend.options.filling import FillOptions
 from markermend.options.flags import write_flags
 from markermend.planning import config as planning_config
 from markermend.planning.recordings import BadDataSet
+from markermend.prediction.interface import Trainable
 from markermend.prediction.neural_network import predictor
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.registry import members
-from markermend.prediction.scene import Scene, Trainable
+from markermend.prediction.scene import Scene
 from markermend.storage import change_file, mesh_file, stage_files
 from support.fillings import fill_options, neighbours, predictor_options, restored
 from support.paths import PROJECT
