@@ -37,7 +37,7 @@ MOST_SHARE = 0.5
 
 @cache
 def neighbours(folder: str, name: str) -> list[np.ndarray]:
-    """Whom each marker is predicted from, by the complete recording."""
+    """The neighbours from which each marker is predicted, by the complete recording."""
     whole = load(folder, name)
     return api.infer_mesh([whole]).neighbour_indices(whole.markers)
 

@@ -71,7 +71,7 @@ def test_forms_count_what_was_found_and_found_right():
     assert [count["steps", "together", what] for what in ("artifacts", "samples", "any", "right")] == [1, 10, 0, 0]
 
 
-def test_damage_is_found_counted_and_told(walker, capsys):
+def test_artifacts_are_found_counted_and_printed(walker, capsys):
     clean = replace(walker.recording, positions=walker.recording.positions[:500])
     condition = {"protocol": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
     total = Outcome()

@@ -174,7 +174,7 @@ def test_all_markers_enter_and_leave(chain):
     assert done.distance.mean() < 1 and done.inside95 > 0.8
 
 
-def test_nobody_else_is_used(chain):
+def test_other_subjects_are_not_used(chain):
     names, other, _ = bodies.subject(9, away=(2500.0, 0, 0))
     prop = Recording(tuple("abcde"), rigid_body(1500, 5), 100.0)
     both = joined(chain, bodies.recording(names, other), prop)
@@ -213,7 +213,7 @@ def test_errors_do_not_depend_on_the_rate():
     assert errors[0] == pytest.approx(errors[1], rel=0.25)
 
 
-def test_metres_are_filled_alike(chain, tmp_path):
+def test_metres_and_millimetres_are_filled_equally(chain, tmp_path):
     positions = chain.positions.copy()
     positions[500:560, 3] = np.nan
     results = []

@@ -39,7 +39,7 @@ def test_peaks_up_to_gaps_and_ends(walker):
     assert found["noise"] == found["steps"] == []
 
 
-def test_noise_and_steps_beside_gaps_and_ends(walker):
+def test_noise_and_steps_next_to_gaps_and_ends(walker):
     noise = [("LELB", 560, 600), ("C7", 310, 350)]
     steps = [("RKNE", 10, 50), ("RASI", 750, 790), ("LTOE", 1150, 1190)]
     recording = put(put(walker.recording, noise, jitter), steps, shift)

@@ -150,7 +150,7 @@ def test_a_table_has_a_row_per_frame_and_columns_as_the_files_between_stages(rec
     assert (restored.loc[41:50, "M1.error95"] > restored.loc[41:50, "M1.error"]).all()
 
 
-def test_files_are_written_beside_the_copy(path, cleaned, tmp_path):
+def test_files_are_written_next_to_the_copy(path, cleaned, tmp_path):
     names = {name: tmp_path / name for name in ("changes.tsv", "originals.parquet", "cleaned.c3d")}
     certificate = api.write(
         cleaned, path, names["cleaned.c3d"], changes=names["changes.tsv"], originals=names["originals.parquet"]

@@ -1,4 +1,4 @@
-"""Bring the recordings in, and infer how the markers hang together on the body.
+"""Bring the recordings in, and infer how the markers are connected on the body.
 
 Reads: the original files.
 Writes: 01_markers.parquet for each recording, mesh.json for each subject.

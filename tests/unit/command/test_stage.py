@@ -137,7 +137,7 @@ def test_an_earlier_note_is_passed_on(stage, argv, tmp_path):
     assert note.value.stage == "ingest"
 
 
-def test_an_unexpected_failure_is_counted_and_tells_no_folder(stage, argv, tmp_path, caplog):
+def test_an_unexpected_failure_is_counted_and_names_no_folder(stage, argv, tmp_path, caplog):
     for _ in range(2):
         stage.run(fails_with(OSError(5, "disk gone", str(tmp_path / "in.json"))), argv)
     with pytest.raises(SetAside) as note:

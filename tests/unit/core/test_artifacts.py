@@ -20,7 +20,7 @@ def test_every_stage_and_class_is_named_once():
     assert tuple(BY_NAME) == tuple(artifact.name for artifact in ARTIFACTS)
 
 
-def test_every_class_is_known_wherever_detectors_are_named():
+def test_every_class_is_listed_wherever_detectors_are_named():
     """Who adds a detector is told here what is still missing."""
     assert get_args(Stages) == DETECTORS
     assert [name for name in SECTIONS if name in DETECTORS] == list(DETECTORS)

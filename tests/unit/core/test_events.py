@@ -20,7 +20,7 @@ def test_from_mask_and_back():
     assert np.array_equal(mask(events, 10, MARKERS), covered)
 
 
-def test_tidy_merges_what_touches_and_keeps_partners_apart():
+def test_disjoint_merges_what_touches_and_keeps_partners_separate():
     events = [
         Event("A", 5, 8, 1.0, "y"),
         Event("A", 1, 3, 2.0, "x"),

@@ -49,7 +49,7 @@ def test_found_to_the_sample_and_on_no_other_marker(walker, near):
     assert all(event.score >= 1 and event.axes == "xyz" for event in found)
 
 
-def test_beside_a_gap_and_up_to_the_end(walker, near):
+def test_next_to_a_gap_and_up_to_the_end(walker, near):
     recording = frozen(walker.recording, [("STRN", 200, 230)])
     recording.positions[230:260, recording.markers.index("STRN")] = np.nan
     assert places(detect(recording, near)) == [("STRN", 200, 230)]

@@ -69,7 +69,7 @@ def test_what_begins_earlier_is_no_tail(walker, near):
     assert detect(recording, near) == []
 
 
-def test_a_neighbours_tail_is_not_blamed_on_a_clean_border(walker, near):
+def test_a_neighbours_tail_is_not_attributed_to_a_clean_border(walker, near):
     recording = with_gaps(walker.recording, [("LFHD", 294, 300, 1)], size=30)
     other = recording.markers.index("RFHD")
     recording.positions[300:320, other] = np.nan

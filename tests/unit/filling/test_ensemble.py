@@ -205,7 +205,7 @@ def test_a_rigid_body_is_filled_exactly():
     assert np.linalg.norm(found.positions - positions[100:150, 2], axis=1).max() < 0.1
 
 
-def test_wrong_settings_are_refused():
+def test_wrong_options_are_refused():
     with pytest.raises(ValueError, match="unknown weights"):
         ensemble(weights="best")
     own = ensemble(["spline"])

@@ -32,7 +32,7 @@ def test_a_lag_without_pairs_gets_nothing():
     assert np.isnan(found[1:10]).all()
 
 
-def test_the_fit_needs_no_sample_beside_another():
+def test_the_fit_needs_no_adjacent_samples():
     rng = np.random.default_rng(4)
     smooth = np.convolve(rng.normal(size=40_000), np.hanning(41), mode="same")[:, None] + np.zeros(3)
     sparse = np.full_like(smooth, np.nan)

@@ -153,7 +153,7 @@ def test_every_new_name_is_there(section):
         assert find_place(renamed(f"{section}.{old}")), f"{section}.{old}"
 
 
-def test_limits_that_people_are_told_of_are_keys():
+def test_limits_that_reasons_name_are_keys():
     moved = {
         name
         for path in (PROJECT / "scripts/markermend").rglob("*.py")
@@ -167,7 +167,7 @@ def test_the_shipped_config_holds_every_default():
     assert write_config(read_config({})) == shipped
 
 
-def test_former_keys_beside_unknown_ones_are_all_named():
+def test_former_and_unknown_keys_are_all_named():
     assert problems({"peaks": {"default": {"sigmas": 7, "nope": 1}}}) == [
         "peaks.default.sigmas: this is now peaks.threshold_sigmas",
         "peaks.default.nope: there is no such key",

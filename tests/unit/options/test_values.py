@@ -105,7 +105,7 @@ def test_a_class_is_read_whole_and_what_is_required_is_missed():
     assert reader.problems == ["place.name: missing"]
 
 
-def test_plain_values_are_what_json_knows():
+def test_plain_values_are_those_of_json():
     assert plain(Whole("n", changes={}, methods={"x": ("a",)})) == {
         "name": "n",
         "limit_s": 1.5,

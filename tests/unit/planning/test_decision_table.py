@@ -115,7 +115,7 @@ def test_the_columns_are_known_ones(tmp_path, header, problem):
         loaded(tmp_path, header=header)
 
 
-def test_all_problems_are_told_at_once(tmp_path):
+def test_all_problems_are_reported_at_once(tmp_path):
     with pytest.raises(BadDataSet) as error:
         loaded(tmp_path, "run|A|1|2|x", "run|A|5|1|accept", "run|B|1|5|accept", "run|B|5|9|reject")
     lines = str(error.value).splitlines()

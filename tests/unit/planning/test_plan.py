@@ -35,7 +35,7 @@ def job(subject="S%201", recording="walk"):
     return SimpleNamespace(subject=subject, recording=recording)
 
 
-def test_recordings_are_known_by_their_folders(plan):
+def test_recordings_are_identified_by_their_folders(plan):
     assert plan.subjects == {"S%201": ["run", "walk"], "S2": ["%7Bx%7D"]}
     assert plan.entry(job()).recording == "walk"
     assert [path.rpartition("out/")[2] for path in plan.quality_files] == [
@@ -45,7 +45,7 @@ def test_recordings_are_known_by_their_folders(plan):
     ]
 
 
-def test_an_original_is_an_input_or_is_known_by_its_content(plan, tmp_path):
+def test_an_original_is_an_input_or_is_identified_by_its_content(plan, tmp_path):
     assert plan.source(job()) == plan.original(job()) == str(tmp_path / "walk.c3d")
     assert plan.source_hash(job()) is None
     strange = job("S2", "%7Bx%7D")

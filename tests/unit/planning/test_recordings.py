@@ -37,7 +37,7 @@ def test_links_are_followed_once(tmp_path):
     assert set(found(tmp_path / "study")) == {("S01", "walk")}
 
 
-def test_files_of_one_stem_are_told_apart(tmp_path):
+def test_files_of_one_stem_are_distinguished(tmp_path):
     make(tmp_path / "S01", "a.trc", "a.c3d", "a.C3D", "a.csv", "b.trc", "c.trc", "c.trc.c3d")
     names = {recording: source.rsplit("/", 1)[1] for (_, recording), source in found(tmp_path).items()}
     assert names == {
@@ -51,7 +51,7 @@ def test_files_of_one_stem_are_told_apart(tmp_path):
     }
 
 
-def test_folders_of_one_name_are_told_apart(tmp_path):
+def test_folders_of_one_name_are_distinguished(tmp_path):
     make(tmp_path / "S01", "a.c3d", "S01/a.c3d", "day1/S01/a.c3d", "day2/S01/a.c3d", "day2/S02/a.c3d")
     subjects = {subject for subject, _ in found(tmp_path / "S01")}
     assert subjects == {"S01", "S01/S01", "day1/S01", "day2/S01", "S02"}
@@ -85,7 +85,7 @@ def test_bytes_that_are_no_text_are_shown(tmp_path):
     assert set(found(tmp_path)) == {("S01", r"w\xe4lk")}
 
 
-def test_a_broken_link_is_a_recording_and_alike_names_are_refused(tmp_path):
+def test_a_broken_link_is_a_recording_and_equal_names_are_refused(tmp_path):
     (tmp_path / "S").mkdir()
     (tmp_path / "S" / "gone.c3d").symlink_to(tmp_path / "nowhere.c3d")
     (entry,) = recordings.find(str(tmp_path), str(tmp_path / "out"))

@@ -19,7 +19,7 @@ def predict(kind, positions, start, stop, knots=30):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_straight_course_is_continued_by_every_kind(kind):
+def test_a_straight_trajectory_is_continued_by_every_kind(kind):
     positions = trajectory(lambda t: 3 + 100 * t)
     found = predict(kind, positions, 50, 60)
     assert np.allclose(found.positions, positions[49:61, 0])
@@ -44,7 +44,7 @@ def test_thirty_knots_equal_the_spline_through_all_samples():
     assert np.abs(predict("spline", positions, 400, 420).positions - whole).max() < 1e-6
 
 
-def test_another_gap_beside_is_bridged_too():
+def test_an_adjacent_gap_is_bridged_too():
     positions = trajectory(lambda t: 10 * t)
     positions[45:48] = np.nan
     positions[61:70] = np.nan

@@ -1,4 +1,4 @@
-"""Which repair is taken: the surest, the preferred among equals, and none that leaves the recording worse."""
+"""Which repair is taken: the one with the least expected error, the preferred among equals, and none that leaves the recording worse."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,7 @@ def test_the_best_that_may_be_taken_is_and_the_preferred_among_equals(candidates
 
 
 @pytest.mark.parametrize(("deviation", "method"), [(0.001, "vague"), (3.0, "local_ridge")])
-def test_methods_compete_and_all_are_told(clean, deviation, method):
+def test_methods_compete_and_all_are_recorded(clean, deviation, method):
     recording = distorted(clean, 30.0)
     vague = Vague(clean, off=0.0, deviation=deviation)
     result = mend(
@@ -60,7 +60,7 @@ def test_methods_compete_and_all_are_told(clean, deviation, method):
 
 @pytest.mark.parametrize("length", [3, 200])
 def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
-    """Over a few frames of smooth motion the spline is surest, over seconds the neighbours are."""
+    """Over a few frames of smooth motion the spline errs least, over seconds the neighbours do."""
     recording = distorted(clean, 25.0, START, START + length)
     found = {"noise": [Event(MARKER, START, START + length, 4.0)]}
     result = mend(recording, found, methods={**METHODS, "noise": ["local_ridge", "spline"]}, preference_factor=1.0)
@@ -72,7 +72,7 @@ def test_length_decides_between_a_spline_and_the_neighbours(clean, length):
     assert error(clean, result, START, START + length).max() < 2
 
 
-def test_a_step_is_taken_off_where_the_neighbours_tell_less_than_the_jumps(clean):
+def test_a_step_is_removed_where_the_prediction_is_less_certain_than_the_jumps(clean):
     """A marker on loose skin: the prediction errs by millimetres, the jumps at both ends of a step do not."""
     m, rng = clean.markers.index(MARKER), np.random.default_rng(8)
     loose = gaussian_filter1d(rng.normal(0, 1, (clean.frames, 3)), 12, axis=0)

@@ -37,7 +37,7 @@ def test_overlapping_classes_become_a_gap(clean):
     assert (left.kind, left.start, left.stop, left.outcome) == ("peak+slow", START, STOP, "blanked")
 
 
-def test_what_cannot_be_trusted_becomes_missing_and_says_why(clean):
+def test_what_cannot_be_repaired_reliably_becomes_missing_with_a_reason(clean):
     recording = distorted(clean, 20.0)
     for changes, reason in (
         ({"max_error_mm": 1e-6}, "repair.max_error_mm: 1e-06"),
@@ -66,7 +66,7 @@ def test_refusals_leave_every_sample(clean, changes, facts, reason):
 
 
 @pytest.mark.parametrize(("stage", "kind"), [("frozen", "frozen"), ("tails", "tail")])
-def test_what_nobody_measured_is_missing_says_so_and_can_be_kept(clean, stage, kind):
+def test_what_was_not_measured_is_missing_says_so_and_can_be_kept(clean, stage, kind):
     recording = distorted(clean, 20.0)
     found = {stage: [Event(MARKER, START, STOP, 4.0)]}
     result = mend(recording, found)

@@ -74,7 +74,7 @@ def test_a_bridge_is_smooth_and_begins_and_ends_at_nothing():
     assert np.diag(covariance).argmax() == 24 and np.diag(covariance)[[0, -1]].max() < 0.02 * covariance[24, 24]
 
 
-def test_a_tent_is_one_course_of_any_size():
+def test_a_tent_is_one_shape_of_any_size():
     """Its covariance is that of the published shape of slow changes times a random amplitude."""
     trajectory = shape("slow", 40)
     assert np.allclose(tent_covariance(40), np.outer(trajectory, trajectory) * tent_covariance(40).max())
@@ -111,7 +111,7 @@ def test_what_remains_unsure_is_stated(method):
     assert np.mean(np.concatenate(missed) < 2.7955) == pytest.approx(0.95, abs=0.03)
 
 
-def test_predictions_that_err_apart_are_surer_together():
+def test_the_mean_of_independent_errors_has_a_smaller_deviation():
     rng = np.random.default_rng(8)
     trajectories = rng.normal(0, 2.0, (2, 4000, 3))
     mean, deviation = average_by_likelihood(
@@ -122,7 +122,7 @@ def test_predictions_that_err_apart_are_surer_together():
     assert np.sqrt(2) < np.sqrt((deviation**2).mean()) < 0.9 * 2
 
 
-def test_predictions_that_err_alike_are_no_surer_together():
+def test_the_mean_of_equal_errors_has_the_same_deviation():
     trajectory = np.random.default_rng(8).normal(0, 2.0, (50, 3))
     mean, deviation = average_by_likelihood(
         [trajectory, trajectory], [Separation(trajectory, np.full(50, 4.0), -7.0)] * 2

@@ -109,7 +109,7 @@ def test_a_slow_change_may_begin_before_it_was_found(clean):
     assert np.array_equal(wider.positions[outside], recording.positions[outside])
 
 
-def test_beside_a_gap_a_slow_change_begins_where_the_marker_is_seen(clean):
+def test_next_to_a_gap_a_slow_change_begins_where_the_marker_is_seen(clean):
     m, recording = clean.markers.index(MARKER), distorted(clean, RAMP * [12.0, -9.0, 6.0])
     recording.positions[STOP : STOP + 20, m] = np.nan
     result = mend(

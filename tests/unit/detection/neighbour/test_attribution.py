@@ -96,7 +96,7 @@ def test_suspicion_alone_is_no_event():
     assert found(12, 12, 12, 12, candidates=both) == []
 
 
-def test_a_hidden_neighbour_takes_the_samples_beside_with_it():
+def test_a_hidden_neighbour_takes_the_adjacent_samples_with_it():
     given = {"at": (0, 0, -100), "candidates": None}
     assert found(12, 0, 12, **given) == ["C"]
     assert found(12, 0, 12, **given, border=2) == ["A", "C"]

@@ -38,7 +38,7 @@ def test_the_height_is_that_of_the_middle_above_both_sides():
     assert np.isnan(drift_shape.height(residual, 200, 290, flank=0.5))
 
 
-def test_beside_a_drift_the_residual_is_at_its_baseline_or_not():
+def test_on_either_side_of_a_drift_the_residual_is_at_its_baseline_or_not():
     residual = drift(200, 290)
     assert drift_shape.baseline_deviation(residual, 200, 290, flank=0.5) < 0.5
     assert drift_shape.baseline_deviation(residual, 215, 260, flank=0.5) > 3

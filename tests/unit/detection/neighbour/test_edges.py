@@ -22,7 +22,7 @@ def test_a_step_has_the_amplitude_that_it_was_given():
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_edges_are_found_where_they_are_and_beside_gaps(rate):
+def test_edges_are_found_where_they_are_and_next_to_gaps(rate):
     residual = rough(400, 5)
     residual[100:] += [3, 4, 0]
     residual[200:] -= [3, 4, 0]

@@ -32,7 +32,7 @@ def measured(residual, positions):
     return detector, detector.measure(residual)
 
 
-def test_an_increment_is_sudden_where_residual_and_trajectory_have_it_alike():
+def test_an_increment_is_sudden_where_residual_and_trajectory_both_have_it():
     residual = np.stack([rough(300, seed) for seed in range(3)], axis=1)
     positions = residual.copy()
     residual[100:, 0] += 9  # in the residual alone
@@ -62,6 +62,6 @@ def test_an_update_is_a_measurement_of_some_markers_with_the_same_tail():
     assert after.vector[100, 1, 0] == pytest.approx(9, abs=0.5)
 
 
-def test_clusters_are_split_where_frames_are_far_apart():
+def test_clusters_are_split_at_long_distances():
     assert [own.tolist() for own in clusters(np.array([1, 3, 9, 10, 30]), 5)] == [[1, 3], [9, 10], [30]]
     assert clusters(np.zeros(0, int), 5) == []

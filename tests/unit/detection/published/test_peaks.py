@@ -42,7 +42,7 @@ def test_opposite_peaks_are_isolated_only_when_far_apart(rate):
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_nothing_on_a_reach_a_frozen_marker_and_beside_gaps(rate):
+def test_nothing_on_a_reach_a_frozen_marker_and_next_to_gaps(rate):
     t = np.arange(round(20 * rate)) / rate
     u = np.clip((t - 8) / 1.0, 0, 1)
     reach = 533 * (10 * u**3 - 15 * u**4 + 6 * u**5) + np.random.default_rng(3).normal(0, 0.2, len(t))  # 1 m/s at most

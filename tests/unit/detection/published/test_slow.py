@@ -27,7 +27,7 @@ def residual(rate, seed=0):
 @pytest.mark.parametrize("rate", RATES)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("length", [100, 200])
-def test_hills_and_valleys_are_regrown_to_their_feet(rate, sign, length):
+def test_pulses_of_either_sign_are_regrown_to_their_ends(rate, sign, length):
     signal, start, stop = residual(rate), frames(700, rate), frames(700 + length, rate)
     signal[start:stop] += sign * triangle(stop - start)
     mask, score = slow.find_slow(signal, rate=rate, options=PAPER)
@@ -39,14 +39,14 @@ def test_hills_and_valleys_are_regrown_to_their_feet(rate, sign, length):
 
 
 @pytest.mark.parametrize("rate", RATES)
-def test_a_short_hill_a_jump_of_one_sample_and_noise_are_rejected(rate):
+def test_a_short_pulse_a_jump_of_one_sample_and_noise_are_rejected(rate):
     signal, start = residual(rate), frames(700, rate)
     signal[start : start + frames(40, rate)] += triangle(frames(40, rate))
     signal[start + 3 * int(rate)] += 50
     assert not slow.find_slow(signal, rate=rate, options=PAPER)[0].any()
 
 
-def test_a_gap_ends_a_hill():
+def test_a_gap_ends_a_pulse():
     signal = residual(100.0)
     signal[700:800] += 10
     signal[745:755] = np.nan
@@ -65,7 +65,7 @@ def test_thresholds_are_three_and_half_a_robust_deviation():
 
 
 @pytest.mark.parametrize(("length", "found"), [(19, False), (21, True)])
-def test_a_top_lasts_a_fifth_of_a_second_and_a_hill_half_a_second(length, found):
+def test_a_peak_lasts_a_fifth_of_a_second_and_a_pulse_half_a_second(length, found):
     signal = residual(100.0)
     signal[600:700] = 0.3  # above the lower threshold: 1 s
     signal[640 : 640 + length] = 5
@@ -79,7 +79,7 @@ def test_a_top_lasts_a_fifth_of_a_second_and_a_hill_half_a_second(length, found)
 
 @pytest.mark.parametrize("name", ["savitzky_golay", "moving_median"])
 @pytest.mark.parametrize(("height", "expected"), [(0, set()), (10, {"x"})])
-def test_a_smoother_sees_a_hill_where_the_motion_is_slower(name, height, expected):
+def test_a_smoother_finds_a_pulse_where_the_motion_is_slower(name, height, expected):
     own = replace(PAPER, predictor=name, smoothing_window_s=5.0, polynomial_order=2)
     sway = 2 * np.sin(0.4 * np.arange(2000) / 100.0)
     positions = np.stack([sway + residual(100.0, seed) for seed in range(3)], axis=1)[:, None]
@@ -102,7 +102,7 @@ def gait(seconds=30.0, rate=100.0):
 
 
 @pytest.mark.parametrize("name", ["replicated_network", "polynomial", "local_ridge"])
-def test_a_hill_is_found_where_the_pose_comes_again_without_it(name):
+def test_a_drift_is_found_where_the_pose_recurs_without_it(name):
     positions, others = gait(), [np.delete(np.arange(5), m) for m in range(5)]
     positions[1000:1100, 2, 0] += triangle(100, 30)
     scene, own = Scene(positions, 100.0, others, segment_mates=others), replace(PAPER, predictor=name)

@@ -49,7 +49,7 @@ def test_data_start_falls_back_to_the_header(path, value):
     assert_read_whole(path)
 
 
-def test_data_start_that_neither_knows_is_after_the_parameters(path):
+def test_a_data_start_that_neither_declares_is_after_the_parameters(path):
     set_parameter(path, "DATA_START", 0, "<h")
     set_header(path, 9, 0)
     assert_read_whole(path)

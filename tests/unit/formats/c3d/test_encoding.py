@@ -39,7 +39,7 @@ def test_dec_rounds_to_the_nearest():
     np.testing.assert_array_equal(decode_dec(encode_dec(values)), values.astype(np.float32).astype(np.float64))
 
 
-def test_dec_knows_no_infinity_and_no_small_numbers():
+def test_dec_has_no_infinity_and_no_small_numbers():
     values = np.array([np.nan, np.inf, -np.inf, 1e39, -1e39, 0.0, -0.0, 1e-45])
     np.testing.assert_array_equal(decode_dec(encode_dec(values)), [np.nan] * 5 + [0.0] * 3)
 

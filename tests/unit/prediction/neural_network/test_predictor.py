@@ -78,7 +78,7 @@ def test_nothing_is_trained_twice(person, monkeypatch):
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_a_marker_that_its_neighbours_tell_is_learned(name, walker):
+def test_a_marker_that_its_neighbours_determine_is_learned(name, walker):
     truth = walker.recording.positions[:600]
     seen = hidden(truth, (9, 300, 350))
     found = network(name, epochs=60, recurrent_units=12, learning_rate=0.05).predict(seen, 9, 300, 350).positions
@@ -131,7 +131,7 @@ def test_a_gap_in_which_the_usual_inputs_are_missing_has_others(person):
     assert len(inputs) == 2
 
 
-def test_too_little_to_learn_from_tells_nothing(person):
+def test_too_few_training_frames_give_no_prediction(person):
     positions = person.copy()
     positions[OPTIONS.min_training_frames - 1 :, 3] = np.nan
     one = network()

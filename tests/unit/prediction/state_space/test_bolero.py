@@ -52,7 +52,7 @@ def test_units_do_not_matter():
     assert np.allclose(small.error * 1e3, found.error, rtol=1e-4)
 
 
-def test_too_little_to_learn_from_tells_nothing():
+def test_too_few_training_frames_give_no_prediction():
     positions = rigid_body(frames=200)
     near = scene(positions).neighbours
     least = predictor("bolero").options.min_training_frames

@@ -40,7 +40,7 @@ def residuals(system, observed, bones, rows, vector):
     return np.concatenate(terms)
 
 
-def test_settling_finds_the_least_energy_and_its_curvature():
+def test_the_minimum_and_its_curvature_are_found():
     from scipy.optimize import least_squares
 
     system, observed, bones, rows = bent()
@@ -72,7 +72,7 @@ def test_the_energy_never_rises_even_from_far_away():
     assert (np.diff(energies) <= 1e-9).all() and energies[-1] < 0.5 * energies[0] + 0.5 * min(0.0, energies[0])
 
 
-def test_bones_carry_a_marker_whose_course_tells_nothing_onto_its_spheres():
+def test_bones_constrain_a_marker_without_other_information_to_its_spheres():
     """A marker that moves on its own is placed by its distances to three others, on the side where it was."""
     rng = np.random.default_rng(7)
     frames = 60

@@ -118,7 +118,7 @@ def test_the_stated_error_is_that_of_the_truth_within_a_factor(length, left, wal
     assert 0.5 < ratio < 1.6
 
 
-def test_with_the_neighbours_there_the_pose_tells_the_place(walker):
+def test_with_all_neighbours_the_pose_determines_the_place(walker):
     positions = walker.recording.positions
     found = predictor("kalman").predict(scene(positions), 9, 500, 600)
     assert np.linalg.norm(found.positions - positions[499:601, 9], axis=1).mean() < 25
