@@ -40,6 +40,8 @@ def prepare(config: dict[str, Any]) -> None:
                 f"{key}: Snakemake understood {config.get(key)!r} instead of a name. Write ./ before a folder whose name "
                 "looks like a number, and names with other special characters in a config file (--configfile)"
             )
+    if config.get("decisions") == "null":
+        config["decisions"] = None
     if isinstance(config.get("detect"), str):
         config["detect"] = config["detect"].strip("[]").replace(",", " ").split()
     elif config.get("detect") is None:

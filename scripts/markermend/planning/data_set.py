@@ -45,6 +45,8 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
     path = os.path.abspath(os.path.expanduser(name))
     if os.path.isdir(path):
         found = recordings.find(path, results)
+    elif path.lower().endswith((".c3d", ".trc")) and os.path.isfile(path):
+        raise BadDataSet(f"recordings: {path} is a recording itself: name the folder that holds it, or a table")
     elif os.path.isfile(path):
         rows = recording_table.read_rows(path)
         config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)

@@ -33,7 +33,7 @@ def read_table(
     Raises
     ------
     BadDataSet
-        For what is no table, for columns that are missing, unknown or repeated, and for cells outside of the columns.
+        For what is not there or no table, for columns that are missing, unknown or repeated, and for cells outside of the columns.
     """
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
@@ -42,6 +42,8 @@ def read_table(
             file.seek(0)
             reader = csv.reader(file, delimiter=separator)
             table = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    except OSError as error:
+        raise BadDataSet(f"{what}: {path} cannot be read ({error.strerror})") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise BadDataSet(f"{what}: {path} is not a table in UTF-8 text ({error})") from error
     names = table[0][1] if table else []

@@ -23,6 +23,12 @@ def test_detect_may_come_from_a_command_line(given, detect):
     assert config["detect"] == detect
 
 
+def test_no_decisions_may_come_from_a_command_line():
+    config = {"recordings": "a", "results": "b", "detect": [], "decisions": "null"}
+    planning_config.prepare(config)
+    assert planning_config.check(config, deployed=False)["general"].decisions is None
+
+
 @pytest.mark.parametrize("value", [202301, True, None, ["a"]])
 def test_a_folder_that_snakemake_took_for_something_else_is_an_error(value):
     with pytest.raises(BadDataSet, match=r"results: Snakemake understood .* Write \./ before"):

@@ -44,6 +44,13 @@ def test_recordings_that_are_not_there_are_named(tmp_path):
         data_set.find_recordings(str(tmp_path / "none"), "out", schemas=SCHEMAS)
 
 
+@pytest.mark.parametrize("name", ["walk.c3d", "walk.TRC"])
+def test_a_recording_in_place_of_its_folder_is_told_apart_from_a_table(tmp_path, name):
+    (tmp_path / name).touch()
+    with pytest.raises(BadDataSet, match="is a recording itself: name the folder"):
+        data_set.find_recordings(str(tmp_path / name), "out", schemas=SCHEMAS)
+
+
 def test_a_table_is_held_against_its_schema(tmp_path):
     table = tmp_path / "recordings.tsv"
     table.write_text("recording\tsubject\tfile\tkind\nwalk\tBob\twalk.c3d\tdynamo\n")
@@ -95,7 +102,7 @@ def test_a_table_of_decisions_need_not_be_there_unless_it_was_named(tmp_path, mo
     entries = [entry("S01", "walk")]
     for name in (None, GeneralOptions().decisions):
         assert data_set.find_decisions(decided_by(name), entries) == ({}, [])
-    with pytest.raises(OSError, match=r"other\.tsv"):
+    with pytest.raises(BadDataSet, match=r"decisions: .*other\.tsv cannot be read \(No such file"):
         data_set.find_decisions(decided_by("other.tsv"), entries)
     (tmp_path / "other.tsv").write_text("recording\tmarker\tdecision\nwalk\tM1\tprotect\nrun\tM1\tprotect\n")
     decided, warnings = data_set.find_decisions(decided_by("other.tsv"), entries)
