@@ -16,7 +16,8 @@ from markermend.options.prediction import BoleroOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import reference_markers
 from markermend.prediction.scene import Scene
-from markermend.prediction.state_space.bone_lengths import BoneConstrainedSmoother, select_bones
+from markermend.prediction.state_space.bone_lengths import select_bones
+from markermend.prediction.state_space.constrained_smoother import BoneConstrainedSmoother
 from markermend.prediction.state_space.linear_dynamics import LinearDynamics, fit_linear_dynamics
 
 SELDOM = 0.5
