@@ -161,9 +161,12 @@ class CandidateMaker:
         Returns
         -------
         list of Candidate
-            Those of the methods that can be applied, in their order.
+            Those of the methods that can be applied, in their order; none where no sample was seen, which is a gap.
         """
-        measured, prediction = self.positions[start:stop, m], self._prediction(m, start, stop)
+        measured = self.positions[start:stop, m]
+        if np.isnan(measured).all():
+            return []
+        prediction = self._prediction(m, start, stop)
         radius = self.options.radius.outer * float(np.sqrt(np.mean(prediction.error**2)))
         proposals = [self._propose(method, m, start, stop) for method in methods if method not in NOT_PROPOSING]
         return [

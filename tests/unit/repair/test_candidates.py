@@ -83,3 +83,10 @@ def test_a_step_is_removed_where_the_prediction_is_less_certain_than_the_jumps(c
     (change,) = result.repairs
     assert change.method == "separate_step" and expected(change)["local_ridge"] > 3
     assert error(wobbly, result).max() < 0.8
+
+
+def test_nothing_is_proposed_where_no_sample_was_seen(clean):
+    """Such as a swap with a marker that was missing, where a person wants another method than the exchange."""
+    recording = distorted(clean, np.nan)
+    result = mend(recording, {"peaks": [Event(MARKER, START, STOP, 5.0)]})
+    assert result.repairs == [] and np.array_equal(result.positions, recording.positions, equal_nan=True)
