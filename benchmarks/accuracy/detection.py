@@ -1,4 +1,4 @@
-"""Damage clean recordings in known ways, find and repair the damage, and print how well that went.
+"""Contaminate clean recordings with known artifacts, find and repair these, and print the accuracy.
 
 Reads: the clean recordings named on the command line, the workflow's config, benchmarks/support/confirmed_glitches.tsv.
 Writes: tables to stdout, one set for each condition (amplitude, share, preset) and group of recordings, over all seeds.
@@ -11,13 +11,13 @@ shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, 
 leaves out (markermend.simulation.protocols.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
 
 Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
-What frozen and tails find is a class like the others, though the published damage has neither: a sample of a peak that
+What frozen and tails find is a class like the others, though the published contamination has neither: a sample of a peak that
 they take away is found (`any`), but as what it is not. The preset `paper`
 is the published detector alone, without labels, frozen and tails. Macro F1 is over the classes that were put in. RMSE is
 over the distorted samples that have a value after repair (the share that has none is printed), and, as `all`, over all.
 
 Clean recordings hold glitches of their own. Those that were confirmed by eye (the marker leaves its path and that
-predicted from its neighbours, at once and alike, and the neighbours do not) are listed in confirmed_glitches.tsv, frames
+predicted from its neighbours, at once and in the same way, and the neighbours do not) are listed in confirmed_glitches.tsv, frames
 in the capture program's numbering. Their samples, and two on either side, count neither as clean nor as false.
 """
 
@@ -40,9 +40,10 @@ import numpy as np
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import PROJECT
-from benchmarks.support.detection_outcome import CLASSES, Outcome, figures, print_outcome
+from benchmarks.support.detection_outcome import Outcome, figures, print_outcome
 from markermend import api
 from markermend.core import events
+from markermend.core.artifacts import DETECTORS
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
@@ -58,7 +59,9 @@ GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02",
 """Recordings by how much goes on in them; all others are in a group by themselves."""
 
 
-def damage(clean: Recording, *, amplitude: float, share: float, seed: int, protocol: str = "paper") -> Contamination:
+def contaminate(
+    clean: Recording, *, amplitude: float, share: float, seed: int, protocol: str = "paper"
+) -> Contamination:
     """Contaminate a recording."""
     given = {"amplitude": amplitude, "share": share, "rng": np.random.default_rng(seed)}
     return PROTOCOLS[protocol](clean.positions, clean.markers, rate=clean.rate, **given)
@@ -80,14 +83,14 @@ def mend(recording: Recording, mesh: Mesh, found: Mapping[str, Sequence[Event]])
 
 def class_of(kind: str) -> int:
     """Number of the class of an event of a detector; 0 is clean."""
-    return 1 + CLASSES.index(kind)
+    return 1 + DETECTORS.index(kind)
 
 
 def classes(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.ndarray:
-    """Class of each sample (frames, markers): 0 clean, else 1 + its place in CLASSES; the detector that was first wins."""
+    """Class of each sample (frames, markers): 0 clean, else 1 + its place in DETECTORS; the detector that was first wins."""
     own = [(class_of(kind), event) for kind in found for event in found[kind]]
     out = np.zeros(recording.missing.shape, int)
-    for number in range(len(CLASSES), 0, -1):
+    for number in range(len(DETECTORS), 0, -1):
         some = [event for other, event in own if other == number]
         out[events.mask(some, recording.frames, recording.markers)] = number
     return out
@@ -99,7 +102,7 @@ def forms(contamination: Contamination, seen: np.ndarray, called: np.ndarray) ->
     for artifact in contamination.artifacts:
         number, m = class_of(artifact.kind), contamination.markers.index(artifact.marker)
         own = called[artifact.start : artifact.stop, m][seen[artifact.start : artifact.stop, m]]
-        key = CLASSES[number - 1], artifact.form
+        key = DETECTORS[number - 1], artifact.form
         count.update({(*key, "artifacts"): 1, (*key, "samples"): own.size})
         count.update({(*key, "any"): int((own > 0).sum()), (*key, "right"): int((own == number).sum())})
     return count
@@ -117,12 +120,12 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     return out
 
 
-def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **condition: Any) -> dict[str, Outcome]:
-    """Damage one recording once, and judge each preset on it.
+def evaluate(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **condition: Any) -> dict[str, Outcome]:
+    """Contaminate one recording, and evaluate each preset on it.
 
-    ignored: samples (frames, markers) that do not count. condition: see `damage`.
+    ignored: samples (frames, markers) that do not count. condition: see `contaminate`.
     """
-    contamination = damage(clean, **condition)
+    contamination = contaminate(clean, **condition)
     contaminated = replace(clean, positions=contamination.positions)
     mesh = api.infer_mesh([contaminated])
     truth, seen, out = classes(contamination.events, contaminated), ~contaminated.missing & ~ignored, {}
@@ -136,7 +139,7 @@ def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **co
         for stage, positions in enumerate((contaminated.positions, perfect, actual)):
             squared = ((positions - clean.positions) ** 2).sum(axis=2)
             known = seen & ~np.isnan(squared)
-            for kind in range(1 + len(CLASSES)):
+            for kind in range(1 + len(DETECTORS)):
                 own = squared[known & (truth == kind)]
                 outcome.squares[stage, kind] += own.sum(), own.size
         out[preset] = outcome
@@ -146,7 +149,7 @@ def judge(clean: Recording, *, ignored: np.ndarray, presets: Sequence[str], **co
 def run(path: Path, presets: Sequence[str], condition: dict[str, Any]) -> dict[str, Outcome]:
     """Judge one recording under one condition."""
     clean = api.read(path, kind="dynamic")
-    return judge(clean, ignored=glitches(path, clean), presets=presets, **condition)
+    return evaluate(clean, ignored=glitches(path, clean), presets=presets, **condition)
 
 
 def group_of(path: Path) -> str:
@@ -154,7 +157,7 @@ def group_of(path: Path) -> str:
 
 
 def conditions(arguments: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """What `damage` is asked for, but for the seed."""
+    """What `contaminate` is asked for, but for the seed."""
     for amplitude, share in product(arguments.amplitudes, arguments.shares):
         yield {"protocol": arguments.protocol, "amplitude": amplitude, "share": share}
 
@@ -162,7 +165,7 @@ def conditions(arguments: argparse.Namespace) -> Iterator[dict[str, Any]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
-    parser.add_argument("--protocol", choices=PROTOCOLS, default="paper", help="how to damage them")
+    parser.add_argument("--protocol", choices=PROTOCOLS, default="paper", help="how to contaminate them")
     parser.add_argument("--amplitudes", type=float, nargs="+", default=[5, 10], help="mean amplitudes, mm")
     parser.add_argument(
         "--shares", type=float, nargs="+", default=[0.05, 0.1, 0.2], help="shares of the time distorted"

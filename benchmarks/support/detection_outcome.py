@@ -1,4 +1,4 @@
-"""What is counted when detection and repair are judged, and the tables that state it."""
+"""What is counted when detection and repair are evaluated, and the tables that state it."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-CLASSES = ("labels", "frozen", "tails", "peaks", "noise", "steps", "slow")
-"""The classes that are distinguished, in the order of their detectors; label exchanges are undone before all else is looked for."""
+from markermend.core.artifacts import DETECTORS
 
-NAMES = ("clean", *CLASSES)
+NAMES = ("clean", *DETECTORS)
 
 
 @dataclass
@@ -54,7 +53,7 @@ def print_outcome(title: str, outcome: Outcome) -> None:
     _print_confusion(outcome.confusion)
     scores = _print_classes(outcome)
     false = outcome.confusion[0, 1:] / max(1, outcome.confusion[0].sum())
-    each = ", ".join(f"{name} {share:.4%}" for name, share in zip(CLASSES, false, strict=True))
+    each = ", ".join(f"{name} {share:.4%}" for name, share in zip(DETECTORS, false, strict=True))
     mean = np.mean(scores) if scores else float("nan")
     print(f"macro F1 {mean:.3f}, MCC {correlation(outcome.confusion):.3f}, false per clean {false.sum():.4%} ({each})")
     if {form for _, form, _ in outcome.forms} - {"alone"}:
@@ -66,7 +65,7 @@ def figures(outcome: Outcome) -> dict[str, float]:
     confusion = outcome.confusion
     found: dict[str, float] = {}
     scores = []
-    for number, name in enumerate(CLASSES, 1):
+    for number, name in enumerate(DETECTORS, 1):
         true, called = confusion[number].sum(), confusion[:, number].sum()
         found[f"{name}_found_percent"] = float(100 * confusion[number, number] / true) if true else float("nan")
         found[f"{name}_right_percent"] = float(100 * confusion[number, number] / called) if called else float("nan")
@@ -93,7 +92,7 @@ def _print_classes(outcome: Outcome) -> list[float]:
     columns = ("TPR", "PPV", "F1", "any", "before", "perfect", "actual", "blank p", "blank a")
     print(f"{'class':>22}" + "".join(f"{name:>9}" for name in columns))
     scores = []
-    for k, name in enumerate(CLASSES, 1):
+    for k, name in enumerate(DETECTORS, 1):
         right, true, found = confusion[k, k], confusion[k].sum(), max(1, confusion[:, k].sum())
         if not true:
             continue
@@ -110,7 +109,7 @@ def _print_classes(outcome: Outcome) -> list[float]:
 def _print_forms(forms: Counter[tuple[str, str, str]]) -> None:
     """How much was found of each class, by the form in which it was put in."""
     print(f"{'class, form':>22}{'artifacts':>10}{'samples':>9}{'TPR':>9}{'any':>9}")
-    for kind, form in sorted({(kind, form) for kind, form, _ in forms}, key=lambda key: (CLASSES.index(key[0]), key)):
+    for kind, form in sorted({(kind, form) for kind, form, _ in forms}, key=lambda key: (DETECTORS.index(key[0]), key)):
         artifacts, samples, right, found = (
             forms[kind, form, what] for what in ("artifacts", "samples", "right", "any")
         )

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks.accuracy import detection
-from benchmarks.support.detection_outcome import CLASSES, Outcome, correlation, print_outcome, root
+from benchmarks.support.detection_outcome import Outcome, correlation, print_outcome, root
+from markermend.core.artifacts import DETECTORS
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.simulation.artifact_models import Recipe, integers, uniform
@@ -49,10 +50,10 @@ def test_a_sample_has_the_class_that_is_found_first():
         "slow": [Event("C", 0, 4, 1.0)],
     }
     labels = detection.classes(own, recording())
-    names = [["clean", *CLASSES][number] for number in labels[[0, 9, 11, 12], 0]]
+    names = [["clean", *DETECTORS][number] for number in labels[[0, 9, 11, 12], 0]]
     assert names == ["tails", "tails", "peaks", "clean"]
-    assert [["clean", *CLASSES][number] for number in labels[[2, 3], 1]] == ["steps", "peaks"]
-    assert [["clean", *CLASSES][number] for number in labels[[1, 2, 4], 2]] == ["labels", "slow", "clean"]
+    assert [["clean", *DETECTORS][number] for number in labels[[2, 3], 1]] == ["steps", "peaks"]
+    assert [["clean", *DETECTORS][number] for number in labels[[1, 2, 4], 2]] == ["labels", "slow", "clean"]
 
 
 def test_forms_count_what_was_found_and_found_right():
@@ -76,12 +77,12 @@ def test_artifacts_are_found_counted_and_printed(walker, capsys):
     condition = {"protocol": "practice", "amplitude": 15.0, "share": 0.3, "seed": 4}
     total = Outcome()
     ignored = np.zeros(clean.missing.shape, bool)
-    judged = detection.judge(clean, ignored=ignored, presets=["default"], **condition)
-    total.add(judged["default"])
-    harm = detection.damage(clean, **condition)
+    evaluated = detection.evaluate(clean, ignored=ignored, presets=["default"], **condition)
+    total.add(evaluated["default"])
+    harm = detection.contaminate(clean, **condition)
     truth, seen = detection.classes(harm.events, clean), ~np.isnan(harm.positions).any(axis=2)
-    assert np.array_equal(total.confusion.sum(axis=1), np.bincount(truth[seen], minlength=len(CLASSES) + 1))
-    noise = 1 + CLASSES.index("noise")
+    assert np.array_equal(total.confusion.sum(axis=1), np.bincount(truth[seen], minlength=len(DETECTORS) + 1))
+    noise = 1 + DETECTORS.index("noise")
     assert total.confusion[noise, noise] > 0.8 * total.confusion[noise].sum() > 0
     before, perfect, _ = (root(stage[noise]) for stage in total.squares)
     assert perfect < 0.5 * before

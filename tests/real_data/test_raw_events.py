@@ -5,6 +5,7 @@ import pytest
 
 from benchmarks.accuracy import detection
 from markermend import api
+from markermend.core.artifacts import DETECTORS
 
 KNOWN = [
     ("2022_01_0403.c3d", {"labels": [("LTH1", 194, 801), ("LTH2", 194, 801), ("LTH1", 904, 936), ("LTH2", 904, 936)]}),
@@ -23,7 +24,7 @@ def test_what_a_person_saw_is_found(data, name, known):
     classes = detection.classes(found, recording)
     for kind, places in known.items():
         for marker, start, stop in places:
-            right = classes[:, recording.markers.index(marker)] == 1 + detection.CLASSES.index(kind)
+            right = classes[:, recording.markers.index(marker)] == 1 + DETECTORS.index(kind)
             assert right[start:stop].mean() > 0.8
             if kind == "labels":
                 assert np.array_equal(np.flatnonzero(np.diff(right.astype(int))) + 1, [194, 801, 904, 936])

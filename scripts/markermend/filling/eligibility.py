@@ -47,7 +47,7 @@ class Eligibility:
         gap : Gap
             The gap.
         ruling : Ruling
-            What the decisions of a person come to for the gap; where it confirms the gap, no limit holds.
+            The ruling on the gap; where it confirms the gap, no limit holds.
 
         Returns
         -------

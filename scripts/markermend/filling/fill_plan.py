@@ -24,7 +24,7 @@ class FillPlan:
     Attributes
     ----------
     rulings : dict of Gap to Ruling
-        What a person's decisions come to, for all gaps, marker by marker.
+        The rulings on all gaps, marker by marker.
     ordinary : tuple of Gap
         The gaps to fill within the limits: those of the marker that is seen most come first (tits2018).
     confirmed : dict of str to tuple of Gap
@@ -90,7 +90,7 @@ def plan_filling(
 
 
 def _ruling(restored: Restored, gap: Gap, decisions: Sequence[Decision], methods: Collection[str]) -> Ruling:
-    """What the decisions come to for a gap."""
+    """The ruling on a gap."""
     return rule(decisions, [GAP], [restored.markers[gap.marker]], gap.start, gap.stop, methods)
 
 

@@ -116,7 +116,7 @@ def suggestion(word: str, known: Collection[str]) -> str:
     Parameters
     ----------
     word : str
-        What somebody wrote.
+        The word in the table.
     known : Collection[str]
         The words that mean something.
 

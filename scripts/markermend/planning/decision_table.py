@@ -1,6 +1,6 @@
 """The table of a person's decisions: read, held against the recordings, and handed out to them.
 
-A table that cannot mean what somebody wanted is refused as a whole, with file, line and column of every problem.
+A table with a line that cannot be understood is refused as a whole, with file, line and column of every problem.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ class PlannedExchange:
     cycle : tuple of Event
         The exchanges, from partner to partner; all over the same interval.
     ruling : Ruling
-        What the decisions come to for it.
+        The ruling on it.
     reason : Reason, optional
         Why it is not carried out; None where it is.
     """

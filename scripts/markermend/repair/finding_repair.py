@@ -24,7 +24,7 @@ def repair_finding(
     finding : Finding
         The finding.
     ruling : Ruling
-        What the decisions come to for it; where a person confirmed it, no limit holds.
+        The ruling on it; where it is confirmed by a person, no limit holds.
     refusal : Reason, optional
         Why nothing in the recording is repaired that no person confirmed.
     maker : CandidateMaker

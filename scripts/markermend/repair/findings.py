@@ -1,4 +1,4 @@
-"""Findings that overlap on one marker, which are repaired together, and what a person's decisions come to for them."""
+"""Findings that overlap on one marker, which are repaired together, and the rulings on them."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class Rulings:
         Returns
         -------
         Ruling
-            What the decisions come to.
+            The ruling on the finding.
         """
         kinds = {class_name(stage, event) for stage, event in members}
         markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.exchanges))

@@ -64,7 +64,7 @@ class Restoration:
         candidates : iterable of Candidate
             All candidates for the finding.
         ruling : Ruling
-            What the decisions come to.
+            The ruling on the finding.
         """
         m, proposal = self.markers.index(event.marker), taken.proposal
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
@@ -83,7 +83,7 @@ class Restoration:
         cycle : sequence of Event
             The exchanges, all over the same interval.
         ruling : Ruling
-            What the decisions come to.
+            The ruling on the finding.
         """
         span = slice(cycle[0].start, cycle[0].stop)
         index = self.markers.index
@@ -117,7 +117,7 @@ class Restoration:
         reason : Reason
             Why it was not repaired.
         ruling : Ruling
-            What the decisions come to.
+            The ruling on the finding.
         blank : bool
             Whether its samples become missing.
         candidates : iterable of Candidate

@@ -205,7 +205,8 @@ def average_by_likelihood(
         Their mean, mm.
     deviation : ndarray of float, shape (n,)
         Its standard deviation per axis, mm. The squared error of the mean is less than the mean of the squared errors,
-        by as much as the trajectories are spread; since they err alike in part, it is never taken for less than half.
+        by as much as the trajectories are spread; since their errors are partly shared, it is never reduced by more
+        than half.
 
     References
     ----------
