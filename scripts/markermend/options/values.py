@@ -160,8 +160,12 @@ class Reader:
         Returns
         -------
         Any
-            The instance, or None where the class refuses the values.
+            The instance, or None where the class refuses the values, or a least value exceeds the largest of its kind.
         """
+        for name in (name for name in values if name.startswith("min_")):
+            least, largest = values[name], values.get(f"max_{name[4:]}")
+            if least is not None and largest is not None and least > largest:
+                self.problems.append(f"{place}: {name} {text(least)} is above max_{name[4:]} {text(largest)}")
         try:
             return cls(**values)
         except ValueError as error:

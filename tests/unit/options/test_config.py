@@ -90,6 +90,11 @@ def test_about_forty_options_are_for_laboratories():
         ({"fill": {"max_gaps_s": 1}}, "fill.max_gaps_s: there is no such key; did you mean max_gap_s?"),
         ({"repair": {"methods": {"peak": []}}}, "repair.methods.peak: there is no such key; did you mean peaks?"),
         ({"peaks": {"sigmas": 7}}, "peaks.sigmas: there is no such key; did you mean threshold_sigmas?"),
+        ({"steps": {"min_duration_s": 3}}, "steps: min_duration_s 3 is above max_duration_s 2"),
+        (
+            {"advanced": {"predictors": {"msvd": {"max_training_frames": 50}}}},
+            "advanced.predictors.msvd: min_training_frames 60 is above max_training_frames 50",
+        ),
         ({"swaps": {}}, "swaps: its options are now in labels"),
         ({"peaks": {"context_s": 1}}, "peaks.context_s: this is now advanced.peaks.context_s"),
         ({"advanced": {"peaks": {"floor_mm": 1}}}, "advanced.peaks.floor_mm: this is now peaks.floor_mm"),
