@@ -17,7 +17,7 @@ from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
-from markermend.detection.neighbour.drift_candidates import DriftScorer, DriftScores
+from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection import SlowOptions

@@ -8,7 +8,7 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_candidates import DriftScorer, DriftScores
+from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
 from markermend.numerics import intervals, robust
 from markermend.options.detection import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource

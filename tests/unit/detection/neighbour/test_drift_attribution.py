@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from markermend.core.events import Event
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
-from markermend.detection.neighbour.drift_candidates import DriftScorer
+from markermend.detection.neighbour.drift_scores import DriftScorer
 from markermend.prediction.scene import Scene
 from support.signals import RIDGE, options_of
 
