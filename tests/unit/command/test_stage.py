@@ -63,7 +63,7 @@ def argv(tmp_path):
     return [
         *("--markers", str(tmp_path / "in.json"), "--earlier", "--blurred", str(tmp_path / "out.json")),
         *("--window-s=0.5", "--limit=none", "--deep=true", '--names=["a b", "@c", "-d"]', '--table={"x": [1]}'),
-        *('--mesh={"max_frames": 7}', "--person=Ann"),
+        *('--mesh={"max_frames": 70}', "--person=Ann"),
     ]
 
 
@@ -71,10 +71,10 @@ def test_work_gets_paths_options_and_facts(stage, argv, tmp_path):
     calls = []
     stage.run(lambda call: calls.append(call), argv)
     (call,) = calls
-    assert call.options == BlurOptions(0.5, None, True, ("a b", "@c", "-d"), {"x": (1,)}, MeshOptions(max_frames=7))
+    assert call.options == BlurOptions(0.5, None, True, ("a b", "@c", "-d"), {"x": (1,)}, MeshOptions(max_frames=70))
     assert call.person == "Ann"
     options = {"window_s": 0.5, "limit": None, "deep": True, "names": ["a b", "@c", "-d"], "table": {"x": [1]}}
-    options |= {"mesh": {"max_frames": 7}, "person": "Ann"}
+    options |= {"mesh": {"max_frames": 70}, "person": "Ann"}
     assert call.markers == tmp_path / "in.json" and call.earlier == []
     digest = atomic.sha256(tmp_path / "in.json")
     assert call.facts == {"stage": "blur", "options": options, "inputs": {"markers": digest, "earlier": []}}
