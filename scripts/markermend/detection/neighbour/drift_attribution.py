@@ -138,10 +138,10 @@ class DriftAttribution:
             for m in (marker, *near)
         )
         high = np.nan_to_num(heights) > self.options.suspect_fraction * own
-        suspects: np.ndarray = near[
+        deviating: np.ndarray = near[
             high | (self.scores.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)
         ]
-        return suspects
+        return deviating
 
     def remains_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
         """Check whether a drift of a marker remains when some neighbours are hidden.
