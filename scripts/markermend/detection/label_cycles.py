@@ -186,7 +186,7 @@ def _exchanged_stretches(
     return [
         ExchangedStretch(start, stop, permutation, min(c.score for c in changes if c.frame in (start, stop)))
         for (start, stop), (permutation, clearness) in zip(stretches, best, strict=True)
-        if clearness >= options.recorded_label_weight
+        if clearness >= options.min_cycle_clearness
     ]
 
 

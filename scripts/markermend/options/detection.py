@@ -72,6 +72,11 @@ class LabelsOptions:
 
     Change it when exchanges that never swap back are missed (lower), or false ones are found (higher)."""
 
+    min_cycle_clearness: Share = 0.3
+    """Smallest clearness with which distances alone must show that three or more labels are exchanged (0 to 1).
+
+    Change it when exchanges of three labels are missed (lower), or false ones are found (higher)."""
+
 
 @dataclass(frozen=True)
 class DetectorOptions:
