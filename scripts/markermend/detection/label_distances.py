@@ -47,5 +47,6 @@ def usual_distances(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     known = ~np.isnan(distances).all(axis=0)
     low, usual, high = np.full((3, *known.shape), np.nan)
-    low[known], usual[known], high[known] = np.nanpercentile(distances[:, known], [16, 50, 84], axis=0)
+    if known.any():
+        low[known], usual[known], high[known] = np.nanpercentile(distances[:, known], [16, 50, 84], axis=0)
     return usual, high - low

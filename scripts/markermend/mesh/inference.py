@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -129,7 +129,12 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
         segments=summary.segments(),
         predictors=named(predictors, markers),
         neighbours=named(neighbours, markers),
-        warnings=(*_seldom_seen(statistics, options.min_frames), *remarks, *lacks),
+        warnings=(
+            *_seldom_seen(statistics, options.min_frames),
+            *_few_neighbours(statistics.markers, neighbours, options.min_predictors),
+            *remarks,
+            *lacks,
+        ),
         absent={recording_name(own): lacking for own in recordings if (lacking := _absent(own, markers))},
     )
 
@@ -165,6 +170,14 @@ def _seldom_seen(statistics: PairStatistics, min_frames: int) -> list[str]:
     """A warning that names the markers with too little data."""
     names = [statistics.markers[m] for m in np.flatnonzero(statistics.valid < min_frames)]
     return [f"seen on fewer than {min_frames} frames: {', '.join(names)}"] if names else []
+
+
+def _few_neighbours(markers: Sequence[str], neighbours: Mapping[int, Sequence[int]], min_neighbours: int) -> list[str]:
+    """A warning that names the markers of segments that too few neighbours predict."""
+    names = [markers[m] for m, own in sorted(neighbours.items()) if len(own) < min_neighbours]
+    if not names:
+        return []
+    return [f"with fewer than {min_neighbours} neighbours, so that only their labels can be judged: {', '.join(names)}"]
 
 
 def _absent(recording: Recording, markers: Sequence[str]) -> tuple[str, ...]:

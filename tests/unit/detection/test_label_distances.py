@@ -22,3 +22,10 @@ def test_usual_distances_are_medians_of_what_is_seen():
     assert usual[0, 1] == np.median(distances[100:, 0, 1])
     assert spread[0, 0] == pytest.approx(np.ptp(np.quantile(distances[:, 0, 0], [0.16, 0.84])))
     assert np.isnan(usual[1, 2]) and np.isnan(spread[1, 2])
+
+
+def test_without_any_marker_around_there_are_no_usual_distances():
+    for distances in (np.zeros((10, 2, 0)), np.full((10, 2, 1), np.nan)):
+        usual, spread = usual_distances(distances)
+        assert usual.shape == spread.shape == distances.shape[1:]
+        assert np.isnan(usual).all() and np.isnan(spread).all()

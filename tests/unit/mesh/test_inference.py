@@ -166,6 +166,14 @@ def test_hardly_seen_markers_have_empty_lists(chain, frames):
     assert f"seen on fewer than 60 frames: {names[2]}" in mesh.warnings
 
 
+def test_a_marker_without_enough_neighbours_is_warned_about(chain):
+    names, positions, _ = chain
+    far = np.random.default_rng(1).normal(0, 3000, (len(positions), 1, 3))
+    mesh = infer_mesh([recording([*names, "far"], np.concatenate((positions, far), axis=1))], options=OPTIONS)
+    assert mesh.neighbours["far"] == ()
+    assert mesh.warnings == ("with fewer than 3 neighbours, so that only their labels can be judged: far",)
+
+
 @pytest.mark.parametrize("positions", [np.full((100, 3, 3), np.nan), np.zeros((0, 3, 3)), np.ones((20, 3, 3))])
 def test_nothing_to_infer_from(positions):
     mesh = infer_mesh([recording("abc", positions)], options=OPTIONS)
