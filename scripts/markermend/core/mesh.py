@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from markermend.core.shape import Shape, shape_of
+
 
 @dataclass(frozen=True)
 class Segment:
@@ -69,6 +71,9 @@ class Mesh:
         One sentence each.
     absent : dict[str, tuple[str, ...]]
         By recording, the markers that it does not hold.
+    distances : dict[str, dict[str, tuple[float, float, float]]]
+        The usual shape: for each marker, by the name of each later one, the usual distance over all recordings, static ones
+        included, its robust standard deviation and its spread, mm (`markermend.core.shape.Shape`).
     """
 
     recordings: tuple[str, ...]
@@ -78,6 +83,7 @@ class Mesh:
     neighbours: dict[str, tuple[str, ...]]
     warnings: tuple[str, ...] = ()
     absent: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    distances: dict[str, dict[str, tuple[float, float, float]]] = field(default_factory=dict)
 
     def segment_of(self, marker: str) -> int | None:
         """Find the segment of a marker.
@@ -123,6 +129,21 @@ class Mesh:
             For each marker the indices of its `predictors`.
         """
         return _indices(self.predictors, markers)
+
+    def shape(self, markers: Sequence[str]) -> Shape:
+        """Give the usual shape of the markers of a recording.
+
+        Parameters
+        ----------
+        markers : sequence of str
+            Markers of the recording.
+
+        Returns
+        -------
+        Shape
+            Usual distances in the order of the markers; NaN where a pair was never seen.
+        """
+        return shape_of(self.distances, markers)
 
     def without(self, markers: Collection[str]) -> Mesh:
         """Give the mesh of a recording that lacks some markers.
@@ -202,4 +223,10 @@ def from_json(entry: dict[str, Any]) -> Mesh:
         neighbours={marker: tuple(names) for marker, names in entry["neighbours"].items()},
         warnings=tuple(entry["warnings"]),
         absent={name: tuple(names) for name, names in entry.get("absent", {}).items()},
+        distances={
+            first: {
+                second: (float(usual), float(deviation), float(spread)) for second, (usual, deviation, spread) in own
+            }
+            for first, own in ((first, others.items()) for first, others in entry.get("distances", {}).items())
+        },
     )

@@ -13,6 +13,7 @@ from markermend.mesh.segment_summary import Excitation, SegmentSummary, assess_e
 from markermend.mesh.segment_tree import Skeleton, infer_skeleton
 from markermend.mesh.user_mesh import UserMesh
 from markermend.mesh.user_skeleton import fit_to_recordings
+from markermend.mesh.usual_distances import usual_distances
 from markermend.options.mesh import MeshOptions
 
 
@@ -136,6 +137,14 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
             *lacks,
         ),
         absent={recording_name(own): lacking for own in recordings if (lacking := _absent(own, markers))},
+        distances=usual_distances(
+            recordings,
+            markers=markers,
+            frames=options.max_frames,
+            min_frames=options.min_distance_frames,
+            static_weight=options.static_weight,
+            min_spread_mm=options.min_spread_mm,
+        ),
     )
 
 

@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from markermend.options.declaration import CountOrNone, Laboratory, Millimetres, NotNegative, Planned, Seconds
+from markermend.options.declaration import (
+    CountOrNone,
+    Laboratory,
+    Millimetres,
+    NotNegative,
+    Planned,
+    PositiveMillimetres,
+    Seconds,
+)
 
 
 @dataclass(frozen=True)
@@ -41,6 +49,15 @@ class MeshOptions:
 
     max_neighbours: CountOrNone = 30
     """Neighbours of a marker in the mesh, at most."""
+
+    min_distance_frames: CountOrNone = 20
+    """Frames of a recording on which both markers of a pair must be seen for its usual distance."""
+
+    static_weight: NotNegative = 1.5
+    """Weight of a static recording in usual distances; that of any other is at most 1."""
+
+    min_spread_mm: PositiveMillimetres = 2
+    """Recordings in which a distance varies more than in most weigh less in its usual value, but for variation below this."""
 
     min_excitation_s: Seconds = 10
     """A shorter duration of motion gives a warning."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
+from markermend.core.shape import Shape
 
 CACHE_SIZE = 60
 """Results that a scene caches for its predictors: enough for the members and missing neighbours of one marker."""
@@ -37,6 +38,8 @@ class Scene:
         filled.
     segment_mates : Sequence[np.ndarray] | None
         For each marker the indices of the other markers of its segment and of its parent marker; None without a mesh.
+    shape : Shape | None
+        The usual distances of the markers over all of the subject's recordings; None without a mesh.
     """
 
     positions: np.ndarray
@@ -45,6 +48,7 @@ class Scene:
     measured: Scene | None = None
     inherited_std: np.ndarray | None = None
     segment_mates: Sequence[np.ndarray] | None = None
+    shape: Shape | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:
@@ -67,7 +71,8 @@ class Scene:
         markers = recording.markers
         shown = recording.positions if positions is None else positions
         mates = mesh.segment_mate_indices(markers)
-        return cls(shown, recording.rate, mesh.neighbour_indices(markers), segment_mates=mates)
+        neighbours, shape = mesh.neighbour_indices(markers), mesh.shape(markers)
+        return cls(shown, recording.rate, neighbours, segment_mates=mates, shape=shape)
 
     @cached_property
     def present(self) -> np.ndarray:
