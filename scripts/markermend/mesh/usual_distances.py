@@ -55,7 +55,7 @@ def usual_distances(
     static = np.array([recording.facts.get("kind") == "static" for recording in ordered])
     pooled = np.full((3, len(ordered), len(markers), len(markers)), np.nan)
     for r, recording in enumerate(ordered):
-        place = [markers.index(marker) for marker in recording.markers]
+        place = np.array([markers.index(marker) for marker in recording.markers], int)
         own = recording_distances(thin(recording, frames=frames).positions, min_frames=min_frames)
         pooled[:, r, place[:, None], place] = own
     first, second = np.triu_indices(len(markers), 1)

@@ -26,6 +26,7 @@ from markermend.options.prediction import PredictorOptions
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
 from markermend.options.reporting import NoOptions, QcOptions
+from markermend.options.shape import ShapeOptions
 from markermend.options.values import Reader, inside, plain
 
 ADVANCED = "advanced"
@@ -50,6 +51,7 @@ SECTIONS: dict[str, type] = {
     "export": NoOptions,
     "qc": QcOptions,
     "report": NoOptions,
+    "shape": ShapeOptions,
     "predictors": PredictorOptions,
 }
 """The class of each section, in the order of the config."""

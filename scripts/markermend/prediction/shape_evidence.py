@@ -1,0 +1,158 @@
+"""Evidence of level against shape: whether points are where the usual distances of a marker say, frame by frame.
+
+No change from one frame to the next is needed. Every explanation of a scene (as it is, under another label, displaced, not
+a marker of the subject) states which points belong to which marker, and has a likelihood.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import gammaln
+
+from markermend.core.shape import Shape
+from markermend.options.shape import ShapeOptions
+
+
+@dataclass(frozen=True)
+class ShapeEvidence:
+    """What the usual distances say of the positions of a recording.
+
+    Attributes
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing.
+    shape : Shape
+        The usual distances of these markers.
+    options : ShapeOptions
+        Numbers of anchors, and what contradicts the shape.
+    """
+
+    positions: np.ndarray
+    shape: Shape
+    options: ShapeOptions
+
+    def anchors(self, marker: int, *, among: np.ndarray | None = None) -> np.ndarray:
+        """List the markers by whose distances a marker is judged.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        among : np.ndarray | None
+            The markers that may serve, bool (markers,); by default all others.
+
+        Returns
+        -------
+        np.ndarray
+            Their indices, the steadiest first.
+        """
+        return self.shape.steadiest(marker, self.options.anchors, among=among)
+
+    def scale(self, marker: int, anchors: np.ndarray) -> np.ndarray:
+        """Give the standard deviations of distances.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        anchors : np.ndarray
+            Indices of the anchors.
+
+        Returns
+        -------
+        np.ndarray
+            Robust standard deviations, at least `min_deviation_mm` (anchors,).
+        """
+        deviation: np.ndarray = np.maximum(self.shape.deviation[marker, anchors], self.options.min_deviation_mm)
+        return deviation
+
+    def deviations(self, marker: int, anchors: np.ndarray, *, points: np.ndarray | None = None) -> np.ndarray:
+        """Compute by how much the distances of points to anchors differ from those of a marker.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker that the points may be.
+        anchors : np.ndarray
+            Indices of the anchors.
+        points : np.ndarray | None
+            The points (frames, 3), mm, NaN = missing; by default those recorded under the label of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            Distance less the usual one (frames, anchors), mm; NaN where a point or an anchor is missing.
+        """
+        own = self.positions[:, marker] if points is None else points
+        difference = self.positions[:, anchors] - own[:, None]
+        distance = np.sqrt(np.einsum("fai,fai->fa", difference, difference))
+        deviation: np.ndarray = distance - self.shape.distance[marker, anchors]
+        return deviation
+
+    def log_likelihood(self, marker: int, anchors: np.ndarray, *, points: np.ndarray | None = None) -> np.ndarray:
+        """Compute the likelihood of the distances of points if they are those of a marker.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker that the points may be.
+        anchors : np.ndarray
+            Indices of the anchors; explanations are compared over the same points with equally many anchors.
+        points : np.ndarray | None
+            The points (frames, 3), mm, NaN = missing; by default those recorded under the label of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            Mean over the anchors of the log density (1/mm) of Student's t distribution (frames,); NaN where fewer than
+            `min_anchors` distances are known. The mean, since distances to the markers of one segment vary together.
+        """
+        deviation, scale = self.deviations(marker, anchors, points=points), self.scale(marker, anchors)
+        freedom = self.options.degrees_of_freedom
+        constant = gammaln((freedom + 1) / 2) - gammaln(freedom / 2) - np.log(freedom * np.pi) / 2
+        density = constant - np.log(scale) - (freedom + 1) / 2 * np.log1p((deviation / scale) ** 2 / freedom)
+        known = ~np.isnan(density)
+        count = known.sum(axis=1)
+        mean = np.where(known, density, 0.0).sum(axis=1) / np.maximum(count, 1)
+        likelihood: np.ndarray = np.where(count >= self.options.min_anchors, mean, np.nan)
+        return likelihood
+
+    def contradicting_share(self, marker: int, anchors: np.ndarray, *, points: np.ndarray | None = None) -> np.ndarray:
+        """Compute which share of the distances of points contradicts that they are those of a marker.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker that the points may be.
+        anchors : np.ndarray
+            Indices of the anchors.
+        points : np.ndarray | None
+            The points (frames, 3), mm, NaN = missing; by default those recorded under the label of the marker.
+
+        Returns
+        -------
+        np.ndarray
+            Shares (frames,), 0 to 1; NaN where fewer than `min_anchors` distances are known.
+        """
+        deviation = self.deviations(marker, anchors, points=points)
+        limit = self.options.threshold_sigmas * self.scale(marker, anchors) + self.options.floor_mm
+        known = np.count_nonzero(~np.isnan(deviation), axis=1)
+        off = np.count_nonzero(np.abs(deviation) > limit, axis=1)
+        share: np.ndarray = np.where(known >= self.options.min_anchors, off / np.maximum(known, 1), np.nan)
+        return share
+
+    def contradiction(self) -> np.ndarray:
+        """Mark the samples that contradict the shape.
+
+        Returns
+        -------
+        np.ndarray
+            Bool (frames, markers): at least `min_contradicting_share` of the distances to the steadiest markers are off.
+        """
+        shares = [self.contradicting_share(m, self.anchors(m)) for m in range(self.positions.shape[1])]
+        contradicting: np.ndarray = np.nan_to_num(np.stack(shares, axis=1)) >= max(
+            self.options.min_contradicting_share, np.finfo(float).tiny
+        )
+        return contradicting
