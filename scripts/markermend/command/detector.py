@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from markermend.command.presets import Published, preset_detector, preset_of, preset_options, preset_predictor
 from markermend.command.stage import Stage
 from markermend.core import events, labels
+from markermend.core.artifacts import BY_NAME
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
@@ -125,7 +126,7 @@ def detector_arguments(
     """
     as_recorded = preset_of(options) == "paper"
     exchanges = [event for event in earlier if event.partner is not None]
-    artifacts = [event for event in earlier if event.partner is None]
+    artifacts = [event for event in earlier if event.partner is None and not _only_reported(event)]
     positions = recording.positions
     if as_recorded:
         artifacts = labels.follow(artifacts, found_under=exchanges, stated_under=())
@@ -139,6 +140,11 @@ def detector_arguments(
         **preset_predictor(options),
     }
     return given, exchanges if as_recorded else []
+
+
+def _only_reported(event: Event) -> bool:
+    """Whether an event is of a class that is only reported, so that its samples count as measured."""
+    return event.kind is not None and bool(BY_NAME[event.kind].reported)
 
 
 def find(
@@ -226,9 +232,9 @@ def result(found: list[Event]) -> str:
     Returns
     -------
     str
-        How many events on how many markers, and how many samples.
+        How many findings on how many markers, and how many samples.
     """
-    return f"{len(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
+    return f"{events.count_findings(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
 
 
 def search(call: DetectorCall, detect: Callable[..., list[Event]], published: Published | None = None) -> str:

@@ -1,9 +1,10 @@
-"""The classes of artifacts: one table for all stages, in the strict order of their detectors."""
+"""The classes of artifacts: one table for all stages, in the strict order of their detectors; some find several."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from markermend.core.events import Event
 
@@ -30,6 +31,11 @@ class ArtifactClass:
     unmeasured : str
         Why such samples do not count as measured, so that they are never repaired and count as missing; empty where
         a repair may start from what was measured.
+    reported : str
+        Why a finding is left as it is and hidden from no detector unless a person accepts it; empty where it is repaired.
+    scope : str
+        What one finding is about: a `marker`, the markers of a `segment`, or all markers of the `recording`. Beyond a marker
+        it has one event for each of its markers, with a common `group`.
     """
 
     stage: str
@@ -38,6 +44,8 @@ class ArtifactClass:
     text: str
     number: int
     unmeasured: str = ""
+    reported: str = ""
+    scope: Literal["marker", "segment", "recording"] = "marker"
 
     @property
     def events_file(self) -> str:
@@ -75,18 +83,20 @@ ARTIFACTS = (
 )
 """All classes, in the strict order of the detectors: each looks at what those before it left."""
 
-DETECTORS = tuple(artifact.stage for artifact in ARTIFACTS)
+DETECTORS = tuple(dict.fromkeys(artifact.stage for artifact in ARTIFACTS))
 """The detectors in their strict order; each is a stage, and its file holds the class."""
 
-BY_STAGE: Mapping[str, ArtifactClass] = {artifact.stage: artifact for artifact in ARTIFACTS}
-"""The classes by their detectors."""
+BY_STAGE: Mapping[str, ArtifactClass] = {
+    stage: next(artifact for artifact in ARTIFACTS if artifact.stage == stage) for stage in DETECTORS
+}
+"""The first class of each detector: that of its findings that state no other."""
 
 BY_NAME: Mapping[str, ArtifactClass] = {artifact.name: artifact for artifact in ARTIFACTS}
 """The classes by their names."""
 
 
-def class_name(stage: str, event: Event) -> str:
-    """Name the class of a finding.
+def class_of(stage: str, event: Event) -> ArtifactClass:
+    """Give the class of a finding.
 
     Parameters
     ----------
@@ -97,7 +107,26 @@ def class_name(stage: str, event: Event) -> str:
 
     Returns
     -------
-    str
-        The class as people name it.
+    ArtifactClass
+        The class that the finding states, else the first of its detector.
     """
-    return "swap" if event.partner else BY_STAGE[stage].name
+    if event.kind is not None:
+        return BY_NAME[event.kind]
+    return BY_NAME["swap"] if event.partner else BY_STAGE[stage]
+
+
+def names_of(classes: Iterable[ArtifactClass]) -> tuple[str, ...]:
+    """Name classes in the order of the table.
+
+    Parameters
+    ----------
+    classes : iterable of ArtifactClass
+        The classes, in any order.
+
+    Returns
+    -------
+    tuple of str
+        Each name once.
+    """
+    wanted = set(classes)
+    return tuple(artifact.name for artifact in ARTIFACTS if artifact in wanted)

@@ -107,6 +107,8 @@ class Change:
         The decisions of a person that bear on it, in the words of the table.
     reason : Reason, optional
         Why the stretch was left or blanked; None where it was repaired, exchanged or filled.
+    group : str, optional
+        What a finding about several markers is about as a whole; its changes, one for each marker, have it in common.
     """
 
     marker: str
@@ -126,6 +128,7 @@ class Change:
     expected_error95_mm: float | None = None
     decisions: tuple[str, ...] = ()
     reason: Reason | None = None
+    group: str | None = None
 
     @property
     def kind(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,13 @@ class Event:
         The axes on which the detector fired, such as "xz".
     partner : str, optional
         The marker under whose label the samples are recorded, where labels are exchanged.
+    kind : str, optional
+        Name of its class, where its detector finds several; None for the first of them.
+    group : str, optional
+        What a finding about several markers is about as a whole, such as the name of a segment. Its events, one for each
+        marker, have the same kind and group, and share frames.
+    amount_mm : float, optional
+        How far the samples are displaced, mm, where the detector states it.
     """
 
     marker: str
@@ -34,6 +41,9 @@ class Event:
     score: float
     axes: str = "xyz"
     partner: str | None = None
+    kind: str | None = None
+    group: str | None = None
+    amount_mm: float | None = None
 
     @property
     def markers(self) -> tuple[str, ...]:
@@ -41,9 +51,30 @@ class Event:
         return (self.marker, self.partner) if self.partner else (self.marker,)
 
     @property
-    def order(self) -> tuple[str, int, int, str]:
+    def order(self) -> tuple[str, int, int, str, str]:
         """What events are sorted by."""
-        return self.marker, self.start, self.stop, self.partner or ""
+        return self.marker, self.start, self.stop, self.partner or "", self.kind or ""
+
+    @property
+    def identity(self) -> tuple[str, str | None, str | None, str | None]:
+        """What events have in common that may be merged where they overlap."""
+        return self.marker, self.partner, self.kind, self.group
+
+    def joined_with(self, other: Event) -> bool:
+        """Check whether another event belongs to the same finding about several markers.
+
+        Parameters
+        ----------
+        other : Event
+            An event of any marker.
+
+        Returns
+        -------
+        bool
+            Whether both state the same kind and group, and share a frame.
+        """
+        same = self.group is not None and (self.kind, self.group) == (other.kind, other.group)
+        return same and self.start < other.stop and other.start < self.stop
 
 
 def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: Sequence[str]) -> list[Event]:
@@ -86,22 +117,49 @@ def disjoint(events: Iterable[Event]) -> list[Event]:
     Returns
     -------
     list of Event
-        Events of one marker and partner that overlap or touch are merged; of others that overlap the first stands.
+        Events of one marker, partner, kind and group that overlap or touch are merged; of others that overlap the first
+        stands.
     """
     merged: list[Event] = []
     for event in sorted(events, key=lambda event: event.order):
         last = merged[-1] if merged else None
-        if last and last.marker == event.marker and event.start <= last.stop and last.partner == event.partner:
+        if last and last.identity == event.identity and event.start <= last.stop:
             axes = "".join(axis for axis in "xyz" if axis in last.axes + event.axes)
-            merged[-1] = Event(
-                last.marker, last.start, max(last.stop, event.stop), max(last.score, event.score), axes, last.partner
-            )
+            stop, score = max(last.stop, event.stop), max(last.score, event.score)
+            merged[-1] = replace(last, stop=stop, score=score, axes=axes)
         elif last and last.marker == event.marker and event.start < last.stop:
             if event.stop > last.stop:
-                merged.append(Event(event.marker, last.stop, event.stop, event.score, event.axes, event.partner))
+                merged.append(replace(event, start=last.stop))
         else:
             merged.append(event)
     return merged
+
+
+def count_findings(events: Iterable[Event]) -> int:
+    """Count findings: one that is about several markers counts once.
+
+    Parameters
+    ----------
+    events : iterable of Event
+        The events in any order.
+
+    Returns
+    -------
+    int
+        How many findings they make.
+    """
+    found = list(events)
+    joint = sorted(
+        (event for event in found if event.group), key=lambda event: (event.kind or "", event.group, event.start)
+    )
+    count = len(found) - len(joint)
+    last: Event | None = None
+    for event in joint:
+        if last is not None and last.joined_with(event):
+            last = replace(last, stop=max(last.stop, event.stop))
+        else:
+            count, last = count + 1, event
+    return count
 
 
 def mask(events: Iterable[Event], frames: int, markers: Sequence[str]) -> np.ndarray:

@@ -26,6 +26,8 @@ class Cause(StrEnum):
     """The result would be no nearer to the truth than what was measured."""
     NO_METHOD = "no method"
     """No method is wanted, or none can be applied."""
+    REPORTED = "reported"
+    """Such findings are reported and left, unless a person accepts them."""
     NEVER_SEEN = "never seen"
     SELDOM_SEEN = "seldom seen"
     AT_END = "at an end"

@@ -12,7 +12,7 @@ from markermend.core.recording import Recording
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
-    "method", "samples", "largest_change_mm", "expected_error_mm", "decision", "alternatives",
+    "method", "samples", "largest_change_mm", "expected_error_mm", "decision", "alternatives", "group",
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
@@ -64,6 +64,7 @@ def _row(change: Change, recording: Recording) -> dict[str, Any]:
         "expected_error_mm": _figure(change.expected_error_mm),
         "decision": "; ".join(change.decisions),
         "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in alternatives),
+        "group": change.group or "",
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any
@@ -10,8 +11,11 @@ from markermend.core.artifacts import ARTIFACTS, BY_NAME
 from markermend.core.changes import GAP
 from markermend.core.decisions import LEAVE, VERBS
 
-NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS}, "filled": GAP}
-"""Classes by the names of their detectors, and what changes.tsv calls a gap that was filled."""
+STAGES = Counter(artifact.stage for artifact in ARTIFACTS)
+"""How many classes each detector finds."""
+
+NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS if STAGES[artifact.stage] == 1}, "filled": GAP}
+"""Classes by the names of the detectors that find no other, and what changes.tsv calls a gap that was filled."""
 
 METHOD_NAMES = {"swap": "exchange"}
 """Methods that changes.tsv calls otherwise than the config."""

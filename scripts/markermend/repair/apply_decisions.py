@@ -7,14 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS, class_name
+from markermend.core.artifacts import BY_NAME, BY_STAGE, DETECTORS, class_of
 from markermend.core.changes import DECLARED_MISSING, Change, Outcome
 from markermend.core.decisions import Decision
 from markermend.core.events import Event, disjoint
+from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import Recording
 from markermend.core.rulings import Ruling, rule, texts_of
 from markermend.numerics.intervals import runs
-from markermend.repair.label_exchanges import concerned
+from markermend.repair.label_exchanges import concerned, linked_events
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,8 @@ def apply_decisions(
     DecidedFindings
         What remains. Findings that a person rejected are dropped as a whole, and so are those on which a person set a class;
         findings that reach into protected samples end there. A decision on one marker of a label exchange is about all of
-        them.
+        them, and so is one on a marker of a joint finding, but for `protect`. Findings of classes that are only reported are
+        left unless a person accepts them.
     """
     decisions = [d for d in decisions if d.partner is None or d.partner in recording.markers]
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
@@ -65,14 +67,14 @@ def apply_decisions(
         remaining, {stage: [] for stage in DETECTORS}, _declared_missing(recording, declared, decisions)
     )
     admission = _Admission(decided, [d for d in decisions if d.verb == "protect"], protected, declared)
-    exchanges = found.get("labels", ())
+    linked = linked_events(found)
     for stage, event in ((stage, event) for stage, events in found.items() for event in events):
-        markers = concerned(event, exchanges)
+        markers = concerned(event, linked)
         against = _against(decisions, stage, event, markers)
         if against.left:
             decided.left.append(_left(stage, event, event.start, event.stop, against))
         else:
-            admission.admit(stage, event, markers)
+            admission.admit(stage, event, markers if event.partner else event.markers)
     for stage, events in _found_by_persons(remaining, decisions).items():
         for event in events:
             admission.admit(stage, event, event.markers)
@@ -106,11 +108,17 @@ class _Admission:
 
 
 def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: Sequence[str]) -> Ruling:
-    """Why a finding on markers is dropped: rejected, left, or replaced by what a person says is of another class."""
+    """Why a finding on markers is not repaired: rejected, replaced by a class that a person set, or only reported."""
     others = [decision for decision in decisions if decision.verb != "protect"]
-    ruling = rule(others, [class_name(stage, event)], markers, event.start, event.stop)
+    artifact = class_of(stage, event)
+    ruling = rule(others, [artifact.name], markers, event.start, event.stop)
     classes = [d for d in others if d.verb == "class" and _replaces(d, markers, event)]
-    return ruling if ruling.left or not classes else Ruling(classes[0].reason, texts=texts_of(classes))
+    if ruling.left or classes:
+        return ruling if ruling.left else Ruling(classes[0].reason, texts=texts_of(classes))
+    if artifact.reported and not ruling.confirmed:
+        amount = "" if event.amount_mm is None else f"displaced by {event.amount_mm:.1f} mm: "
+        return replace(ruling, left=Reason(Cause.REPORTED, f"{amount}{artifact.reported}"))
+    return ruling
 
 
 def _replaces(decision: Decision, markers: Sequence[str], event: Event) -> bool:
@@ -124,13 +132,16 @@ def _found_by_persons(recording: Recording, decisions: Iterable[Decision]) -> di
     made: dict[str, list[Event]] = {}
     for decision in (decision for decision in decisions if decision.verb == "class"):
         start, stop = max(decision.start, 0), min(decision.stop, recording.frames)
+        (kind,) = decision.kinds
+        stage = BY_NAME[kind].stage
+        stated = None if BY_STAGE[stage].name == kind else kind
+        group = None if BY_NAME[kind].scope == "marker" else decision.marker
         for marker in filter(decision.matches, recording.markers):
-            event = Event(marker, start, stop, 1.0, partner=decision.partner)
+            event = Event(marker, start, stop, 1.0, partner=decision.partner, kind=stated, group=group)
             both = [event] if event.partner is None else [event, replace(event, marker=event.partner, partner=marker)]
             columns = [recording.markers.index(name) for name in event.markers]
             if start < stop and not recording.missing[start:stop, columns].all():
-                (kind,) = decision.kinds
-                made.setdefault(BY_NAME[kind].stage, []).extend(both)
+                made.setdefault(stage, []).extend(both)
     return {stage: disjoint(events) for stage, events in made.items()}
 
 
@@ -164,7 +175,7 @@ def _left(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> Ch
         event.marker,
         start,
         stop,
-        (BY_STAGE[stage].name,),
+        (class_of(stage, event).name,),
         Outcome.LEFT,
         event.score,
         event.axes,
@@ -172,4 +183,5 @@ def _left(stage: str, event: Event, start: int, stop: int, ruling: Ruling) -> Ch
         samples=stop - start,
         decisions=ruling.texts,
         reason=ruling.left,
+        group=event.group,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from markermend.core.artifacts import ARTIFACTS
+from markermend.core.artifacts import BY_NAME, names_of
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.rulings import Ruling
@@ -34,20 +34,20 @@ def repair_finding(
     """
     event = finding.event
     if refusal and not ruling.confirmed:
-        result.leave(event, finding.stages, refusal, ruling, blank=False)
+        result.leave(event, names_of(finding.classes), refusal, ruling, blank=False)
         return
     reason = _not_to_be_repaired(finding, ruling)
     if reason is None and not ruling.confirmed:
         reason = _too_long(event, maker)
     if reason:
-        result.leave(event, finding.stages, reason, ruling, blank=True)
+        result.leave(event, names_of(finding.classes), reason, ruling, blank=True)
         return
     _repair(finding, event, ruling, maker, result)
 
 
 def _not_to_be_repaired(finding: Finding, ruling: Ruling) -> Reason | None:
     """Why the samples become missing, whatever could be proposed; None where a repair may be tried."""
-    unmeasured = [own.unmeasured for own in ARTIFACTS if own.unmeasured and own.stage in finding.stages]
+    unmeasured = [BY_NAME[name].unmeasured for name in names_of(finding.classes) if BY_NAME[name].unmeasured]
     if unmeasured:
         return Reason(Cause.UNMEASURED, "; ".join(f"not measured: {text}" for text in unmeasured))
     if ruling.method and ruling.method not in METHODS:
@@ -86,7 +86,7 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     objections = {own.proposal.method: own.reason_against(options.max_error_mm) for own in candidates}
     reason = _none_taken(finding.stage, methods, objections, best)
     harmless = best is not None and best.reason_no_better is not None
-    result.leave(event, finding.stages, reason, ruling, blank=not harmless, candidates=candidates)
+    result.leave(event, names_of(finding.classes), reason, ruling, blank=not harmless, candidates=candidates)
 
 
 def _none_taken(

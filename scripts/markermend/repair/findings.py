@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from markermend.core.artifacts import class_name
+from markermend.core.artifacts import ArtifactClass, class_of, names_of
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.rulings import Ruling, rule
@@ -28,9 +28,9 @@ class Finding:
     members: tuple[Member, ...]
 
     @property
-    def stages(self) -> list[str]:
-        """The detectors, one for each member."""
-        return [stage for stage, _ in self.members]
+    def classes(self) -> list[ArtifactClass]:
+        """The classes, one for each member."""
+        return [class_of(stage, event) for stage, event in self.members]
 
     @property
     def stage(self) -> str:
@@ -81,12 +81,13 @@ class Rulings:
     ----------
     decisions : sequence of Decision
         The decisions of persons and of the option `protect`.
-    exchanges : sequence of Event
-        All label exchanges as detected: a decision on one marker of a cycle is about all of them.
+    linked : sequence of Event
+        All label exchanges and joint findings as detected: a decision on one marker of them is about all, but for `protect`,
+        which in joint findings is about each marker alone.
     """
 
     decisions: Sequence[Decision]
-    exchanges: Sequence[Event]
+    linked: Sequence[Event]
 
     def on(self, members: Sequence[Member]) -> Ruling:
         """Combine the decisions that bear on findings that overlap.
@@ -101,7 +102,15 @@ class Rulings:
         Ruling
             The ruling on the finding.
         """
-        kinds = {class_name(stage, event) for stage, event in members}
-        markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.exchanges))
+        kinds = names_of(class_of(stage, event) for stage, event in members)
+        markers = dict.fromkeys(name for _, event in members for name in concerned(event, self.linked))
         start, stop = min(event.start for _, event in members), max(event.stop for _, event in members)
-        return rule(self.decisions, kinds, markers, start, stop)
+        elsewhere = [] if any(event.partner for _, event in members) else set(markers) - {members[0][1].marker}
+        decisions = [d for d in self.decisions if not (d.verb == "protect" and _only(d, elsewhere, markers))]
+        return rule(decisions, kinds, markers, start, stop)
+
+
+def _only(decision: Decision, some: Collection[str], markers: Iterable[str]) -> bool:
+    """Whether a decision is about some of the markers, and about none of the others."""
+    matched = {marker for marker in markers if decision.matches(marker)}
+    return bool(matched) and matched <= set(some)

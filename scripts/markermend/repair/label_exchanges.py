@@ -1,8 +1,8 @@
-"""Which label exchanges belong together: the events of one stretch permute labels in cycles, and stand or fall as one."""
+"""Which events stand or fall as one: exchanges of one stretch, which permute labels in cycles, and joint findings."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from markermend.core.events import Event
@@ -33,19 +33,38 @@ def cycle_of(event: Event, exchanges: Sequence[Event]) -> list[Event]:
     return cycle if closed else [event, replace(event, marker=str(event.partner), partner=event.marker)]
 
 
-def concerned(event: Event, exchanges: Sequence[Event]) -> tuple[str, ...]:
+def linked_events(found: Mapping[str, Sequence[Event]]) -> list[Event]:
+    """List the events that stand or fall together with others.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Event
+        The findings by detector.
+
+    Returns
+    -------
+    list of Event
+        The exchanges of labels, and the events of findings about several markers.
+    """
+    everything = (event for events in found.values() for event in events)
+    return [event for event in everything if event.partner or event.group]
+
+
+def concerned(event: Event, linked: Sequence[Event]) -> tuple[str, ...]:
     """The names of all markers that a finding is about.
 
     Parameters
     ----------
     event : Event
         A finding.
-    exchanges : sequence of Event
-        All label exchanges as detected.
+    linked : sequence of Event
+        All label exchanges and joint findings as detected.
 
     Returns
     -------
     tuple of str
-        The event's own marker first; for a label exchange all markers of its cycle.
+        The event's own marker first; for a label exchange all markers of its cycle, for a joint finding all of its markers.
     """
-    return tuple(one.marker for one in cycle_of(event, exchanges)) if event.partner else event.markers
+    if event.partner:
+        return tuple(one.marker for one in cycle_of(event, linked))
+    return tuple(dict.fromkeys([event.marker, *(one.marker for one in linked if one.joined_with(event))]))

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from markermend.core.artifacts import class_of
 from markermend.core.changes import TreatedRecording
 from markermend.core.decisions import Decision, protecting
 from markermend.core.events import Event, mask
@@ -29,6 +30,7 @@ from markermend.repair.candidates import CandidateMaker
 from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_exchanges
 from markermend.repair.finding_repair import repair_finding
 from markermend.repair.findings import Rulings, group_findings
+from markermend.repair.label_exchanges import linked_events
 from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
 
@@ -100,7 +102,7 @@ def repair_scene(
     """
     static = recording.facts.get("kind") == "static"
     exchanges = found.get("labels", ())
-    rulings = Rulings([] if static else [*protecting(options.protect), *decisions], exchanges)
+    rulings = Rulings([] if static else [*protecting(options.protect), *decisions], linked_events(found))
     decided = apply_decisions(recording, found, rulings.decisions)
     refusal = (
         Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(decided, rulings, options)
@@ -143,6 +145,8 @@ def _covered(recording: Recording, events: Sequence[Event]) -> np.ndarray:
 def _too_much(decided: DecidedFindings, rulings: Rulings, options: RepairOptions) -> Reason | None:
     """Why nothing is repaired that no person confirmed; None where it may be."""
     members = [(stage, event) for stage, events in decided.found.items() for event in events]
+    # Faults of the whole recording say nothing about how much of it is doubtful.
+    members = [(stage, event) for stage, event in members if class_of(stage, event).scope != "recording"]
     unconfirmed = [event for stage, event in members if not rulings.on([(stage, event)]).confirmed]
     seen = int((~decided.recording.missing).sum())
     share = _covered(decided.recording, unconfirmed).sum() / max(1, seen)
@@ -170,4 +174,4 @@ def _exchange_labels(result: Restoration, planned: Sequence[PlannedExchange]) ->
             result.exchange(exchange.cycle, exchange.ruling)
             continue
         for event in exchange.cycle:
-            result.leave(event, ["labels"], exchange.reason, exchange.ruling, blank=False)
+            result.leave(event, ("swap",), exchange.reason, exchange.ruling, blank=False)

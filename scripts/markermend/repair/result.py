@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from markermend.core.artifacts import ARTIFACTS, BY_STAGE
+from markermend.core.artifacts import class_of
 from markermend.core.changes import DECIMALS, Alternative, Change, Outcome, largest
 from markermend.core.events import Event
 from markermend.core.reasons import Reason
@@ -70,9 +70,10 @@ class Restoration:
         seen = ~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)
         rows = np.flatnonzero(seen) + event.start
         self.positions[rows, m] = proposal.positions[seen]
-        self._origin[rows, m] = ORIGINS.index(BY_STAGE[stage].name)
+        name = class_of(stage, event).name
+        self._origin[rows, m] = ORIGINS.index(name)
         self._error[rows, m] = proposal.error[seen]
-        change = _change(event, (BY_STAGE[stage].name,), Outcome.REPAIRED, ruling)
+        change = _change(event, (name,), Outcome.REPAIRED, ruling)
         self._repaired(replace(change, method=proposal.method, alternatives=alternatives(candidates)), rows)
 
     def exchange(self, cycle: Sequence[Event], ruling: Ruling) -> None:
@@ -99,7 +100,7 @@ class Restoration:
     def leave(
         self,
         event: Event,
-        stages: Collection[str],
+        classes: tuple[str, ...],
         reason: Reason,
         ruling: Ruling,
         *,
@@ -112,8 +113,8 @@ class Restoration:
         ----------
         event : Event
             The finding, or what stands for several.
-        stages : collection of str
-            The detectors that found it.
+        classes : tuple of str
+            Names of the classes that it was found to be.
         reason : Reason
             Why it was not repaired.
         ruling : Ruling
@@ -130,7 +131,6 @@ class Restoration:
             self.positions[span, m] = np.nan
             self._origin[span, m] = MISSING
             self._error[span, m] = np.nan
-        classes = tuple(artifact.name for artifact in ARTIFACTS if artifact.stage in stages)
         change = _change(event, classes, Outcome.BLANKED if blank else Outcome.LEFT, ruling)
         self._left.append(replace(change, alternatives=alternatives(candidates), samples=samples, reason=reason))
 
@@ -177,6 +177,7 @@ def _change(event: Event, classes: tuple[str, ...], outcome: Outcome, ruling: Ru
         event.axes,
         event.partner,
         decisions=ruling.texts,
+        group=event.group,
     )
 
 

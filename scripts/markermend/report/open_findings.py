@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from itertools import groupby
 
 from markermend.core.applied_changes import applied_changes
-from markermend.core.artifacts import BY_STAGE
+from markermend.core.artifacts import class_of
 from markermend.core.changes import GAP, Change, Outcome
 from markermend.core.events import Event
 from markermend.core.reasons import UNSTATED
@@ -31,10 +32,54 @@ def worst_first(measured: Recording, restored: Restored, changes: Sequence[Chang
     Returns
     -------
     list of Change
-        The changes as applied, by the larger of change and expected error.
+        The changes as applied, by the larger of change and expected error; those of a joint finding are one.
     """
-    applied = applied_changes(measured, restored, changes)
+    applied = joined(applied_changes(measured, restored, changes))
     return sorted(applied, key=lambda change: (-change.concern_mm, *_place(change)))
+
+
+def joined(changes: Iterable[Change]) -> list[Change]:
+    """Make one change of those that a finding about several markers led to.
+
+    Parameters
+    ----------
+    changes : iterable of Change
+        Changes, one for each marker.
+
+    Returns
+    -------
+    list of Change
+        The changes of single markers, then for each joint finding and outcome the change of largest concern, with the whole
+        stretch and the number of all samples.
+    """
+    each = list(changes)
+    single = [change for change in each if change.group is None]
+    together = sorted(
+        (c for c in each if c.group), key=lambda c: (c.group or "", c.classes, c.outcome, *_place(c)[::-1])
+    )
+    for _, own in groupby(together, key=lambda c: (c.group, c.classes, c.outcome)):
+        parts: list[list[Change]] = []
+        for change in own:
+            if parts and change.start < max(other.stop for other in parts[-1]):
+                parts[-1].append(change)
+            else:
+                parts.append([change])
+        single += [_joint(part) for part in parts]
+    return single
+
+
+def _joint(parts: Sequence[Change]) -> Change:
+    """One change for those of a finding about several markers."""
+    worst = max(parts, key=lambda change: change.concern_mm)
+    methods = dict.fromkeys(change.method for change in parts if change.method)
+    return replace(
+        worst,
+        start=min(change.start for change in parts),
+        stop=max(change.stop for change in parts),
+        method=", ".join(methods) or None,
+        samples=sum(change.samples for change in parts),
+        decisions=tuple(dict.fromkeys(text for change in parts for text in change.decisions)),
+    )
 
 
 def reasons_for_blanking(applied: Iterable[Change], changes: Iterable[Change]) -> dict[Change, str]:
@@ -90,7 +135,7 @@ def left_open(
         for event in events:
             if not any(overlap(other, event) for other in known.get(event.marker, ())):
                 left.append(_unaccounted(stage, event))
-    left.sort(key=lambda change: (-(change.score or 0.0), *_place(change)))
+    left = sorted(joined(left), key=lambda change: (-(change.score or 0.0), *_place(change)))
     return left + open_gaps(restored, changes)
 
 
@@ -148,13 +193,14 @@ def _unaccounted(stage: str, event: Event) -> Change:
         event.marker,
         event.start,
         event.stop,
-        (BY_STAGE[stage].name,),
+        (class_of(stage, event).name,),
         Outcome.LEFT,
         event.score,
         event.axes,
         event.partner,
         samples=event.stop - event.start,
         reason=UNSTATED,
+        group=event.group,
     )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from markermend.core.events import Event, mask
+from markermend.core.events import Event, count_findings, mask
 from markermend.core.recording import FILLED, MEASURED, MISSING, Recording, Restored, changed, gaps
 
 DIGITS = 6
@@ -96,7 +96,7 @@ def per_marker(before: Recording, after: Restored) -> list[dict[str, Any]]:
 
 
 def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:
-    """Count events and the samples that they cover.
+    """Count findings and the samples that they cover.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:
     dict of str to int
         Under the keys `events` and `samples`.
     """
-    return {"events": len(events), "samples": int(mask(events, recording.frames, recording.markers).sum())}
+    return {"events": count_findings(events), "samples": int(mask(events, recording.frames, recording.markers).sum())}
 
 
 def share(where: np.ndarray) -> float:

@@ -24,6 +24,7 @@ SCHEMA = pa.schema(
         ("score", pa.float64()),
         ("axes", pa.string()),
         ("partner", pa.string()),
+        ("group", pa.string()),
         ("method", pa.string()),
         ("alternatives", pa.list_(pa.struct([("method", pa.string()), ("expected_error_mm", pa.float64())]))),
         ("member_weights", pa.list_(pa.struct([("member", pa.string()), ("weight", pa.float64())]))),

@@ -23,6 +23,9 @@ EVENT_SCHEMA = pa.schema(
         ("score", pa.float64()),
         ("axes", pa.string()),
         ("partner", pa.string()),
+        ("kind", pa.string()),
+        ("group", pa.string()),
+        ("amount_mm", pa.float64()),
     ]
 )
 """The columns of a file of events."""

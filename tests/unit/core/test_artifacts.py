@@ -2,10 +2,11 @@
 
 import tomllib
 from dataclasses import fields
+from itertools import groupby
 from typing import get_args
 
 from markermend import api
-from markermend.core.artifacts import ARTIFACTS, BY_NAME, BY_STAGE, DETECTORS, class_name
+from markermend.core.artifacts import ARTIFACTS, BY_NAME, BY_STAGE, DETECTORS, class_of, names_of
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS
 from markermend.options.config import SECTIONS
@@ -14,8 +15,9 @@ from markermend.options.repair import USUAL_METHODS
 from support.paths import PROJECT
 
 
-def test_every_stage_and_class_is_named_once():
-    assert len({artifact.stage for artifact in ARTIFACTS}) == len({artifact.name for artifact in ARTIFACTS})
+def test_every_class_is_named_once_and_those_of_a_stage_stand_together():
+    assert len({artifact.name for artifact in ARTIFACTS}) == len(ARTIFACTS)
+    assert [stage for stage, _ in groupby(artifact.stage for artifact in ARTIFACTS)] == list(DETECTORS)
     assert tuple(BY_STAGE) == DETECTORS
     assert tuple(BY_NAME) == tuple(artifact.name for artifact in ARTIFACTS)
 
@@ -24,7 +26,8 @@ def test_every_class_is_listed_wherever_detectors_are_named():
     """Who adds a detector is told here what is still missing."""
     assert get_args(Stages) == DETECTORS
     assert [name for name in SECTIONS if name in DETECTORS] == list(DETECTORS)
-    assert tuple(USUAL_METHODS) == tuple(artifact.stage for artifact in ARTIFACTS if not artifact.unmeasured)
+    repaired = dict.fromkeys(artifact.stage for artifact in ARTIFACTS if not artifact.unmeasured)
+    assert list(USUAL_METHODS) == list(repaired)
     assert tuple(api.DETECTORS) == DETECTORS
     assert {*DETECTORS} <= {field.name for field in fields(api.Options)}
     contracts = tomllib.loads((PROJECT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
@@ -35,7 +38,7 @@ def test_every_class_is_listed_wherever_detectors_are_named():
 
 
 def test_files_are_an_interface():
-    assert [artifact.events_file for artifact in ARTIFACTS] == [
+    assert [artifact.events_file for artifact in BY_STAGE.values()] == [
         "02_labels.parquet", "02_frozen.parquet", "02_tails.parquet", "02_peaks.parquet",
         "03_noise.parquet", "04_steps.parquet", "05_slow.parquet",
     ]  # fmt: skip
@@ -47,6 +50,11 @@ def test_repaired_samples_have_the_origin_of_their_class_and_unmeasured_ones_non
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
-    kinds = [class_name(stage, Event("A", 0, 1, 1.0)) for stage in DETECTORS]
+    kinds = [class_of(stage, Event("A", 0, 1, 1.0)).name for stage in DETECTORS]
     assert kinds == ["swap", "frozen", "tail", "peak", "noise", "step", "slow"]
-    assert class_name("labels", Event("A", 0, 1, 1.0, "xyz", "B")) == "swap"
+    assert class_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")).name == "swap"
+    assert class_of("labels", Event("A", 0, 1, 1.0, kind="peak")).name == "peak"
+
+
+def test_classes_are_named_in_the_order_of_the_table():
+    assert names_of([BY_NAME["slow"], BY_NAME["swap"], BY_NAME["slow"]]) == ("swap", "slow")

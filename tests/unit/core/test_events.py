@@ -1,9 +1,11 @@
 """Findings: intervals from masks and back, sorted and disjoint per marker."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from markermend.core.events import Event, disjoint, from_mask, mask
+from markermend.core.events import Event, count_findings, disjoint, from_mask, mask
 
 MARKERS = ("A", "B")
 
@@ -38,3 +40,16 @@ def test_disjoint_merges_what_touches_and_keeps_partners_separate():
 def test_an_event_on_an_unknown_marker_is_an_error():
     with pytest.raises(KeyError):
         mask([Event("Z", 0, 1, 1.0)], 5, MARKERS)
+
+
+def test_a_finding_about_several_markers_counts_once():
+    slip = [Event(marker, 4, 7, 2.0, kind="peak", group="hand") for marker in "AB"]
+    later = [replace(event, start=9, stop=12) for event in slip]
+    assert count_findings([*later, *slip, Event("C", 4, 7, 2.0), Event("A", 20, 30, 1.0)]) == 4
+    assert slip[0].joined_with(slip[1]) and not slip[0].joined_with(later[1])
+    assert not Event("A", 0, 5, 1.0).joined_with(Event("B", 0, 5, 1.0))
+
+
+def test_events_of_other_kinds_are_not_merged():
+    parts = [Event("A", 2, 6, 2.0, kind="peak"), Event("A", 4, 9, 3.0, kind="step")]
+    assert [(event.start, event.stop, event.kind) for event in disjoint(parts)] == [(2, 6, "peak"), (6, 9, "step")]

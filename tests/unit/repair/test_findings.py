@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from markermend.core.artifacts import names_of
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.repair.findings import Finding, Rulings, group_findings
@@ -57,7 +58,7 @@ def test_findings_that_touch_are_not_one():
 
 def test_the_strongest_stands_for_all_over_the_whole_stretch():
     finding = Finding((("peaks", Event("A", 3, 5, 2.0, "x")), ("slow", Event("A", 4, 9, 7.0, "yz"))))
-    assert (finding.stage, finding.stages) == ("slow", ["peaks", "slow"])
+    assert (finding.stage, names_of(finding.classes)) == ("slow", ("peak", "slow"))
     assert finding.event == Event("A", 3, 9, 7.0, "yz")
 
 

@@ -6,7 +6,7 @@ import pytest
 from markermend.core.decisions import EVER, Decision
 from markermend.core.events import Event
 from markermend.core.recording import changed
-from markermend.repair.label_exchanges import concerned, cycle_of
+from markermend.repair.label_exchanges import concerned, cycle_of, linked_events
 from support import bodies
 from support.repairs import START, STOP, body, mend
 
@@ -142,3 +142,13 @@ def test_the_cycle_of_an_exchange():
 def test_who_is_concerned_by_a_finding():
     assert concerned(Event("2b", START, STOP, 3.0), RING) == ("2b",)
     assert concerned(RING[0], RING) == ("2b", "3a", "1a")
+
+
+def test_a_decision_on_one_marker_of_a_joint_finding_is_about_all_but_a_protection_is_about_that_marker(clean):
+    found = {"peaks": [Event(marker, *PEAK, 5.0, group="hand") for marker in ("2b", "3a")]}
+    assert concerned(found["peaks"][1], linked_events(found)) == ("3a", "2b")
+    recording = with_peak(with_peak(clean), "2b")
+    rejected = mend(recording, found, decisions=[Decision("3a", *PEAK, "reject", "peak")])
+    assert not rejected.repairs and [left.group for left in rejected.repairs_left] == ["hand", "hand"]
+    protected = mend(recording, found, protect=["3a"])
+    assert [repair.marker for repair in protected.repairs] == ["2b"]

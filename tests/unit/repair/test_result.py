@@ -64,7 +64,7 @@ def test_labels_are_exchanged_with_the_missing_samples(recording):
 def test_what_is_left_stays_or_becomes_missing(recording, blank, outcome, samples):
     reason = Reason(Cause.SEVERAL_CLASSES, "several")
     result = Restoration(recording, [], RADIUS)
-    result.leave(Event("A", 2, 6, 3.0), ["slow", "peaks"], reason, Ruling(), blank=blank)
+    result.leave(Event("A", 2, 6, 3.0), ("peak", "slow"), reason, Ruling(), blank=blank)
     restored, (change,) = result.finished()
     assert (change.classes, change.outcome, change.samples, change.reason) == (
         ("peak", "slow"),

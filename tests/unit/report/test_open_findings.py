@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
+from markermend.core.changes import Change, Outcome
 from markermend.core.reasons import UNSTATED
-from markermend.report.open_findings import left_open, open_gaps, reasons_for_blanking, worst_first
+from markermend.report.open_findings import joined, left_open, open_gaps, reasons_for_blanking, worst_first
 from support.small_result import FOUND, RECORD
 
 
@@ -29,7 +30,7 @@ def test_left_open_states_what_and_why(after, changes):
     found = [(f.kind, f.marker, f.start, f.stop, f.reason.text) for f in left]
     assert found == [
         ("peak", "C", 6, 7, "protected"),
-        ("step", "B", 8, 10, UNSTATED.text),
+        ("swap", "B", 8, 10, UNSTATED.text),
         ("gap", "B", 0, 1, UNSTATED.text),
         ("gap", "B", 6, 7, "no neighbours"),
         ("gap", "C", 9, 10, UNSTATED.text),
@@ -40,3 +41,16 @@ def test_left_open_states_what_and_why(after, changes):
 def test_gaps_are_listed_longest_first(before, after):
     restored = replace(after, positions=before.positions)
     assert [(g.marker, g.samples) for g in open_gaps(restored, RECORD)] == [("B", 3), ("C", 1)]
+
+
+def test_a_joint_finding_is_listed_once_with_its_worst_marker():
+    bare = Change(
+        "A", 3, 6, ("peak",), Outcome.REPAIRED, method="spline", samples=3, largest_change_mm=2.0, group="hand"
+    )
+    other = replace(bare, marker="B", start=4, stop=7, method="local_ridge", largest_change_mm=5.0)
+    single = replace(bare, marker="C", group=None)
+    assert joined([bare, single, other, replace(bare, start=20, stop=22, samples=2)]) == [
+        single,
+        replace(other, start=3, method="spline, local_ridge", samples=6),
+        replace(bare, start=20, stop=22, samples=2),
+    ]
