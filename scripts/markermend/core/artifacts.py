@@ -61,6 +61,14 @@ class ArtifactClass:
 ARTIFACTS = (
     ArtifactClass("labels", "swap", "exchanged labels", "markers carry each other's labels for a stretch", 2),
     ArtifactClass(
+        "labels",
+        "foreign",
+        "labels on something else",
+        "the label is not on its marker but on a reflection, on another marker, or on a marker that fell off",
+        2,
+        unmeasured="the label is not on its marker",
+    ),
+    ArtifactClass(
         "frozen",
         "frozen",
         "frozen markers",
@@ -79,7 +87,23 @@ ARTIFACTS = (
     ArtifactClass("peaks", "peak", "isolated peaks", "a few frames jump away and back", 2),
     ArtifactClass("noise", "noise", "heavy noise", "the variance of a stretch is far above the usual", 3),
     ArtifactClass("steps", "step", "steps", "a stretch is displaced, with a jump at either end", 4),
+    ArtifactClass(
+        "steps",
+        "displaced",
+        "displaced markers",
+        "from one moment on the marker sits elsewhere on its segment",
+        4,
+        reported="the marker may really sit there: move it back on request, or measure again",
+    ),
     ArtifactClass("slow", "slow", "slow drifts", "a stretch drifts away relative to the neighbours, and returns", 5),
+    ArtifactClass(
+        "slow",
+        "creep",
+        "creeping markers",
+        "the marker drifts to another place on its segment and stays there",
+        5,
+        reported="the marker may really sit there: move it back on request, or measure again",
+    ),
 )
 """All classes, in the strict order of the detectors: each looks at what those before it left."""
 

@@ -101,7 +101,7 @@ def repair_scene(
         The recording and what was done to each finding.
     """
     static = recording.facts.get("kind") == "static"
-    exchanges = found.get("labels", ())
+    exchanges = [event for event in found.get("labels", ()) if event.partner]
     rulings = Rulings([] if static else [*protecting(options.protect), *decisions], linked_events(found))
     decided = apply_decisions(recording, found, rulings.decisions)
     refusal = (
@@ -161,8 +161,9 @@ def _follow_samples(
 ) -> dict[str, Sequence[Event]]:
     """Findings under the labels that their samples have once the exchanges are carried out."""
     others = {stage: events for stage, events in found.items() if stage != "labels"}
+    foreign = [event for event in found.get("labels", ()) if event.partner is None]
     return {
-        "labels": exchanges,
+        "labels": [*exchanges, *follow(foreign, found_under=exchanges, stated_under=carried)],
         **{stage: follow(events, found_under=exchanges, stated_under=carried) for stage, events in others.items()},
     }
 

@@ -142,8 +142,12 @@ def _as_repaired(found: dict[str, list[Event]], record: Sequence[Change]) -> dic
     """Findings under the labels that their samples have after repair, which may leave an exchange of labels undone."""
     exchanged = [change for change in record if change.outcome is Outcome.EXCHANGED]
     carried = [Event(one.marker, one.start, one.stop, 1.0, partner=one.partner) for one in exchanged]
-    exchanges = found.get("labels", [])
+    exchanges = [event for event in found.get("labels", []) if event.partner]
+
+    def followed(events: list[Event]) -> list[Event]:
+        others = [event for event in events if not event.partner]
+        return follow(others, found_under=exchanges, stated_under=carried)
+
     return {
-        stage: events if stage == "labels" else follow(events, found_under=exchanges, stated_under=carried)
-        for stage, events in found.items()
+        stage: [*(event for event in events if event.partner), *followed(events)] for stage, events in found.items()
     }

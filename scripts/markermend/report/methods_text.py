@@ -140,7 +140,7 @@ def _mesh(stages: Stages, citations: Citations) -> Iterator[str]:
 
 def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     """Which artifacts were detected, where, and how they were repaired."""
-    sought = [artifact for artifact in ARTIFACTS if artifact.stage in stages and not artifact.unmeasured]
+    sought = [own for own in ARTIFACTS if own.stage in stages and not own.unmeasured and not own.reported]
     if not sought:
         return
     classes = ", ".join(artifact.plural for artifact in sought)
@@ -152,6 +152,11 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
             f"They were repaired by class{limits(stages['repair'])}; samples without a reliable repair were set to "
             "missing."
         )
+    # Published detectors look for the first class alone.
+    left = [own for own in ARTIFACTS if own.reported and stages.get(own.stage, {}).get("preset") == "default"]
+    if left:
+        text = " and ".join(artifact.plural for artifact in left)
+        yield f"{text[0].upper()}{text[1:]} were reported, and left as measured unless their repair was asked for."
 
 
 def _unmeasured(stages: Stages) -> Iterator[str]:

@@ -46,7 +46,7 @@ def test_files_are_an_interface():
 
 def test_repaired_samples_have_the_origin_of_their_class_and_unmeasured_ones_none():
     assert all(artifact.origin in ORIGINS for artifact in ARTIFACTS)
-    assert [artifact.stage for artifact in ARTIFACTS if artifact.origin == "missing"] == ["frozen", "tails"]
+    assert [artifact.name for artifact in ARTIFACTS if artifact.origin == "missing"] == ["foreign", "frozen", "tail"]
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():

@@ -68,6 +68,13 @@ def test_unmeasured_samples_and_decisions_have_a_sentence_of_their_own():
     assert "the decisions of that person took precedence" in text
 
 
+@pytest.mark.parametrize(("preset", "said"), [("default", True), ("paper", False)])
+def test_classes_that_are_left_have_a_sentence_of_their_own(preset, said):
+    text = paragraph({"steps": {"preset": preset}}, "dynamic", "1.0")["text"]
+    assert ("Displaced markers were reported, and left as measured" in text) == said
+    assert "order steps [" in text
+
+
 def test_several_presets_are_named_once_each():
     ran = {"peaks": {"preset": "default"}, "noise": {"preset": "default"}, "slow": {"preset": "coordinates"}}
     text = paragraph(ran, "dynamic", "1")["text"]
