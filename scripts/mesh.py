@@ -5,6 +5,7 @@ Writes: mesh.json.
 """
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from markermend.command.recordings import read_subject
@@ -20,7 +21,7 @@ STAGE.writes("mesh", "meshes")
 
 
 def work(call: Any) -> str:
-    recordings = read_subject(call.markers, max_frames=call.options.max_frames)
+    recordings = read_subject(call.markers, prepare=partial(inference.prepare, options=call.options))
     files = [(mesh_file.read_user_file(path), path.name) for path in call.mesh_files]
     supplied = [own for content, name in files for own in user_mesh.parse_file(content, name)]
     meshes = inference.infer_meshes(recordings, supplied=supplied, options=call.options)

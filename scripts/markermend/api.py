@@ -41,7 +41,7 @@ from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.filling.fill import fill_gaps
 from markermend.formats.ingest import ingest_file
-from markermend.mesh import inference, pair_statistics, user_mesh
+from markermend.mesh import inference, user_mesh
 from markermend.options.config import read_config
 from markermend.options.detection import (
     FrozenOptions,
@@ -249,10 +249,10 @@ def infer_mesh(
     >>> [segment.name for segment in infer_mesh([recording]).segments]  # doctest: +SKIP
     """
     own = (options or Options.read()).mesh
-    thinned = [pair_statistics.thin(recording, frames=own.max_frames) for recording in recordings]
+    prepared = [inference.prepare(recording, options=own) for recording in recordings]
     files = [(mesh_file.read_user_file(Path(path)), Path(path).name) for path in mesh_files]
     supplied = [mesh for content, name in files for mesh in user_mesh.parse_file(content, name)]
-    meshes = inference.infer_meshes(thinned, supplied=supplied, options=own)
+    meshes = inference.infer_meshes(prepared, supplied=supplied, options=own)
     if len(meshes) != 1:
         groups = "; ".join(", ".join(mesh.recordings) for mesh in meshes)
         raise ValueError(f"these recordings need {len(meshes)} meshes, infer one for each group: {groups}")

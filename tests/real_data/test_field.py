@@ -1,8 +1,10 @@
 """Files that failed once, each for its whole kind."""
 
+import numpy as np
 import pytest
 
 from markermend import api
+from markermend.core.events import Event
 
 TOO_LITTLE = [
     ("finger_tap.trc", {"Thumb", "Index"}),
@@ -22,3 +24,22 @@ def test_too_little_for_a_mesh(data, name, exchanged):
     assert len(cleaned.changes) == len(exchanged)
     named = {marker for text in cleaned.mesh.warnings for marker in text.split(": ")[-1].split(", ")}
     assert set(recording.markers) <= named
+
+
+@pytest.mark.data
+@pytest.mark.parametrize(
+    ("name", "found"), [("jump03m_found.trc", "steps"), ("jump3m.trc", "steps"), ("sentinel9999.trc", "")]
+)
+def test_a_marker_far_away(data, name, found):
+    """The marker keeps its neighbours, its stretch is found and repaired; a number such as 9999 is a missing sample."""
+    recording = api.read(data / "field" / name)
+    cleaned = api.clean(recording)
+    far = Event("R.Thigh.Upper", 75, 90, 1.0)
+    events = [
+        (stage, e.start, e.stop) for stage, own in cleaned.findings.items() for e in own if e.marker == far.marker
+    ]
+    assert events == ([(found, far.start, far.stop)] if found else [])
+    place = slice(far.start, far.stop), recording.markers.index(far.marker)
+    truth = api.read(data / "field" / "jump03m_found.trc").positions[place] - (200.0, 150.0, -200.0)
+    assert np.linalg.norm(cleaned.recording.positions[place] - truth, axis=1).max() < 6
+    assert len(cleaned.mesh.neighbours[far.marker]) == 30

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from markermend.core.recording import Recording, SetAside
-from markermend.mesh import pair_statistics
 from markermend.storage import stage_files
 
 
-def read_subject(paths: Sequence[Path], *, max_frames: int) -> list[Recording]:
-    """Read the recordings of a subject, thinned, so that many fit into memory.
+def read_subject(paths: Sequence[Path], *, prepare: Callable[[Recording], Recording]) -> list[Recording]:
+    """Read the recordings of a subject, each prepared before the next is read, so that many fit into memory.
 
     Parameters
     ----------
     paths : sequence of Path
         01_markers.parquet of each recording, in a folder of the recording's name.
-    max_frames : int
-        Frames of each that are kept, at most.
+    prepare : callable
+        Makes of each recording what is kept of it.
 
     Returns
     -------
@@ -40,7 +39,7 @@ def read_subject(paths: Sequence[Path], *, max_frames: int) -> list[Recording]:
             aside = note
             continue
         facts = {"recording": path.parent.name, **recording.facts}
-        recordings.append(pair_statistics.thin(replace(recording, facts=facts), frames=max_frames))
+        recordings.append(prepare(replace(recording, facts=facts)))
     if not recordings and aside is not None:
         raise aside
     return recordings

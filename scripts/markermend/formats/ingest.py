@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from markermend.core.recording import BadRecording, Recording
-from markermend.formats import files
+from markermend.formats import files, units
+from markermend.formats.placeholders import find_placeholders
 from markermend.formats.reading import Reading
 from markermend.options.ingest import IngestOptions
 from markermend.storage.atomic import sha256
@@ -91,6 +92,7 @@ def ingest(
     BadRecording
         If no marker was ever seen, or the rate is impossible.
     """
+    reading = _without_placeholders(reading, min_distance_mm=options.min_placeholder_distance_mm)
     markers = reading.recording
     _check_usable(reading, source)
     warnings = list(reading.warnings)
@@ -115,6 +117,25 @@ def ingest(
         "model_outputs": list(reading.model_outputs),
     }
     return replace(markers, facts=facts)
+
+
+def _without_placeholders(reading: Reading, *, min_distance_mm: float) -> Reading:
+    """A reading in which numbers that stand for missing samples are missing, with a warning that names their markers."""
+    recording = reading.recording
+    placeholder = find_placeholders(recording.positions, min_distance_mm=min_distance_mm)
+    if not placeholder.any():
+        return reading
+    numbers = np.unique(recording.positions[placeholder][:, 0] / units.MILLIMETRES[reading.unit])
+    written = ", ".join(f"{number:.10g}" for number in numbers.tolist())
+    names = ", ".join(recording.markers[m] for m in np.flatnonzero(placeholder.any(axis=0)))
+    count = int(placeholder.sum())
+    text = f"{count} samples are {written} in all three coordinates and count as missing: {names}."
+    return replace(
+        reading,
+        recording=replace(recording, positions=np.where(placeholder[..., None], np.nan, recording.positions)),
+        missing={**reading.missing, "placeholder": count},
+        warnings=(*reading.warnings, text),
+    )
 
 
 def recording_kind(recording: Recording, *, name: str, kind: str, options: IngestOptions) -> tuple[str, str]:

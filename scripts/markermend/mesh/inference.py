@@ -8,7 +8,8 @@ import numpy as np
 
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.mesh.pair_statistics import PairStatistics, pair_statistics, recording_name
+from markermend.mesh.continuity import without_displaced_samples
+from markermend.mesh.pair_statistics import PairStatistics, pair_statistics, recording_name, thin
 from markermend.mesh.segment_summary import Excitation, SegmentSummary, assess_excitation, named, rank_markers
 from markermend.mesh.segment_tree import Skeleton, infer_skeleton
 from markermend.mesh.user_mesh import UserMesh
@@ -56,13 +57,32 @@ def group_recordings(recordings: Sequence[Recording], *, marker_overlap: float) 
     return [sorted(group, key=recording_name) for group in groups]
 
 
+def prepare(recording: Recording, *, options: MeshOptions) -> Recording:
+    """Give what a mesh is inferred from: a recording without displaced samples, thinned, so that many fit into memory.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording at its full rate; it is not modified.
+    options : MeshOptions
+        Number of frames, and what a displaced sample is.
+
+    Returns
+    -------
+    Recording
+        At most `max_frames` frames, NaN where a marker is missing or displaced.
+    """
+    continuous = without_displaced_samples(recording, min_jump_mm=options.min_jump_mm, jump_factor=options.jump_factor)
+    return thin(continuous, frames=options.max_frames)
+
+
 def infer_meshes(recordings: Sequence[Recording], *, supplied: Sequence[UserMesh], options: MeshOptions) -> list[Mesh]:
     """Infer one mesh for each group of recordings with similar marker sets.
 
     Parameters
     ----------
     recordings : sequence of Recording
-        All recordings of a subject; their order does not matter.
+        All recordings of a subject as `prepare` gives them; their order does not matter.
     supplied : sequence of UserMesh
         Meshes of the user. One serves the recordings whose markers it overlaps by at least `min_marker_overlap`; where
         several do, the one that overlaps most, then the first.

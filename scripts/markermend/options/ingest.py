@@ -36,3 +36,7 @@ class IngestOptions:
     """A recording is static if nine markers in ten move by less than this.
 
     Change it when a static recording is taken for a dynamic one, or the reverse."""
+
+    min_placeholder_distance_mm: Millimetres = 1000
+    """A number that stands in all three coordinates of several samples, such as 9999, counts as missing if it is farther than
+    this from all other samples along some axis."""

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from markermend.options.declaration import (
     CountOrNone,
+    Factor,
     Laboratory,
     Millimetres,
     NotNegative,
@@ -30,6 +31,13 @@ class MeshOptions:
 
     min_frames: CountOrNone = 60
     """Frames on which a marker, or both markers of a pair, must be seen."""
+
+    min_jump_mm: Millimetres = 300
+    """Samples that a marker reaches and leaves in jumps of at least this length are left out, such as ghosts and numbers that
+    stand for missing samples."""
+
+    jump_factor: Factor = 3
+    """Shortest such jump, where it is longer, as a multiple of a fast step (which 9 of 10 steps of all markers do not exceed)."""
 
     reference_distance_mm: Millimetres = 300
     """Distance between two markers that scales their dissimilarity (deviation * distance / this)."""

@@ -61,6 +61,15 @@ def test_a_marker_that_was_never_seen_stays_with_a_warning():
     assert result.facts["warnings"] == ["Never seen: M4."]
 
 
+def test_numbers_that_stand_for_missing_samples_are_missing():
+    recording = moving()
+    recording.positions[20:35, 2] = 9999.0
+    result = ingested(replace(reading_of(recording, missing={"residual": 3}), unit="cm"))
+    assert np.flatnonzero(result.missing[:, 2]).tolist() == list(range(20, 35)) and result.missing.sum() == 15
+    assert result.facts["missing"] == {"residual": 3, "placeholder": 15}
+    assert result.facts["warnings"] == ["15 samples are 999.9 in all three coordinates and count as missing: M2."]
+
+
 def test_no_marker_ever_seen():
     recording = moving()
     recording.positions[:] = np.nan
