@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from markermend.command.stage import Stage
-from markermend.core.applied_changes import applied_changes
 from markermend.core.originals import find_originals
 from markermend.core.recording import Recording, Restored, SetAside
+from markermend.core.written import written_changes
 from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.formats.text import trc
@@ -36,13 +36,16 @@ def work(call: Any) -> str:
     measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
     certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
-    changes = applied_changes(measured, restored, change_file.read(call.record))
-    atomic.write_text(call.changes, change_table(changes, restored))
-    originals_file.write(call.originals, find_originals(measured, restored, changes), call.facts)
+    written = written_changes(measured, restored, change_file.read(call.record), certificate["refused"])
+    atomic.write_text(call.changes, change_table([*written.applied, *written.refused], restored))
+    originals = find_originals(measured, written.recording, written.applied)
+    originals_file.write(call.originals, originals, call.facts)
     for path in call.trc:
         trc.write_new(path, recording=restored)
     atomic.write_json(call.certificate, certificate)
-    return f"{certificate['changed_samples']} samples changed in {len(changes)} places, every other byte equal"
+    refused = f", {len(certificate['refused'])} refused" if certificate["refused"] else ""
+    places = f"{certificate['changed_samples']} samples changed in {len(written.applied)} places"
+    return f"{places}{refused}, every other byte equal"
 
 
 def set_aside(call: Any, note: SetAside) -> None:

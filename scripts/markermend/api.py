@@ -23,13 +23,13 @@ from typing import TYPE_CHECKING, Any
 from markermend.command import detector
 from markermend.command.presets import Published
 from markermend.core import decisions as core_decisions
-from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Change, TreatedRecording
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.originals import find_originals
 from markermend.core.recording import ORIGINS, Recording, Restored
+from markermend.core.written import written_changes
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
@@ -461,11 +461,11 @@ def write(
     if Path(path).suffix.lower() != Path(original).suffix.lower():
         raise ValueError(f"the copy has the format of the original: name it *{Path(original).suffix}")
     certificate = write_back.write_cleaned(Path(original), Path(path), cleaned.measured, cleaned.recording)
-    applied = applied_changes(cleaned.measured, cleaned.recording, cleaned.changes)
+    written = written_changes(cleaned.measured, cleaned.recording, cleaned.changes, certificate["refused"])
     if changes is not None:
-        atomic.write_text(Path(changes), change_table(applied, cleaned.recording))
+        atomic.write_text(Path(changes), change_table([*written.applied, *written.refused], cleaned.recording))
     if originals is not None:
-        values = find_originals(cleaned.measured, cleaned.recording, applied)
+        values = find_originals(cleaned.measured, written.recording, written.applied)
         originals_file.write(Path(originals), values, {"stage": "export"})
     return certificate
 

@@ -43,3 +43,18 @@ def test_a_marker_far_away(data, name, found):
     truth = api.read(data / "field" / "jump03m_found.trc").positions[place] - (200.0, 150.0, -200.0)
     assert np.linalg.norm(cleaned.recording.positions[place] - truth, axis=1).max() < 6
     assert len(cleaned.mesh.neighbours[far.marker]) == 30
+
+
+@pytest.mark.data
+def test_samples_that_the_file_cannot_hold_are_refused(data, tmp_path):
+    """HEADZ is outside of what the file's integers can state, and was written with the sign turned round."""
+    source = data / "field" / "two_persons.c3d"
+    cleaned = api.clean(api.read(source), options=api.Options.read({"detect": ["steps"]}))
+    table = tmp_path / "changes.tsv"
+    certificate = api.write(cleaned, source, tmp_path / "cleaned.c3d", changes=table)
+    assert certificate["changed_samples"] == 0 and len(certificate["refused"]) == 10
+    ((_, marker, first, last, *_, method, samples),) = [
+        line.split("\t")[:12] for line in table.read_text().splitlines()[1:]
+    ]
+    assert (marker, int(first), int(last), method, int(samples)) == ("Human1:HEADZ", 963, 972, "refused", 10)
+    assert source.read_bytes() == (tmp_path / "cleaned.c3d").read_bytes()

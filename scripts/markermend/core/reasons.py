@@ -28,6 +28,8 @@ class Cause(StrEnum):
     """No method is wanted, or none can be applied."""
     REPORTED = "reported"
     """Such findings are reported and left, unless a person accepts them."""
+    NUMBER_FORMAT = "number format"
+    """The file cannot hold the new samples."""
     NEVER_SEEN = "never seen"
     SELDOM_SEEN = "seldom seen"
     AT_END = "at an end"

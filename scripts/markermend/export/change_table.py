@@ -20,13 +20,17 @@ FILLED_GAP = "filled"
 """What the column `class` says of a gap that was filled."""
 
 
+REFUSED = "refused"
+"""What the column `method` says of a change that the number format of the file cannot hold: its samples stay as measured."""
+
+
 def change_table(changes: Iterable[Change], recording: Recording) -> str:
     """Write the table of changes.
 
     Parameters
     ----------
     changes : sequence of Change
-        The changes as applied, in the order of the rows.
+        The changes in the order of the rows, as applied or, with the outcome `left`, refused by the file's format.
     recording : Recording
         The recording, whose name, rate and numbering of frames the table uses.
 
@@ -45,7 +49,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
 
 def _row(change: Change, recording: Recording) -> dict[str, Any]:
     """One row of the table. Axes and partner are stated of repairs alone: what was taken away concerns all axes."""
-    repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED)
+    repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED, Outcome.LEFT)
     alternatives = sorted(change.alternatives, key=lambda other: other.method)
     return {
         "recording": recording.facts.get("recording", ""),
@@ -58,7 +62,7 @@ def _row(change: Change, recording: Recording) -> dict[str, Any]:
         "score": _figure(change.score),
         "axes": change.axes if repaired else "",
         "partner": (change.partner or "") if repaired else "",
-        "method": change.method or change.outcome,
+        "method": REFUSED if change.outcome is Outcome.LEFT else change.method or change.outcome,
         "samples": change.samples,
         "largest_change_mm": _figure(change.largest_change_mm),
         "expected_error_mm": _figure(change.expected_error_mm),

@@ -12,6 +12,7 @@ from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.core.written import written_changes
 from markermend.report.decision_outcomes import DecisionOutcome, outcomes
 from markermend.report.open_findings import left_open, worst_first
 from markermend.storage import change_file, stage_files
@@ -51,7 +52,7 @@ class Evidence:
     Attributes
     ----------
     before, after : Recording
-        As ingested, and after repair and filling.
+        As ingested, and after repair and filling as the file holds it.
     mesh : Mesh
         The subject's mesh, for this recording.
     found : dict[str, list[Event]]
@@ -123,7 +124,9 @@ def read_evidence(call: QcCall) -> Evidence:
     }
     record = change_file.read(call.changes)
     found = _as_repaired(found, record)
-    changes = worst_first(before, after, record)
+    written = written_changes(before, after, record, certificate["refused"])
+    after, record = written.recording, (*record, *written.refused)
+    changes = worst_first(written.applied)
     steps = [before.facts, meshes.get("facts", {}), *facts_found, stage_files.read_facts(call.repaired), after.facts]
     return Evidence(
         before=before,

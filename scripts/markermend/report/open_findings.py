@@ -9,33 +9,27 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from markermend.core.applied_changes import applied_changes
 from markermend.core.artifacts import class_of
 from markermend.core.changes import GAP, Change, Outcome
 from markermend.core.events import Event
 from markermend.core.reasons import UNSTATED
-from markermend.core.recording import Recording, Restored, gaps
+from markermend.core.recording import Recording, gaps
 
 
-def worst_first(measured: Recording, restored: Restored, changes: Sequence[Change]) -> list[Change]:
-    """List the changes that are found in the result, worst first.
+def worst_first(applied: Iterable[Change]) -> list[Change]:
+    """Sort the changes that are found in the result, worst first.
 
     Parameters
     ----------
-    measured : Recording
-        The recording as ingested.
-    restored : Restored
-        The recording after repair and filling.
-    changes : sequence of Change
-        What repair and filling did to each stretch.
+    applied : iterable of Change
+        The changes as applied.
 
     Returns
     -------
     list of Change
-        The changes as applied, by the larger of change and expected error; those of a joint finding are one.
+        The changes by the larger of change and expected error; those of a joint finding are one.
     """
-    applied = joined(applied_changes(measured, restored, changes))
-    return sorted(applied, key=lambda change: (-change.concern_mm, *_place(change)))
+    return sorted(joined(applied), key=lambda change: (-change.concern_mm, *_place(change)))
 
 
 def joined(changes: Iterable[Change]) -> list[Change]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import qc
+from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Change
 from markermend.core.recording import FILLED, MISSING, Recording, Restored
 from markermend.report.open_findings import worst_first
@@ -38,7 +39,7 @@ def after(before: Recording) -> Restored:
 
 @pytest.fixture
 def changes(before: Recording, after: Restored) -> list[Change]:
-    return worst_first(before, after, RECORD)
+    return worst_first(applied_changes(before, after, RECORD))
 
 
 @pytest.fixture(scope="module")

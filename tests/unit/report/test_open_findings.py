@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Change, Outcome
 from markermend.core.reasons import UNSTATED
 from markermend.report.open_findings import joined, left_open, open_gaps, reasons_for_blanking, worst_first
@@ -22,7 +23,7 @@ def test_changes_are_listed_worst_first(changes):
 
 def test_a_recording_that_nothing_was_done_to_has_no_changes(before, after):
     unchanged = replace(after, positions=before.positions)
-    assert worst_first(before, unchanged, []) == [] and reasons_for_blanking([], []) == {}
+    assert worst_first(applied_changes(before, unchanged, [])) == [] and reasons_for_blanking([], []) == {}
 
 
 def test_left_open_states_what_and_why(after, changes):

@@ -102,3 +102,23 @@ def test_qc_starts_fast_without_the_plotting_package():
     scripts = Path(qc.__file__).parent
     out = subprocess.run([sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True)
     assert out.stdout.strip() == "[]"
+
+
+def test_what_the_file_could_not_hold_is_left_and_not_counted_as_changed(contaminated, made, tmp_path):
+    before, after = (
+        stage_files.read_recording(made.folder / f"{name}.parquet") for name in ("01_markers", "07_filled")
+    )
+    record = change_file.read(made.folder / "07_changes.parquet")
+    results = report_files.write(tmp_path, before, Treated(**vars(after), changes=record), contaminated.events)
+    step = next(change for change in record if change.method == "local_ridge")
+    frames = [before.first_frame + row for row in range(step.start, step.stop)]
+    certificate = json.loads((results.folder / "certificate.json").read_text())
+    certificate["refused"] = [{"marker": step.marker, "frame": frame} for frame in frames]
+    atomic.write_json(results.folder / "certificate.json", certificate)
+    qc.main(results.qc())
+    whole, summary = made.summary, results.summary
+    assert whole["changed_samples"] - summary["changed_samples"] == len(frames)
+    assert whole["repaired"]["events"] - summary["repaired"]["events"] == 1
+    assert summary["findings_open"]["events"] - whole["findings_open"]["events"] == 1
+    assert f"{len(frames)} changed samples do not fit the file's number format" in summary["warnings"][-1]
+    assert "the number format of the file cannot hold the new samples" in Page(results.page).text
