@@ -27,7 +27,10 @@ def work(call: Any) -> str:
     meshes = inference.infer_meshes(recordings, supplied=supplied, options=call.options)
     call.facts["inputs"]["markers"].sort()
     mesh_file.write(call.mesh, meshes, call.facts)
-    return "; ".join(f"{len(m.segments)} segments of {len(m.markers)} markers" for m in meshes)
+    little = (
+        f"; too little motion: {', '.join(lacks)}" if (lacks := [text for own in meshes for text in own.lacks]) else ""
+    )
+    return "; ".join(f"{len(m.segments)} segments of {len(m.markers)} markers" for m in meshes) + little
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -14,7 +14,7 @@ numpy, or set OMP_NUM_THREADS to 1.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
@@ -29,6 +29,7 @@ from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.originals import find_originals
 from markermend.core.recording import ORIGINS, Recording, Restored
+from markermend.core.unjudged import unjudged_markers, unjudged_warnings
 from markermend.core.written import written_changes
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
@@ -158,6 +159,8 @@ class Cleaned:
         What each detector found.
     changes : sequence of Change
         The outcome of each finding and each gap, or why nothing was done.
+    unjudged : mapping of str to str
+        Why a marker could not be judged but for its labels, by marker.
     """
 
     measured: Recording
@@ -165,6 +168,12 @@ class Cleaned:
     mesh: Mesh
     findings: Mapping[str, list[Event]]
     changes: Sequence[Change]
+    unjudged: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a person should know, one sentence each: of the file, of the mesh, and of markers that could not be judged."""
+        return [*self.measured.facts.get("warnings", ()), *self.mesh.warnings, *unjudged_warnings(self.unjudged)]
 
 
 def read(
@@ -413,7 +422,13 @@ def clean(
     mesh = infer_mesh([recording], options=options) if mesh is None else mesh
     findings = detect(recording, mesh, options)
     filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
-    return Cleaned(recording, filled.recording, mesh, findings, filled.changes)
+    unjudged = unjudged_markers(
+        recording,
+        mesh_of(recording, mesh),
+        min_frames=options.mesh.min_frames,
+        min_neighbours=options.mesh.min_predictors,
+    )
+    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged)
 
 
 def write(

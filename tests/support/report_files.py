@@ -127,7 +127,9 @@ def write(
     )
     nobody: dict[str, tuple[str, ...]] = dict.fromkeys(order, ())
     body = Mesh((name,), order, segments, nobody, nobody, **mesh_parts)
-    mesh_file.write(folder.parent / "mesh.json", [body], {"stage": "mesh", "options": {"cut_mm": 12.0}})
+    mesh_file.write(
+        folder.parent / "mesh.json", [body], {"stage": "mesh", "options": {"min_frames": 1, "min_predictors": 0}}
+    )
     change_file.write(folder / "07_changes.parquet", after.changes, {"stage": "fill"})
     applied = applied_changes(before, after, after.changes)
     atomic.write_text(folder / "changes.tsv", change_table(applied, after))

@@ -68,7 +68,9 @@ class Mesh:
     neighbours : dict[str, tuple[str, ...]]
         For each marker the others of its component, nearest first.
     warnings : tuple of str
-        One sentence each.
+        How a supplied mesh differs from the recordings, one sentence each.
+    lacks : tuple of str
+        What the motion of these recordings has so little of that segments may be wrong.
     absent : dict[str, tuple[str, ...]]
         By recording, the markers that it does not hold.
     distances : dict[str, dict[str, tuple[float, float, float]]]
@@ -82,6 +84,7 @@ class Mesh:
     predictors: dict[str, tuple[str, ...]]
     neighbours: dict[str, tuple[str, ...]]
     warnings: tuple[str, ...] = ()
+    lacks: tuple[str, ...] = ()
     absent: dict[str, tuple[str, ...]] = field(default_factory=dict)
     distances: dict[str, dict[str, tuple[float, float, float]]] = field(default_factory=dict)
 
@@ -222,6 +225,7 @@ def from_json(entry: dict[str, Any]) -> Mesh:
         predictors={marker: tuple(names) for marker, names in entry["predictors"].items()},
         neighbours={marker: tuple(names) for marker, names in entry["neighbours"].items()},
         warnings=tuple(entry["warnings"]),
+        lacks=tuple(entry.get("lacks", ())),
         absent={name: tuple(names) for name, names in entry.get("absent", {}).items()},
         distances={
             first: {

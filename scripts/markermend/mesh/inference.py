@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -124,7 +124,7 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
     Returns
     -------
     Mesh
-        Segments, predictors and neighbours of every marker, and what the recordings lack.
+        Segments, predictors and neighbours of every marker, and what the motion lacks.
 
     References
     ----------
@@ -143,19 +143,15 @@ def infer_mesh(recordings: Sequence[Recording], *, options: MeshOptions, supplie
     predictors, neighbours = rank_markers(
         skeleton, dissimilarity, min_predictors=options.min_predictors, max_neighbours=options.max_neighbours
     )
-    lacks = excitation.warnings if supplied is None else ()
+    little = supplied is None and excitation.share < options.min_excitation_share
     return Mesh(
         recordings=tuple(sorted(recording_name(recording) for recording in recordings)),
         markers=tuple(markers),
         segments=summary.segments(),
         predictors=named(predictors, markers),
         neighbours=named(neighbours, markers),
-        warnings=(
-            *_seldom_seen(statistics, options.min_frames),
-            *_few_neighbours(statistics.markers, neighbours, options.min_predictors),
-            *remarks,
-            *lacks,
-        ),
+        warnings=tuple(remarks),
+        lacks=excitation.lacks if little else (),
         absent={recording_name(own): lacking for own in recordings if (lacking := _absent(own, markers))},
         distances=usual_distances(
             recordings,
@@ -193,20 +189,6 @@ def _excitation(statistics: PairStatistics, skeleton: Skeleton, options: MeshOpt
         markers=int(np.count_nonzero(statistics.valid >= options.min_frames)),
         options=options,
     )
-
-
-def _seldom_seen(statistics: PairStatistics, min_frames: int) -> list[str]:
-    """A warning that names the markers with too little data."""
-    names = [statistics.markers[m] for m in np.flatnonzero(statistics.valid < min_frames)]
-    return [f"seen on fewer than {min_frames} frames: {', '.join(names)}"] if names else []
-
-
-def _few_neighbours(markers: Sequence[str], neighbours: Mapping[int, Sequence[int]], min_neighbours: int) -> list[str]:
-    """A warning that names the markers of segments that too few neighbours predict."""
-    names = [markers[m] for m, own in sorted(neighbours.items()) if len(own) < min_neighbours]
-    if not names:
-        return []
-    return [f"with fewer than {min_neighbours} neighbours, so that only their labels can be judged: {', '.join(names)}"]
 
 
 def _absent(recording: Recording, markers: Sequence[str]) -> tuple[str, ...]:

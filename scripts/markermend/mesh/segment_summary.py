@@ -13,9 +13,6 @@ from markermend.mesh.pair_statistics import DECIMALS, PairStatistics
 from markermend.mesh.segment_tree import Skeleton
 from markermend.options.mesh import MeshOptions
 
-ADVICE = "record a range-of-motion trial or supply a mesh"
-"""What to do about a recording without enough motion."""
-
 
 @dataclass(frozen=True)
 class Excitation:
@@ -25,12 +22,12 @@ class Excitation:
     ----------
     share : float
         The least of the quantities below as a share of what is wanted, 0 to 1.
-    warnings : tuple of str
-        What is too little, and what to do about it.
+    lacks : tuple of str
+        What there is too little of.
     """
 
     share: float
-    warnings: tuple[str, ...]
+    lacks: tuple[str, ...]
 
 
 def assess_excitation(statistics: PairStatistics, *, segments: int, markers: int, options: MeshOptions) -> Excitation:
@@ -48,21 +45,21 @@ def assess_excitation(statistics: PairStatistics, *, segments: int, markers: int
     Returns
     -------
     Excitation
-        The share of what is wanted, and a warning for each lack.
+        The share of what is wanted, and what there is too little of.
     """
     known = np.triu(~np.isnan(statistics.deviation), k=1)
     deviation = float(np.median(statistics.deviation[known])) if known.any() else 0.0
     min_seconds, min_deviation = options.min_excitation_s, options.min_excitation_mm
     wanted = markers / options.max_markers_per_segment
-    warnings = []
+    lacks = []
     if statistics.seconds < min_seconds:
-        warnings.append(f"only {statistics.seconds:.1f} s of motion ({min_seconds:g} s wanted): {ADVICE}")
+        lacks.append(f"only {statistics.seconds:.1f} s of motion ({min_seconds:g} s wanted)")
     if segments < wanted:
-        warnings.append(f"only {segments} segments for {markers} markers ({math.ceil(wanted)} wanted): {ADVICE}")
+        lacks.append(f"only {segments} segments for {markers} markers ({math.ceil(wanted)} wanted)")
     if deviation < min_deviation:
-        warnings.append(f"distances vary by only {deviation:.0f} mm ({min_deviation:g} mm wanted): {ADVICE}")
+        lacks.append(f"distances vary by only {deviation:.0f} mm ({min_deviation:g} mm wanted)")
     share = min(1.0, statistics.seconds / min_seconds, segments / max(wanted, 1.0), deviation / min_deviation)
-    return Excitation(share, tuple(warnings))
+    return Excitation(share, tuple(lacks))
 
 
 @dataclass(frozen=True)

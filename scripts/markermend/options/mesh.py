@@ -14,6 +14,7 @@ from markermend.options.declaration import (
     Planned,
     PositiveMillimetres,
     Seconds,
+    Share,
 )
 
 
@@ -68,13 +69,16 @@ class MeshOptions:
     """Recordings in which a distance varies more than in most weigh less in its usual value, but for variation below this."""
 
     min_excitation_s: Seconds = 10
-    """A shorter duration of motion gives a warning."""
+    """Duration of motion that is wanted."""
 
     min_excitation_mm: Millimetres = 30
-    """A smaller median deviation of the distances between markers gives a warning."""
+    """Median deviation of the distances between markers that is wanted."""
 
     max_markers_per_segment: NotNegative = 6
-    """More markers per segment than this give a warning."""
+    """Markers per segment, at most, that are wanted."""
+
+    min_excitation_share: Share = 0.5
+    """The report advises a range-of-motion trial for subjects of whose wanted motion there is less than this share (0 to 1)."""
 
     min_marker_overlap: NotNegative = 0.8
     """Recordings that share at least this part of their markers are pooled (0 to 1)."""

@@ -24,6 +24,9 @@ class AttentionOptions:
     open: NotNegative = 1
     """Points for each artifact that was found but not repaired."""
 
+    unjudged: NotNegative = 1
+    """Points for each marker that no detector could judge, since it has too few neighbours or is too seldom seen."""
+
     warning: NotNegative = 1
     """Points for each warning."""
 

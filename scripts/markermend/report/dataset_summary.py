@@ -11,8 +11,8 @@ from markermend.planning.run_summary import STATUSES
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
     "missing_share_before", "missing_share_after", "changed_samples", "changed_share", "repaired", "blanked",
-    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm", "warnings",
-    "attention", "page",
+    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm", "unjudged",
+    "warnings", "attention", "page",
 )  # fmt: skip
 """The columns of summary.tsv."""
 
@@ -104,6 +104,37 @@ def totals(entries: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         "missing_share_after": share("missing_share_after"),
         **{key: sum(entry[key]["events"] for entry in done) for key in COUNTED},
     }
+
+
+ADVICE = "record a range-of-motion trial or supply a mesh"
+"""What to do about a subject who moved too little for the segments to be inferred."""
+
+
+def motion_advice(entries: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Advise on the subjects who moved too little for their body mesh, where it matters.
+
+    Parameters
+    ----------
+    entries : Sequence[Mapping[str, Any]]
+        Summaries of recordings.
+
+    Returns
+    -------
+    dict of str to str
+        By subject what the motion lacks and what to do about it, for subjects in whose recordings anything was found, is
+        missing, or could not be judged.
+    """
+    lacks: dict[str, dict[str, None]] = {}
+    for entry in entries:
+        judged = entry["status"] not in ("set aside", "static")
+        if judged and (entry["missing_share_before"] or entry["unjudged"] or _found(entry)):
+            lacks.setdefault(entry["subject"], {}).update(dict.fromkeys(entry["motion_lacks"]))
+    return {subject: f"{', '.join(own)}: {ADVICE}" for subject, own in sorted(lacks.items()) if own}
+
+
+def _found(entry: Mapping[str, Any]) -> bool:
+    """Whether a detector found anything in a recording."""
+    return any(findings["events"] for findings in entry["findings"].values())
 
 
 def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -12,6 +13,7 @@ from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.core.unjudged import unjudged_markers, unjudged_warnings
 from markermend.core.written import written_changes
 from markermend.report.decision_outcomes import DecisionOutcome, outcomes
 from markermend.report.open_findings import left_open, worst_first
@@ -82,10 +84,20 @@ class Evidence:
         """The outcomes of a person's decisions."""
         return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
 
+    @cached_property
+    def unjudged(self) -> dict[str, str]:
+        """The markers that no detector could judge, and why; none where no detector ran."""
+        mesh = self.stages.get("mesh", {})
+        if not set(self.found) - {"labels"}:
+            return {}
+        return unjudged_markers(
+            self.before, self.mesh, min_frames=mesh["min_frames"], min_neighbours=mesh["min_predictors"]
+        )
+
     @property
     def warnings(self) -> list[str]:
-        """Warnings of ingest, mesh and export, and of decisions that did nothing."""
-        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings]
+        """Warnings of ingest, mesh and export, of markers not judged, and of decisions that did nothing."""
+        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings, *unjudged_warnings(self.unjudged)]
         if refused := self.certificate["refused"]:
             warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
         return warnings + [outcome.warning for outcome in self.decided if outcome.warning]

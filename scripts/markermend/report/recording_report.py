@@ -46,10 +46,11 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         changes=seen.changes,
         left=seen.left,
         warnings=seen.warnings,
+        unjudged=list(seen.unjudged),
     )
     summary = report_summary.with_attention(summary, weights)
     methods = paragraph(seen.stages, summary["kind"], __version__)
-    return {**summary, "decisions": len(seen.decided), "methods": methods}
+    return {**summary, "motion_lacks": list(seen.mesh.lacks), "decisions": len(seen.decided), "methods": methods}
 
 
 def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markermend import __version__
 from markermend.core.artifacts import ARTIFACTS, DETECTORS
 from markermend.planning.run_summary import STATUSES
-from markermend.report.dataset_summary import distinct_methods, ordered, totals
+from markermend.report.dataset_summary import distinct_methods, motion_advice, ordered, totals
 from markermend.report.methods_text import REFERENCES
 from markermend.report.template_filters import FILTERS
 
@@ -83,6 +83,7 @@ def index(summaries: Sequence[Mapping[str, Any]]) -> str:
         aside=[entry for entry in entries if entry["status"] == "set aside"],
         total=totals(entries),
         subjects={name: totals([entry for entry in entries if entry["subject"] == name]) for name in names},
+        advice=motion_advice(entries),
         texts=distinct_methods(entries),
         statuses=STATUSES,
         references=REFERENCES,

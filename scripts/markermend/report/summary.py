@@ -28,6 +28,7 @@ def summarize(
     changes: Sequence[Change],
     left: Sequence[Change],
     warnings: Sequence[str],
+    unjudged: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Summarize one recording; `with_attention` adds the score of its need of attention.
 
@@ -41,6 +42,8 @@ def summarize(
         What was changed and what was not; an artifact that a person left is not open.
     warnings : sequence of str
         What the stages warned of.
+    unjudged : sequence of str
+        The markers that no detector could judge.
 
     Returns
     -------
@@ -69,6 +72,7 @@ def summarize(
         },
         "largest_change_mm": largest_change(before, after),
         **expected_errors(after, differs & ~after.missing),
+        "unjudged": list(unjudged),
         "warnings": [*warnings, *inconsistent_origins(before, after)],
     }
 
@@ -172,8 +176,8 @@ def attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str
         Of the recording.
     weights : AttentionOptions
         Points per percent of the samples changed (`changed_percent`), per percent still missing (`missing_percent`),
-        per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`) and per warning
-        (`warning`).
+        per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`), per marker
+        that no detector could judge (`unjudged`) and per warning (`warning`).
 
     Returns
     -------
@@ -185,6 +189,7 @@ def attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str
         "missing": weights.missing_percent * 100 * summary["missing_share_after"],
         "expected error": weights.error_mm * (summary["expected_error_max_mm"] or 0.0),
         "artifacts left": weights.open * summary["findings_open"]["events"],
+        "markers not judged": weights.unjudged * len(summary["unjudged"]),
         "warnings": weights.warning * len(summary["warnings"]),
     }
     return {name: round(value, 3) for name, value in points.items()}

@@ -72,10 +72,7 @@ def test_markers_that_the_mesh_does_not_name_are_attached_to_the_nearest(body):
     assert (extra[("beside",)].component, extra[("far",)].component) == (0, 1)
     assert mesh.predictors["beside"][0] == names[-1]
     assert len(mesh.predictors["beside"]) == OPTIONS.min_predictors
-    assert mesh.warnings == (
-        "with fewer than 3 neighbours, so that only their labels can be judged: far",
-        "not named in the mesh file, attached to the nearest marker: beside, far",
-    )
+    assert mesh.warnings == ("not named in the mesh file, attached to the nearest marker: beside, far",)
 
 
 def test_markers_and_segments_that_no_recording_holds_are_left_out(body):

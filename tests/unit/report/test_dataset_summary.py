@@ -44,3 +44,29 @@ def test_methods_are_listed_once_for_equal_steps(made):
     texts = dataset_summary.distinct_methods([base, static, base])
     assert [text["recordings"] for text in texts] == [2, 1]
     assert "isolated peaks" in texts[0]["text"] and "at most 2 s" in texts[0]["text"]
+
+
+def test_a_subject_who_moved_too_little_is_advised_once_and_only_where_it_matters(made):
+    nothing = {
+        "findings": {},
+        "missing_share_before": 0.0,
+        "unjudged": [],
+        "motion_lacks": ["only 2.0 s of motion (10 s wanted)"],
+    }
+    entries = [
+        {**made.summary, **nothing, **own, "recording": f"r{n}", "subject": subject, "page": f"s/r{n}/page.html"}
+        for n, (subject, own) in enumerate(
+            [
+                ("untouched", {}),
+                ("found", {"findings": {"steps": {"events": 1, "samples": 9}}}),
+                ("found", {"missing_share_before": 0.1}),
+                ("unjudged", {"unjudged": ["LANK"]}),
+                ("static", {"missing_share_before": 0.1, "status": "static"}),
+                ("moving", {"missing_share_before": 0.1, "motion_lacks": []}),
+            ]
+        )
+    ]
+    advice = dataset_summary.motion_advice(entries)
+    text = "only 2.0 s of motion (10 s wanted): record a range-of-motion trial or supply a mesh"
+    assert advice == {"found": text, "unjudged": text}
+    assert rendering.index(entries).count("range-of-motion trial") == 2

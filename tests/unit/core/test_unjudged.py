@@ -1,0 +1,61 @@
+"""Markers that cannot be judged are those that are too seldom seen with enough neighbours."""
+
+import numpy as np
+import pytest
+
+from markermend.core.mesh import Mesh
+from markermend.core.recording import Recording
+from markermend.core.unjudged import unjudged_markers, unjudged_warnings
+
+NAMES = ("a", "b", "c", "d", "e")
+
+
+@pytest.fixture
+def recording():
+    return Recording(NAMES, np.random.default_rng(0).normal(0, 100, (100, 5, 3)), 100.0, facts={"kind": "dynamic"})
+
+
+@pytest.fixture
+def mesh():
+    near = {name: tuple(other for other in NAMES if other != name) for name in NAMES}
+    return Mesh(("walk",), NAMES, (), near, near)
+
+
+def found(recording, mesh):
+    return unjudged_markers(recording, mesh, min_frames=60, min_neighbours=3)
+
+
+def test_a_complete_recording_is_judged(recording, mesh):
+    assert found(recording, mesh) == {} and unjudged_warnings({}) == []
+
+
+def test_markers_without_neighbours_are_not_judged(recording, mesh):
+    mesh.neighbours["c"] = ("a", "b")
+    assert found(recording, mesh) == {"c": "seen on fewer than 60 frames with 3 neighbours"}
+
+
+def test_markers_that_are_seldom_seen_are_not_judged_nor_judge_others(recording, mesh):
+    recording.positions[30:, 0] = np.nan
+    assert found(recording, mesh) == {"a": "seen on fewer than 60 frames"}
+    recording.positions[:41, 1] = np.nan
+    assert list(found(recording, mesh)) == list("abcde")
+    assert unjudged_warnings(found(recording, mesh)) == [
+        "seen on fewer than 60 frames, so that only labels can be judged: a, b",
+        "seen on fewer than 60 frames with 3 neighbours, so that only labels can be judged: c, d, e",
+    ]
+
+
+def test_neighbours_must_be_seen_together(recording, mesh):
+    recording.positions[:30, 1] = recording.positions[30:60, 2] = recording.positions[60:, 3] = np.nan
+    mesh.neighbours["e"] = ("b", "c", "d")
+    assert "e" in found(recording, mesh)
+
+
+def test_a_marker_that_was_never_seen_and_a_static_recording_are_not_named(recording, mesh):
+    recording.positions[:, 0] = np.nan
+    assert found(recording, mesh) == {}
+    recording.positions[:, 1:] = np.nan
+    recording.positions[:5, 1:] = 1.0
+    assert list(found(recording, mesh)) == list("bcde")
+    recording.facts["kind"] = "static"
+    assert found(recording, mesh) == {}
