@@ -8,7 +8,8 @@ from dataclasses import field as dataclass_field
 
 import numpy as np
 
-from markermend.core.events import Event
+from markermend.core.artifacts import class_of
+from markermend.core.events import Event, mask
 from markermend.core.recording import Recording
 from markermend.simulation.faults import Fault, FaultyCopy
 
@@ -54,13 +55,13 @@ class Tally:
 
 
 def covered(findings: Mapping[str, Iterable[Event]], frames: int, markers: Sequence[str]) -> dict[str, np.ndarray]:
-    """Samples in the findings of each stage, bool (frames, markers); a finding on no marker of the recording is on all."""
-    index, out = {marker: [m] for m, marker in enumerate(markers)}, {}
+    """Samples in the findings of each stage and of each class, bool (frames, markers)."""
+    events: dict[str, list[Event]] = {}
     for stage, found in findings.items():
-        out[stage] = np.zeros((frames, len(markers)), bool)
         for event in found:
-            out[stage][event.start : event.stop, index.get(event.marker, slice(None))] = True
-    return out
+            for name in {stage, class_of(stage, event).name}:
+                events.setdefault(name, []).append(event)
+    return {name: mask(found, frames, markers) for name, found in events.items()}
 
 
 def judge(
@@ -68,8 +69,9 @@ def judge(
 ) -> FaultOutcome:
     """Judge one fault of a copy. found: see `covered`; repaired: positions after repair (frames, markers, 3), mm."""
     damaged, own = copy.damaged(fault), list(fault.markers)
-    anything = np.any(list(found.values()), axis=0)
-    in_class = np.any([found[stage] for stage in classes if stage in found] or [np.zeros_like(damaged)], axis=0)
+    nothing = np.zeros_like(damaged)
+    anything = np.any([nothing, *found.values()], axis=0)
+    in_class = np.any([found.get(name, nothing) for name in classes], axis=0)
     share, right = float(anything[damaged].mean()), float(in_class[damaged].mean())
     wide = max(fault.stop - fault.start, SURROUNDINGS)
     about = slice(max(0, fault.start - wide), fault.stop + wide), own

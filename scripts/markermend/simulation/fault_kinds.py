@@ -31,7 +31,7 @@ class FaultKind:
     choosing, reporting : tuple of Generator
         Generators of its forms: to choose thresholds on, and to report on.
     classes : tuple of str
-        Stages that may call it their own.
+        Classes of findings that name it rightly, or stages of which all classes do.
     per_copy : int
         How many of them one copy of some seconds holds.
     """
@@ -56,7 +56,7 @@ FAULT_KINDS = (
         "exchange",
         (from_frame_to_frame(markers=2),),
         (from_frame_to_frame(markers=3), from_frame_to_frame(markers=2)),
-        ("labels",),
+        ("swap",),
     ),
     FaultKind(
         "exchange across gap",
@@ -71,29 +71,29 @@ FAULT_KINDS = (
             across_gap(markers=3, staggered=True, until="later gap"),
             across_gap(markers=2, staggered=False, until="end"),
         ),
-        ("labels",),
+        ("swap",),
     ),
-    FaultKind("limbs exchanged", (limbs(across_gaps=False),), (limbs(across_gaps=True),), ("labels",), per_copy=1),
+    FaultKind("limbs exchanged", (limbs(across_gaps=False),), (limbs(across_gaps=True),), ("swap",), per_copy=1),
     FaultKind(
         "on reflection",
         (still_reflection(unsteady=False),),
         (still_reflection(unsteady=True),),
-        ("labels",),
+        ("foreign",),
     ),
     FaultKind(
         "on other marker",
         (on_another_marker(gaps=False), on_another_marker(gaps=True)),
         (on_another_marker(gaps=True), on_another_marker(gaps=False)),
-        ("labels",),
+        ("foreign", "swap"),
     ),
-    FaultKind("fallen", (fallen(unseen=False),), (fallen(unseen=True),), ("labels",), per_copy=2),
-    FaultKind("on one spot", (on_one_spot(noise_mm=0.0),), (on_one_spot(noise_mm=0.3),), ("labels",)),
+    FaultKind("fallen", (fallen(unseen=False),), (fallen(unseen=True),), ("foreign",), per_copy=2),
+    FaultKind("on one spot", (on_one_spot(noise_mm=0.0),), (on_one_spot(noise_mm=0.3),), ("foreign", "swap")),
     *(
         FaultKind(
             f"knocked{', rigid' if rigid else ''}",
             (knocked(rigid=rigid, settling=False),),
             (knocked(rigid=rigid, settling=True),),
-            ("steps", "slow"),
+            ("displaced", "creep"),
             per_copy=2,
         )
         for rigid in (True, False)
@@ -103,7 +103,7 @@ FAULT_KINDS = (
             f"creeping{', rigid' if rigid else ''}",
             (creeping(rigid=rigid, stepwise=False),),
             (creeping(rigid=rigid, stepwise=True),),
-            ("steps", "slow"),
+            ("displaced", "creep"),
             per_copy=2,
         )
         for rigid in (True, False)
@@ -127,33 +127,33 @@ FAULT_KINDS = (
         "flicker",
         (displaced("random", displacement_shapes.random_telegraph),),
         (displaced("blocks", displacement_shapes.alternating_blocks),),
-        ("steps", "noise"),
+        ("step", "noise"),
     ),
     FaultKind(
         "dip",
         (displaced("straight ramps", displacement_shapes.plateau_with_ramps),),
         (displaced("rounded ramps", displacement_shapes.sagging_dip),),
-        ("steps", "peaks"),
+        ("step", "peak"),
     ),
     FaultKind(
         "line of sight",
         (displaced("constant", displacement_shapes.constant_offset),),
         (displaced("uneven", displacement_shapes.uneven_offset),),
-        ("steps",),
+        ("step",),
     ),
     FaultKind(
         "ghost",
         (displaced("following", displacement_shapes.constant_jump),),
         (still_ghost(30.0, 150.0),),
-        ("peaks", "steps"),
+        ("peak", "step"),
     ),
     FaultKind(
         "ghost, metres",
         (displaced("following", displacement_shapes.distant_jump),),
         (still_ghost(1000.0, 5000.0),),
-        ("peaks", "steps"),
+        ("peak", "step"),
     ),
-    FaultKind("sentinel", (sentinel(axes=3),), (sentinel(axes=1),), ("peaks", "steps")),
+    FaultKind("sentinel", (sentinel(axes=3),), (sentinel(axes=1),), ("peak", "step")),
     FaultKind("program's filling", (filled_by_program(cubic=False),), (filled_by_program(cubic=True),), ("slow",)),
     _drift(0.3, 0.8, 5),
     _drift(0.3, 0.8, 10),
