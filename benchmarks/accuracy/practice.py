@@ -24,7 +24,7 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import cache
@@ -104,14 +104,34 @@ def run(task: Task) -> Tally:
     return Tally(outcomes, altered_outside(copy, repaired, altered_anyway(task.data, task.crop, task.config)))
 
 
-def tasks(arguments: argparse.Namespace) -> Iterator[Task]:
+def tasks(arguments: argparse.Namespace, *, config: str) -> Iterator[Task]:
     """The copies that are asked for, recording by recording."""
     kinds = [kind for kind in KINDS if not arguments.kinds or kind.startswith(tuple(arguments.kinds))]
     seeds = arguments.seeds or SEEDS[arguments.use][: arguments.copies]
     for crop in chosen(arguments.groups, arguments.recordings, arguments.use):
         for kind in kinds:
             for seed in seeds:
-                yield Task(arguments.data, crop, kind, arguments.use, seed, arguments.config)
+                yield Task(arguments.data, crop, kind, arguments.use, seed, config)
+
+
+def rows(judged: Iterable[tuple[Task, Tally]]) -> list[dict[str, Any]]:
+    """The rows of the table, by kind and group."""
+    totals: dict[tuple[str, str], Tally] = {}
+    for task, tally in judged:
+        print(f"{task.crop.name}, {task.kind}, seed {task.seed}: {len(tally.outcomes)} faults", file=sys.stderr)
+        totals.setdefault((task.kind, task.crop.group), Tally()).add(tally)
+    keys = sorted(totals, key=lambda key: (list(KINDS).index(key[0]), GROUPS.index(key[1])))
+    known = [(key, totals[key]) for key in keys if totals[key].outcomes]
+    return [{"kind": kind, "group": group, **figures(tally)} for (kind, group), tally in known]
+
+
+def judged(asked: Sequence[Task], *, jobs: int, each: bool) -> Iterator[tuple[Task, Tally]]:
+    """Judge copies in processes of their own. each: whether a line is printed for each fault."""
+    with ProcessPoolExecutor(jobs) as pool:
+        for task, tally in zip(asked, pool.map(run, asked), strict=True):
+            if each:
+                print_each(task, tally)
+            yield task, tally
 
 
 def print_each(task: Task, tally: Tally) -> None:
@@ -136,8 +156,8 @@ def print_table(rows: Sequence[Mapping[str, Any]]) -> None:
         )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def add_selection(parser: argparse.ArgumentParser) -> None:
+    """Arguments that say which copies."""
     parser.add_argument("--data", type=Path, default=DATA, help="the folder of recordings")
     parser.add_argument("--use", choices=SEEDS, default="choosing", help="recordings, forms and seeds for that")
     parser.add_argument("--kinds", nargs="+", default=[], help="kinds by how they begin; by default all")
@@ -145,28 +165,21 @@ def main() -> None:
     parser.add_argument("--recordings", nargs="+", default=[], help="names of recordings; by default all")
     parser.add_argument("--copies", type=int, default=1, help="copies of each recording and kind")
     parser.add_argument("--seeds", type=int, nargs="+", help="seeds, one copy each, instead of the first of the use")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add_selection(parser)
     parser.add_argument("--config", default="{}", help="options that are not the default, as JSON")
     parser.add_argument("--each", action="store_true", help="print a line for each fault, too")
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
-    asked = list(tasks(arguments))
-    totals: dict[tuple[str, str], Tally] = {}
-    with ProcessPoolExecutor(arguments.jobs) as pool:
-        for task, tally in zip(asked, pool.map(run, asked), strict=True):
-            print(f"{task.crop.name}, {task.kind}, seed {task.seed}: {len(tally.outcomes)} faults", file=sys.stderr)
-            if arguments.each:
-                print_each(task, tally)
-            totals.setdefault((task.kind, task.crop.group), Tally()).add(tally)
-    keys = sorted(totals, key=lambda key: (list(KINDS).index(key[0]), GROUPS.index(key[1])))
-    rows = [
-        {"kind": kind, "group": group, **figures(totals[kind, group])}
-        for kind, group in keys
-        if totals[kind, group].outcomes
-    ]
-    print_table(rows)
+    asked = list(tasks(arguments, config=arguments.config))
+    table = rows(judged(asked, jobs=arguments.jobs, each=arguments.each))
+    print_table(table)
     if arguments.tsv:
-        result_tables.write(arguments.tsv, rows)
+        result_tables.write(arguments.tsv, table)
 
 
 if __name__ == "__main__":
