@@ -23,7 +23,7 @@ import numpy as np
 from benchmarks.accuracy import practice
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import PROJECT
-from benchmarks.support.fault_outcome import Tally, altered_outside, judge
+from benchmarks.support.fault_outcome import altered_outside
 from benchmarks.support.recording_folds import Crop, load
 from markermend.core.recording import Recording
 
@@ -55,20 +55,16 @@ def altered_anyway(data: Path, crop: Crop, python: Path) -> np.ndarray:
     return altered(clean.positions, fix(clean.positions, clean.rate, python))
 
 
-def run(task: practice.Task, clean: Recording, python: Path) -> Tally:
-    """Judge the faults of one copy."""
+def run(task: practice.Task, clean: Recording, python: Path) -> practice.Judged:
+    """Let the program repair the faults of one copy, and judge that."""
     copy = practice.make_copy(clean, task)
     if not copy.faults:
-        return Tally()
+        return practice.Judged(task, [], 0)
     after = fix(copy.positions, clean.rate, python)
     found = altered(copy.positions, after)
-    repaired = np.where(found[..., None], after, copy.positions)
-    outcomes = [
-        judge(copy, fault, found={"any": found}, classes=("any",), repaired=after)
-        for fault in copy.faults
-        if copy.damaged(fault).any()
-    ]
-    return Tally(outcomes, altered_outside(copy, repaired, altered_anyway(task.data, task.crop, python)))
+    outcomes = practice.judge_all(copy, {"any": found}, after)
+    noticed = np.where(found[..., None], after, copy.positions)
+    return practice.Judged(task, outcomes, altered_outside(copy, noticed, altered_anyway(task.data, task.crop, python)))
 
 
 def main() -> None:
@@ -77,9 +73,8 @@ def main() -> None:
     practice.add_selection(parser)
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
-    asked = list(practice.tasks(arguments, config="{}"))
-    rows = practice.rows((task, run(task, load(task.data, task.crop)[0], arguments.python)) for task in asked)
-    practice.print_table(rows)
+    asked = practice.tasks(arguments)
+    rows = practice.report(run(task, load(task.data, task.crop)[0], arguments.python) for task in asked)
     if arguments.tsv:
         result_tables.write(arguments.tsv, rows)
 

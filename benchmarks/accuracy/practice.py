@@ -9,13 +9,14 @@ Writes: a table to stdout, one row for each kind and group.
 
 `--use choosing` takes the recordings, the forms of faults and the seeds (0 to 9) for choosing thresholds, `--use reporting` those
 for reporting (10 to 19). Kinds, groups and recordings are named by how their names begin, kinds as in
-markermend.simulation.fault_kinds. A copy holds one to four faults of one kind, on markers and at times apart.
+markermend.simulation.fault_kinds. A copy holds two faults of each of up to four kinds, on markers or at times apart, and of the
+system's faults and exchanges of limbs one kind alone.
 
 found: at least half of the wrong samples are in findings of any class; class: in findings of the right class; side: of the found,
 those of which a larger share of the wrong samples is in findings than of the right ones about them; undone: all markers as they were, bit for bit (what is missing
 after repair does not count); removed: share of the wrong samples that repair takes away, %; before, after: root mean square error
-in mm over the fault, before and after repair, where there is a sample; outside: samples altered outside of the faults, without
-those that are altered in the recording without faults.
+in mm over the fault, before and after repair, where there is a sample. Below the table, for each group the samples that are altered
+outside of the faults, without those that are altered in the recording without faults.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ import numpy as np
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA
-from benchmarks.support.fault_outcome import Tally, altered_outside, covered, figures, judge, repaired_positions
+from benchmarks.support.fault_outcome import FaultOutcome, altered_outside, covered, figures, judge, repaired_positions
 from benchmarks.support.recording_folds import GROUPS, Crop, chosen, load
 from markermend import api
 from markermend.core.events import Event
@@ -53,24 +54,39 @@ MARGIN_S = 0.3
 """Time without faults around each, s."""
 
 
+KINDS_TOGETHER, FAULTS = 4, 2
+"""Kinds of faults in one copy, and faults of each."""
+
+
 class Task(NamedTuple):
-    """One copy: the recording, the kind of its faults, and how they are drawn."""
+    """One copy: the recording, the kinds of its faults, and how they are drawn."""
 
     data: Path
     crop: Crop
-    kind: str
+    kinds: tuple[str, ...]
     use: str
     seed: int
-    config: str
+    config: str = "{}"
+
+
+class Judged(NamedTuple):
+    """A copy, what became of its faults, and how many samples were altered outside of them."""
+
+    task: Task
+    outcomes: list[FaultOutcome]
+    outside: int
 
 
 def make_copy(recording: Recording, task: Task) -> FaultyCopy:
     """The copy of a task."""
-    rng = np.random.default_rng([list(KINDS).index(task.kind), task.seed, *task.crop.name.encode()])
+    kinds = [list(KINDS).index(kind) for kind in task.kinds]
+    rng = np.random.default_rng([task.seed, *kinds, *task.crop.name.encode()])
     site = Site(recording.positions, recording.markers, rate=recording.rate, margin_s=MARGIN_S, rng=rng)
-    forms = generators(task.kind, use=task.use)
-    turn = task.seed % len(forms)
-    return contaminate(site, forms[turn:] + forms[:turn], count=KINDS[task.kind].per_copy)
+    forms = {kind: generators(kind, use=task.use) for kind in task.kinds}
+    turns = {kind: task.seed * FAULTS % len(own) for kind, own in forms.items()}
+    return contaminate(
+        site, {kind: own[turns[kind] :] + own[: turns[kind]] for kind, own in forms.items()}, count=FAULTS
+    )
 
 
 def mend(
@@ -91,69 +107,82 @@ def altered_anyway(data: Path, crop: Crop, config: str) -> np.ndarray:
     return np.asarray((repaired != recording.positions).any(axis=2) & ~recording.missing)
 
 
-def run(task: Task) -> Tally:
-    """Judge the faults of one copy."""
+def judge_all(copy: FaultyCopy, findings: Mapping[str, np.ndarray], repaired: np.ndarray) -> list[FaultOutcome]:
+    """Judge the faults of a copy. findings: see `covered`; repaired: positions after repair."""
+    return [
+        judge(copy, fault, found=findings, classes=KINDS[fault.kind].classes, repaired=repaired)
+        for fault in copy.faults
+        if copy.damaged(fault).any()
+    ]
+
+
+def run(task: Task) -> Judged:
+    """Find and repair the faults of one copy, and judge that."""
     clean, session = load(task.data, task.crop)
     copy = make_copy(clean, task)
     if not copy.faults:
-        return Tally()
+        return Judged(task, [], 0)
     findings, repaired = mend(replace(clean, positions=copy.positions), session, task.config)
-    found = covered(findings, clean.frames, clean.markers)
-    given: dict[str, Any] = {"found": found, "classes": KINDS[task.kind].classes, "repaired": repaired}
-    outcomes = [judge(copy, fault, **given) for fault in copy.faults if copy.damaged(fault).any()]
-    return Tally(outcomes, altered_outside(copy, repaired, altered_anyway(task.data, task.crop, task.config)))
+    outcomes = judge_all(copy, covered(findings, clean.frames, clean.markers), repaired)
+    return Judged(task, outcomes, altered_outside(copy, repaired, altered_anyway(task.data, task.crop, task.config)))
 
 
-def tasks(arguments: argparse.Namespace, *, config: str) -> Iterator[Task]:
+def tasks(arguments: argparse.Namespace, *, config: str = "{}") -> Iterator[Task]:
     """The copies that are asked for, recording by recording."""
     kinds = [kind for kind in KINDS if not arguments.kinds or kind.startswith(tuple(arguments.kinds))]
+    sharing = [kind for kind in kinds if not KINDS[kind].alone]
+    copies = -(-len(sharing) // KINDS_TOGETHER)
+    together = [tuple(sharing[number::copies]) for number in range(copies)]
+    together += [(kind,) for kind in kinds if KINDS[kind].alone]
     seeds = arguments.seeds or SEEDS[arguments.use][: arguments.copies]
     for crop in chosen(arguments.groups, arguments.recordings, arguments.use):
-        for kind in kinds:
-            for seed in seeds:
-                yield Task(arguments.data, crop, kind, arguments.use, seed, config)
+        for seed in seeds:
+            for some in together:
+                yield Task(arguments.data, crop, some, arguments.use, seed, config)
 
 
-def rows(judged: Iterable[tuple[Task, Tally]]) -> list[dict[str, Any]]:
-    """The rows of the table, by kind and group."""
-    totals: dict[tuple[str, str], Tally] = {}
-    for task, tally in judged:
-        print(f"{task.crop.name}, {task.kind}, seed {task.seed}: {len(tally.outcomes)} faults", file=sys.stderr)
-        totals.setdefault((task.kind, task.crop.group), Tally()).add(tally)
-    keys = sorted(totals, key=lambda key: (list(KINDS).index(key[0]), GROUPS.index(key[1])))
-    known = [(key, totals[key]) for key in keys if totals[key].outcomes]
-    return [{"kind": kind, "group": group, **figures(tally)} for (kind, group), tally in known]
-
-
-def judged(asked: Sequence[Task], *, jobs: int, each: bool) -> Iterator[tuple[Task, Tally]]:
-    """Judge copies in processes of their own. each: whether a line is printed for each fault."""
+def judged(asked: Sequence[Task], *, jobs: int) -> Iterator[Judged]:
+    """Judge copies in processes of their own."""
     with ProcessPoolExecutor(jobs) as pool:
-        for task, tally in zip(asked, pool.map(run, asked), strict=True):
-            if each:
-                print_each(task, tally)
-            yield task, tally
+        yield from pool.map(run, asked)
 
 
-def print_each(task: Task, tally: Tally) -> None:
+def report(copies: Iterable[Judged], *, each: bool = False) -> list[dict[str, Any]]:
+    """Print the table as copies are judged; returns its rows. each: whether there is a line for each fault, too."""
+    totals: dict[tuple[str, str], list[FaultOutcome]] = {}
+    outside: dict[str, int] = {}
+    for task, outcomes, altered in copies:
+        print(f"{task.crop.name}, {', '.join(task.kinds)}, seed {task.seed}: {len(outcomes)} faults", file=sys.stderr)
+        if each:
+            print_each(task, outcomes)
+        for outcome in outcomes:
+            totals.setdefault((outcome.kind, task.crop.group), []).append(outcome)
+        outside[task.crop.group] = outside.get(task.crop.group, 0) + altered
+    keys = sorted(totals, key=lambda key: (list(KINDS).index(key[0]), GROUPS.index(key[1])))
+    rows = [{"kind": kind, "group": group, **figures(totals[kind, group])} for kind, group in keys]
+    print_table(rows)
+    print("samples altered outside: " + ", ".join(f"{group} {altered}" for group, altered in outside.items()))
+    return rows
+
+
+def print_each(task: Task, outcomes: Sequence[FaultOutcome]) -> None:
     """A line for each fault."""
-    for outcome in tally.outcomes:
+    for outcome in outcomes:
         said = [name for name in ("found", "right", "sided", "undone") if getattr(outcome, name)]
         before, after = np.sqrt(outcome.squares[:, 0] / np.maximum(outcome.squares[:, 1], 1))
-        place = f"{task.crop.name}, seed {task.seed}: {task.kind}, {outcome.form}"
-        print(f"{place}: {before:.1f} -> {after:.1f} mm, {', '.join(said) or 'missed'}")
+        place = f"{task.crop.name}, seed {task.seed}: {outcome.kind}, {outcome.form}"
+        print(f"{place}: {before:.1f} -> {after:.1f} mm, {', '.join(said) or 'missed'}", flush=True)
 
 
 def print_table(rows: Sequence[Mapping[str, Any]]) -> None:
     """The table, one line for each kind and group."""
-    heads = ("found", "class", "side", "undone", "removed", "before", "after", "outside")
+    heads = ("found", "class", "side", "undone", "removed", "before", "after")
     print(f"{'kind':24}{'group':10}" + "".join(f"{head:>9}" for head in heads))
     for row in rows:
         counts = [f"{row['found']}/{row['faults']}", f"{row['in_class']}/{row['faults']}"]
         counts += [f"{row['found_on_right_side']}/{row['found']}", f"{row['undone']}/{row['faults']}"]
         sizes = [f"{row['removed_percent']:.0f}", f"{row['before_mm']:.1f}", f"{row['after_mm']:.1f}"]
-        print(
-            f"{row['kind']:24}{row['group']:10}" + "".join(f"{cell:>9}" for cell in (*counts, *sizes, row["outside"]))
-        )
+        print(f"{row['kind']:24}{row['group']:10}" + "".join(f"{cell:>9}" for cell in (*counts, *sizes)))
 
 
 def add_selection(parser: argparse.ArgumentParser) -> None:
@@ -163,7 +192,7 @@ def add_selection(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--kinds", nargs="+", default=[], help="kinds by how they begin; by default all")
     parser.add_argument("--groups", nargs="+", choices=GROUPS, default=[], help="groups; by default all")
     parser.add_argument("--recordings", nargs="+", default=[], help="names of recordings; by default all")
-    parser.add_argument("--copies", type=int, default=1, help="copies of each recording and kind")
+    parser.add_argument("--copies", type=int, default=1, help="copies of each recording and of each set of kinds")
     parser.add_argument("--seeds", type=int, nargs="+", help="seeds, one copy each, instead of the first of the use")
 
 
@@ -176,10 +205,9 @@ def main() -> None:
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     asked = list(tasks(arguments, config=arguments.config))
-    table = rows(judged(asked, jobs=arguments.jobs, each=arguments.each))
-    print_table(table)
+    rows = report(judged(asked, jobs=arguments.jobs), each=arguments.each)
     if arguments.tsv:
-        result_tables.write(arguments.tsv, table)
+        result_tables.write(arguments.tsv, rows)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from dataclasses import field as dataclass_field
 
 import numpy as np
 
@@ -27,12 +26,13 @@ BORDER = 2
 class FaultOutcome:
     """What became of one fault.
 
-    found, right: whether half of its samples are in findings of any, and of the right class. sided: whether a larger share of the
+    kind, form: see Fault. found, right: whether half of its samples are in findings of any, and of the right class. sided: whether a larger share of the
     wrong samples than of the right ones about them is in findings. undone: whether all of its markers are as they were, bit for
     bit. removed: share of its samples that are missing after repair. squares: sums of squared errors in mm^2 and numbers of
     samples, (2, 2): before and after repair.
     """
 
+    kind: str
     form: str
     found: bool
     right: bool
@@ -40,18 +40,6 @@ class FaultOutcome:
     undone: bool
     removed: float
     squares: np.ndarray
-
-
-@dataclass
-class Tally:
-    """What is counted over faults of one kind; outside: samples altered wrongly elsewhere in their copies."""
-
-    outcomes: list[FaultOutcome] = dataclass_field(default_factory=list)
-    outside: int = 0
-
-    def add(self, other: Tally) -> None:
-        self.outcomes += other.outcomes
-        self.outside += other.outside
 
 
 def covered(findings: Mapping[str, Iterable[Event]], frames: int, markers: Sequence[str]) -> dict[str, np.ndarray]:
@@ -86,6 +74,7 @@ def judge(
     visible = ~np.isnan(fault.samples).any(axis=2)
     undone = bool(np.array_equal(repaired[span][visible & there[span]], copy.clean[span][visible & there[span]]))
     return FaultOutcome(
+        fault.kind,
         fault.form,
         share >= FOUND_SHARE,
         right >= FOUND_SHARE,
@@ -104,9 +93,8 @@ def altered_outside(copy: FaultyCopy, repaired: np.ndarray, anyway: np.ndarray) 
     return int(altered.sum())
 
 
-def figures(tally: Tally) -> dict[str, object]:
-    """The figures of one kind."""
-    outcomes = tally.outcomes
+def figures(outcomes: Sequence[FaultOutcome]) -> dict[str, object]:
+    """The figures of the faults of one kind."""
     squares = np.sum([outcome.squares for outcome in outcomes], axis=0)
     before, after = (float(np.sqrt(total / count)) if count else float("nan") for total, count in squares)
     return {
@@ -118,7 +106,6 @@ def figures(tally: Tally) -> dict[str, object]:
         "removed_percent": float(100 * np.mean([outcome.removed for outcome in outcomes])),
         "before_mm": before,
         "after_mm": after,
-        "outside": tally.outside,
     }
 
 

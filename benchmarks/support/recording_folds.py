@@ -52,13 +52,13 @@ EXPERT1 = tuple(f"sessions/expert1/{name}1.trc" for name in ("static", "squats",
 """What the session of STS1 and of expert1 is known by: of its twelve trials the static one, the longest and a walk."""
 
 CROPS = (
-    Crop("clean/STS1.trc", "calm", "choosing", "expert1", 0, 10, EXPERT1),
+    Crop("clean/STS1.trc", "calm", "choosing", "expert1", 0, 8, EXPERT1),
     Crop("sessions/expert1/STSFast1.trc", "calm", "reporting", "expert1", 0, 10, EXPERT1),
     Crop("clean/Qualisys.c3d", "calm", "reporting", "gait"),
-    Crop("clean/85_02.c3d", "moving", "choosing", "85", 0, 8, ("clean/85_12.c3d",)),
-    Crop("clean/HDM_mm_01-02_03_120.c3d", "moving", "choosing", "HDM", 8),
-    Crop("clean/85_12.c3d", "moving", "reporting", "85", 10, 8, ("clean/85_02.c3d",)),
-    Crop("clean/KneeltoProne01.c3d", "moving", "reporting", "kneel", 0, 5),
+    Crop("clean/85_02.c3d", "moving", "choosing", "85", 0, 6, ("clean/85_12.c3d",)),
+    Crop("clean/HDM_mm_01-02_03_120.c3d", "moving", "choosing", "HDM", 8, 6),
+    Crop("clean/85_12.c3d", "moving", "reporting", "85", 10, 6, ("clean/85_02.c3d",)),
+    Crop("clean/KneeltoProne01.c3d", "moving", "reporting", "kneel", 0, 4),
     Crop("sessions/expert1/squats1.trc", "sessions", "choosing", "expert1", 0, 8, ("clean/STS1.trc", *EXPERT1)),
     Crop("sessions/expert1/DJ1.trc", "sessions", "choosing", "expert1", 0, 8, EXPERT1),
     Crop("sessions/expert1/DJ2.trc", "sessions", "reporting", "expert1", 0, 8, EXPERT1),
@@ -67,7 +67,7 @@ CROPS = (
     Crop("raw/nick_freeform_001.c3d", "raw", "choosing", "nick"),
     Crop("raw/UNIPD_Walking2.c3d", "raw", "reporting", "UNIPD"),
     Crop("raw/kinematics_tennis_serve.c3d", "raw", "reporting", "tennis", 0, 12),
-    Crop("fast/sprint.trc", "fast", "reporting", "sprint"),
+    Crop("fast/sprint.trc", "fast", "reporting", "sprint", 0, 2.5),
     Crop("fast/golfswing.c3d", "fast", "reporting", "golf"),
 )
 """All crops."""

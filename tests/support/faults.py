@@ -27,4 +27,4 @@ def site(seed=0):
 def faults(generate, *, count=4, seed=0):
     """The copy with faults of one generator, and the site that they were put into."""
     place = site(seed)
-    return contaminate(place, [generate], count=count), place
+    return contaminate(place, {"kind": [generate]}, count=count), place

@@ -32,23 +32,23 @@ class FaultKind:
         Generators of its forms: to choose thresholds on, and to report on.
     classes : tuple of str
         Classes of findings that name it rightly, or stages of which all classes do.
-    per_copy : int
-        How many of them one copy of some seconds holds.
+    alone : bool
+        Whether a copy with one holds no faults of other kinds: it concerns all markers, or many of them.
     """
 
     name: str
     choosing: tuple[Generator, ...]
     reporting: tuple[Generator, ...]
     classes: tuple[str, ...]
-    per_copy: int = 4
+    alone: bool = False
 
 
-def _drift(low_s: float, high_s: float, size_mm: float, *, per_copy: int = 4) -> FaultKind:
+def _drift(low_s: float, high_s: float, size_mm: float) -> FaultKind:
     """Drifts of a duration and size."""
     seconds = f"{low_s:g}" if low_s == high_s else f"{low_s:g}-{high_s:g}"
     forms = ("raised cosine", drift_shapes.raised_cosine), ("skewed", drift_shapes.skewed_bump)
     one, other = ((displaced(name, shape(low_s, high_s, size_mm)),) for name, shape in forms)
-    return FaultKind(f"drift {seconds} s {size_mm:g} mm", one, other, ("slow",), per_copy)
+    return FaultKind(f"drift {seconds} s {size_mm:g} mm", one, other, ("slow",))
 
 
 FAULT_KINDS = (
@@ -73,7 +73,7 @@ FAULT_KINDS = (
         ),
         ("swap",),
     ),
-    FaultKind("limbs exchanged", (limbs(across_gaps=False),), (limbs(across_gaps=True),), ("swap",), per_copy=1),
+    FaultKind("limbs exchanged", (limbs(across_gaps=False),), (limbs(across_gaps=True),), ("swap",), alone=True),
     FaultKind(
         "on reflection",
         (still_reflection(unsteady=False),),
@@ -86,7 +86,7 @@ FAULT_KINDS = (
         (on_another_marker(gaps=True), on_another_marker(gaps=False)),
         ("foreign", "swap"),
     ),
-    FaultKind("fallen", (fallen(unseen=False),), (fallen(unseen=True),), ("foreign",), per_copy=2),
+    FaultKind("fallen", (fallen(unseen=False),), (fallen(unseen=True),), ("foreign",)),
     FaultKind("on one spot", (on_one_spot(noise_mm=0.0),), (on_one_spot(noise_mm=0.3),), ("foreign", "swap")),
     *(
         FaultKind(
@@ -94,7 +94,6 @@ FAULT_KINDS = (
             (knocked(rigid=rigid, settling=False),),
             (knocked(rigid=rigid, settling=True),),
             ("displaced", "creep"),
-            per_copy=2,
         )
         for rigid in (True, False)
     ),
@@ -104,13 +103,18 @@ FAULT_KINDS = (
             (creeping(rigid=rigid, stepwise=False),),
             (creeping(rigid=rigid, stepwise=True),),
             ("displaced", "creep"),
-            per_copy=2,
         )
         for rigid in (True, False)
     ),
-    FaultKind("frames repeated", (repeated_frames(alternate=False),), (repeated_frames(alternate=True),), ("frames",)),
-    FaultKind("camera hit", (camera_hit(turned=False),), (camera_hit(turned=True),), ("frames",), per_copy=1),
-    FaultKind("segment slip", (segment_slip(rounded=False),), (segment_slip(rounded=True),), ("frames",)),
+    FaultKind(
+        "frames repeated",
+        (repeated_frames(alternate=False),),
+        (repeated_frames(alternate=True),),
+        ("frames",),
+        alone=True,
+    ),
+    FaultKind("camera hit", (camera_hit(turned=False),), (camera_hit(turned=True),), ("frames",), alone=True),
+    FaultKind("segment slip", (segment_slip(rounded=False),), (segment_slip(rounded=True),), ("frames",), alone=True),
     FaultKind(
         "wobble",
         (displaced("sine", oscillation_shapes.swelling_sine),),
@@ -159,8 +163,8 @@ FAULT_KINDS = (
     _drift(0.3, 0.8, 10),
     _drift(1.4, 1.4, 5),
     _drift(1.4, 1.4, 10),
-    _drift(2, 5, 5, per_copy=2),
-    _drift(2, 5, 10, per_copy=2),
+    _drift(2, 5, 5),
+    _drift(2, 5, 10),
 )
 """All kinds."""
 

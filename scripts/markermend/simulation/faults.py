@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from itertools import cycle, islice
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +26,8 @@ class Fault:
         What the file shows in mm; NaN where a marker is missing.
     partners : tuple of int
         Where labels are exchanged: for each marker that under whose label its samples are.
+    kind : str
+        Name of its kind.
     """
 
     form: str
@@ -35,6 +36,7 @@ class Fault:
     stop: int
     samples: np.ndarray
     partners: tuple[int, ...] = ()
+    kind: str = ""
 
 
 Generator = Callable[[Site], Fault]
@@ -77,17 +79,17 @@ class FaultyCopy:
         return out
 
 
-def contaminate(site: Site, generators: Sequence[Generator], *, count: int) -> FaultyCopy:
-    """Put faults into a copy of a recording.
+def contaminate(site: Site, generators: Mapping[str, Sequence[Generator]], *, count: int) -> FaultyCopy:
+    """Put faults of some kinds into a copy of a recording.
 
     Parameters
     ----------
     site : Site
         The recording; the stretches of the faults are taken from it.
-    generators : sequence of Generator
-        Draw the faults, in turn.
+    generators : mapping of str to sequence of Generator
+        For each kind what draws its faults, in turn.
     count : int
-        How many; fewer where there is no room for more.
+        How many of each kind; fewer where there is no room for more.
 
     Returns
     -------
@@ -95,9 +97,10 @@ def contaminate(site: Site, generators: Sequence[Generator], *, count: int) -> F
         The copy and its faults.
     """
     positions, faults = site.positions.copy(), []
-    for generate in islice(cycle(generators), count):
+    drawn = [(kind, forms[number % len(forms)]) for number in range(count) for kind, forms in generators.items()]
+    for kind, generate in drawn:
         try:
-            fault = generate(site)
+            fault = replace(generate(site), kind=kind)
         except ValueError:
             continue
         positions[fault.start : fault.stop, list(fault.markers)] = fault.samples

@@ -37,7 +37,7 @@ def test_forms_to_choose_on_are_not_those_to_report_on():
 
 def test_faults_do_not_touch_and_spare_near_markers():
     place = site()
-    copy = contaminate(place, generators("line of sight", use="choosing"), count=40)
+    copy = contaminate(place, {"line of sight": generators("line of sight", use="choosing")}, count=40)
     assert 10 < len(copy.faults) <= 40
     for k, one in enumerate(copy.faults):
         for other in copy.faults[k + 1 :]:
@@ -47,7 +47,9 @@ def test_faults_do_not_touch_and_spare_near_markers():
 
 
 def test_equal_seeds_give_equal_copies():
-    one, other = (contaminate(site(5), generators("flicker", use="choosing"), count=3).positions for _ in range(2))
+    one, other = (
+        contaminate(site(5), {"flicker": generators("flicker", use="choosing")}, count=3).positions for _ in range(2)
+    )
     assert np.array_equal(one, other, equal_nan=True)
 
 
