@@ -43,7 +43,7 @@ from benchmarks.support.recording_folds import GROUPS, Crop, chosen, load
 from markermend import api
 from markermend.core.events import Event
 from markermend.core.recording import Recording
-from markermend.simulation.fault_kinds import KINDS, generators
+from markermend.simulation.fault_kinds import FAULT_KINDS, KINDS, generators
 from markermend.simulation.fault_site import Site
 from markermend.simulation.faults import FaultyCopy, contaminate
 
@@ -129,7 +129,8 @@ def run(task: Task) -> Judged:
 
 def tasks(arguments: argparse.Namespace, *, config: str = "{}") -> Iterator[Task]:
     """The copies that are asked for, recording by recording."""
-    kinds = [kind for kind in KINDS if not arguments.kinds or kind.startswith(tuple(arguments.kinds))]
+    names = [kind.name for kind in FAULT_KINDS]
+    kinds = [name for name in names if not arguments.kinds or name.startswith(tuple(arguments.kinds))]
     sharing = [kind for kind in kinds if not KINDS[kind].alone]
     copies = -(-len(sharing) // KINDS_TOGETHER)
     together = [tuple(sharing[number::copies]) for number in range(copies)]

@@ -25,7 +25,7 @@ class Crop:
     group : str
         How it was recorded and how much goes on in it.
     use : str
-        "choosing" or "reporting".
+        "choosing" or "reporting"; "folds" where it serves neither on its own.
     fold : str
         All recordings of one subject are in one fold.
     start_s, length_s : float
@@ -69,6 +69,8 @@ CROPS = (
     Crop("raw/kinematics_tennis_serve.c3d", "raw", "reporting", "tennis", 0, 12),
     Crop("fast/sprint.trc", "fast", "reporting", "sprint", 0, 2.5),
     Crop("fast/golfswing.c3d", "fast", "reporting", "golf"),
+    Crop("by_model/art_human.c3d", "model", "folds", "art_human"),
+    Crop("by_model/smpl_11_01.trc", "model", "folds", "smpl"),
 )
 """All crops."""
 
@@ -113,7 +115,7 @@ def chosen(groups: Sequence[str], names: Sequence[str], use: str) -> Iterator[Cr
     groups, names : sequence of str
         Groups, and names of recordings; empty = all.
     use : str
-        "choosing", "reporting", or "both".
+        "choosing" or "reporting".
 
     Yields
     ------
@@ -121,5 +123,5 @@ def chosen(groups: Sequence[str], names: Sequence[str], use: str) -> Iterator[Cr
         A crop that is asked for.
     """
     for crop in CROPS:
-        if (not groups or crop.group in groups) and (not names or crop.name in names) and use in (crop.use, "both"):
+        if (not groups or crop.group in groups) and (not names or crop.name in names) and use == crop.use:
             yield crop

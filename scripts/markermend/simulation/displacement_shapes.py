@@ -126,6 +126,41 @@ def uneven_offset(site: Site) -> np.ndarray:
     return site.along(size + site.rng.normal(0.0, 0.5, length))
 
 
+def half_sine(site: Site) -> np.ndarray:
+    """Draw a peak of 6-14 mm: half a sine of 1-5 frames.
+
+    Parameters
+    ----------
+    site : Site
+        Gives frame rate and randomness.
+
+    Returns
+    -------
+    ndarray of float, shape (n, 3)
+        The displacement in mm.
+    """
+    length = int(site.rng.integers(1, 6))
+    sizes = np.sin(np.pi * (np.arange(length) + 0.5) / length)
+    return site.along(site.rng.uniform(6.0, 14.0) * sizes / sizes.max())
+
+
+def uneven_peak(site: Site) -> np.ndarray:
+    """Draw a peak of 6-14 mm: 1-5 frames off by different amounts.
+
+    Parameters
+    ----------
+    site : Site
+        Gives frame rate and randomness.
+
+    Returns
+    -------
+    ndarray of float, shape (n, 3)
+        The displacement in mm.
+    """
+    sizes = site.rng.uniform(0.5, 1.0, int(site.rng.integers(1, 6)))
+    return site.along(site.rng.uniform(6.0, 14.0) * sizes / sizes.max())
+
+
 def constant_jump(site: Site) -> np.ndarray:
     """Draw a ghost that follows the marker 30-150 mm beside it for 1-30 frames.
 

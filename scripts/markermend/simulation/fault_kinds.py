@@ -166,10 +166,18 @@ FAULT_KINDS = (
     _drift(2, 5, 5),
     _drift(2, 5, 10),
 )
-"""All kinds."""
+"""The kinds that recordings have besides the artifacts of the published contamination."""
 
-KINDS: Mapping[str, FaultKind] = {kind.name: kind for kind in FAULT_KINDS}
-"""The kinds by their names."""
+PEAK = FaultKind(
+    "peak",
+    (displaced("half a sine", displacement_shapes.half_sine),),
+    (displaced("uneven", displacement_shapes.uneven_peak),),
+    ("peak",),
+)
+"""An isolated peak as in the published contamination."""
+
+KINDS: Mapping[str, FaultKind] = {kind.name: kind for kind in (*FAULT_KINDS, PEAK)}
+"""All kinds by their names."""
 
 
 def generators(kind: str, *, use: str) -> tuple[Generator, ...]:

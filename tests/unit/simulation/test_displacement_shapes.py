@@ -13,6 +13,8 @@ BOUNDS = {
     displacement_shapes.alternating_blocks: ((30, 200), (4.5, 22)),
     displacement_shapes.constant_offset: ((20, 150), (10, 25)),
     displacement_shapes.uneven_offset: ((20, 150), (10, 33)),
+    displacement_shapes.half_sine: ((1, 5), (5.9, 14.1)),
+    displacement_shapes.uneven_peak: ((1, 5), (5.9, 14.1)),
     displacement_shapes.constant_jump: ((1, 30), (30, 150)),
     displacement_shapes.distant_jump: ((1, 30), (1000, 5000)),
 }
