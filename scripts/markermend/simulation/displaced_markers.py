@@ -188,14 +188,14 @@ def _lasting(form: str, onset: Shape, *, size_mm: tuple[float, float], rigid: bo
 
     def generate(site: Site) -> Fault:
         rise = onset(site)
-        among = site.rigid(RIGID_MATES, RIGID_MM) if rigid else None
+        among = site.geometry.rigid(RIGID_MATES, RIGID_MM) if rigid else None
         to_end = site.rng.random() < 0.7
         longest = max(site.frames // 4, len(rise) + 1)
         length = int(site.rng.integers(longest, max(longest + 1, site.frames * 2 // 3)))
         start, m = site.place(length, among=among, at="stop" if to_end else "anywhere")
         size = np.concatenate([rise, np.ones(max(0, length - len(rise)))])[:length]
         change = size[:, None] * site.rng.uniform(*size_mm) * site.direction()
-        samples = site.positions[start : start + length, m] + site.turned(change, m, start)
+        samples = site.positions[start : start + length, m] + site.geometry.turned(change, m, start)
         name = f"{form}, {'to the end' if to_end else 'and back'}"
         return Fault(name, (m,), start, start + length, samples[:, None])
 

@@ -101,7 +101,7 @@ def limbs(*, across_gaps: bool) -> Generator:
 
     def generate(site: Site) -> Fault:
         length, to_end = site.duration(0.3, 3.0), across_gaps and site.rng.random() < 0.5
-        groups = [pairs for pairs in (_limb(site, pair) for pair in site.sides) if len(pairs) >= LIMB[0]]
+        groups = [pairs for pairs in (_limb(site, pair) for pair in site.geometry.sides) if len(pairs) >= LIMB[0]]
         flat = [[m for pair in pairs for m in pair] for pairs in groups]
         start, chosen = site.place_group(flat, length, at="stop" if to_end else "anywhere")
         partners = np.reshape(chosen, (-1, 2))[:, ::-1].ravel()
@@ -174,7 +174,7 @@ def rings(site: Site, markers: int) -> list[tuple[int, ...]]:
     """
     found = []
     for m in range(len(site.markers)):
-        near = np.flatnonzero((site.distances[m] < NEAR_MM) & (np.arange(len(site.markers)) != m))
+        near = np.flatnonzero((site.geometry.distances[m] < NEAR_MM) & (np.arange(len(site.markers)) != m))
         near = site.rng.permutation(near)[:4].tolist()
         found += [(m, *others) for others in permutations(near, markers - 1)]
     return found
@@ -193,7 +193,10 @@ def _losses(site: Site, markers: int, staggered: bool) -> np.ndarray:
 def _limb(site: Site, end: tuple[int, int]) -> list[tuple[int, int]]:
     """Left and right markers of the limb of which a pair is the end: those that keep their distance to it best."""
     left, right = end
-    near = [pair for pair in site.sides if site.distances[left, pair[0]] < LIMB_MM or pair == end]
-    cost = [site.deviations[left, a] + site.deviations[right, b] + 0.05 * site.distances[left, a] for a, b in near]
+    near = [pair for pair in site.geometry.sides if site.geometry.distances[left, pair[0]] < LIMB_MM or pair == end]
+    cost = [
+        site.geometry.deviations[left, a] + site.geometry.deviations[right, b] + 0.05 * site.geometry.distances[left, a]
+        for a, b in near
+    ]
     order = np.argsort(np.where([pair == end for pair in near], 0.0, np.nan_to_num(cost, nan=np.inf)), kind="stable")
     return [near[k] for k in order[: int(site.rng.integers(LIMB[0], LIMB[1] + 1))]]

@@ -116,14 +116,14 @@ def fallen(*, unseen: bool) -> Generator:
         length = int(site.rng.uniform(0.2, 0.7) * site.frames)
         start, m = site.place(length, at="stop")
         samples = np.repeat(site.positions[start : start + 1, m], length, axis=0)
-        time, height = np.arange(length) / site.rate, samples[0, site.vertical] - site.floor
+        time, height = np.arange(length) / site.rate, samples[0, site.geometry.vertical] - site.geometry.floor
         aside = site.direction() * (500.0 if unseen else 100.0)
-        aside[site.vertical] = 0.0
+        aside[site.geometry.vertical] = 0.0
         down = np.sqrt(2 * max(height, 0.0) / GRAVITY)
         rolling = np.clip((time - down) / 0.5, 0.0, 1.0)
         along = 1 - (1 - rolling) ** 2 if unseen else np.minimum(time / max(down, 1 / site.rate), 1.0)
         samples += along[:, None] * aside
-        samples[:, site.vertical] -= np.minimum(GRAVITY / 2 * time**2, max(height, 0.0))
+        samples[:, site.geometry.vertical] -= np.minimum(GRAVITY / 2 * time**2, max(height, 0.0))
         samples += site.rng.normal(0.0, 0.1, samples.shape)
         if unseen:
             samples[time < down] = np.nan

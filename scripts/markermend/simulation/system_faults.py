@@ -109,7 +109,7 @@ def segment_slip(*, rounded: bool) -> Generator:
 
 def _segment(site: Site, marker: int) -> list[int]:
     """A marker and those that keep their distance to it best, no more than slip together; empty where there are too few."""
-    steady = [int(m) for m in site.steadiest(marker) if site.deviations[marker, m] < SEGMENT_MM]
+    steady = [int(m) for m in site.geometry.steadiest(marker) if site.geometry.deviations[marker, m] < SEGMENT_MM]
     fewest, most = SEGMENT_MARKERS
     return [marker, *steady[: most - 1]] if len(steady) >= fewest - 1 else []
 

@@ -26,14 +26,14 @@ def test_lasting_displacements_are_fixed_to_the_body(generate):
         assert np.allclose(size[-100:], size[-1])
         assert 8 <= size[-1] <= 40
         assert size.max() < 1.4 * size[-1]
-        back = site.turned(np.tile(change[0] / size[0], (len(change), 1)), m, fault.start)
+        back = site.geometry.turned(np.tile(change[0] / size[0], (len(change), 1)), m, fault.start)
         assert np.allclose(change, size[:, None] * back)
 
 
 def test_rigid_ones_are_on_rigid_segments():
     for seed in range(5):
         copy, site = faults(displaced_markers.knocked(rigid=True, settling=False), count=3, seed=seed)
-        rigid = site.rigid(displaced_markers.RIGID_MATES, displaced_markers.RIGID_MM)
+        rigid = site.geometry.rigid(displaced_markers.RIGID_MATES, displaced_markers.RIGID_MM)
         assert all(fault.markers[0] in rigid for fault in copy.faults)
 
 

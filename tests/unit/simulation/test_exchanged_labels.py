@@ -53,6 +53,6 @@ def test_limbs(across_gaps):
         for fault in copy.faults:
             assert 8 <= len(fault.markers) <= 16
             pairs = {frozenset(pair) for pair in zip(fault.markers, fault.partners, strict=True)}
-            assert pairs <= {frozenset(pair) for pair in site.sides}
+            assert pairs <= {frozenset(pair) for pair in site.geometry.sides}
             assert np.isnan(fault.samples).any() == across_gaps
             check(copy, fault)

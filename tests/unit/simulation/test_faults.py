@@ -41,7 +41,7 @@ def test_faults_do_not_touch_and_spare_near_markers():
     assert 10 < len(copy.faults) <= 40
     for k, one in enumerate(copy.faults):
         for other in copy.faults[k + 1 :]:
-            near = {*np.argsort(place.distances[one.markers[0]])[:7].tolist()}
+            near = {*np.argsort(place.geometry.distances[one.markers[0]])[:7].tolist()}
             apart = one.stop + 30 <= other.start or other.stop + 30 <= one.start
             assert apart or other.markers[0] not in near
 

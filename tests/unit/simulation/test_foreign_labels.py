@@ -46,7 +46,7 @@ def test_fallen_markers_rest_on_the_floor_to_the_end(unseen):
     for fault in copy.faults:
         assert fault.stop == site.frames
         assert np.ptp(fault.samples[-50:], axis=0).max() < 1.5
-        assert fault.samples[-1, 0, site.vertical] == pytest.approx(site.floor, abs=1)
+        assert fault.samples[-1, 0, site.geometry.vertical] == pytest.approx(site.geometry.floor, abs=1)
         assert np.isnan(fault.samples).any() == (
-            unseen and copy.clean[fault.start, fault.markers[0], 2] > site.floor + 1
+            unseen and copy.clean[fault.start, fault.markers[0], 2] > site.geometry.floor + 1
         )
