@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
-from markermend.detection.neighbour import attribution, edges, residual_windows
+from markermend.detection.neighbour import attribution, edges, level_shifts, residual_windows
 from markermend.detection.neighbour.edges import Edge
-from markermend.detection.neighbour.level_shifts import LevelShiftFinder
+from markermend.detection.neighbour.level_evidence import LevelEvidence
+from markermend.detection.neighbour.level_shifts import DisplacedStretch
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics.window_covariance import WindowCovariance
@@ -49,15 +50,29 @@ def detect_steps(
     found, statistics = attribution.attribute(
         detector, predictor=predictor, rounds=options.attribution_rounds, neighbours=options.attribution_neighbours
     )
+    found = events.disjoint(found)
     # A gap may hide a jump, and so may what was claimed earlier: noise on a step often reaches to its end.
     unseen = ~scene.present | earlier.any(axis=2)
-    jumps = [detector.edges(statistics, m) for m in range(len(markers))]
-    found = events.disjoint(found)
-    for m, name in enumerate(markers):
-        residual = statistics.residual[:, m]
-        truncated = detector.shifts.truncated(residual, jumps[m], found, missing=unseen[:, m], name=name)
-        found = events.disjoint([*found, *truncated])
-    return found, _open_steps(jumps, found, markers)
+    found = events.disjoint([*found, *_truncated(detector, statistics, found, unseen)])
+    return found, _open_steps([detector.edges(statistics, m) for m in range(len(markers))], found, markers)
+
+
+def _truncated(
+    detector: StepDetector, statistics: ResidualStatistics, found: Sequence[Event], unseen: np.ndarray
+) -> Iterator[Event]:
+    """The level shifts with an unseen frame (frames, markers) or an end of the recording in place of one edge.
+
+    None touches what was found of its marker, nor is any at an edge where something begins or ends that was found of
+    another one, of which it may be the reflection.
+    """
+    for m, name in enumerate(detector.markers):
+        reflected = {frame for other in found if other.marker != name for frame in (other.start, other.stop)}
+        own = [edge for edge in detector.edges(statistics, m) if edge.frame not in reflected]
+        taken = [other for other in found if other.marker == name]
+        for stretch in detector.displaced(statistics, m, own, unseen[:, m]):
+            free = all(stretch.stop < other.start or other.stop < stretch.start for other in taken)
+            if len(stretch.edges) == 1 and free:
+                yield stretch.event(name, detector.options.joint_jump_fraction)
 
 
 def _open_steps(jumps: Sequence[Sequence[Edge]], found: Sequence[Event], markers: Sequence[str]) -> list[OpenStep]:
@@ -89,13 +104,12 @@ class StepDetector(WindowDetector):
     def __init__(self, scene: Scene, markers: Sequence[str], options: StepsOptions, *, missing: np.ndarray) -> None:
         super().__init__(scene, markers, options)
         self.options, self.missing = options, missing
-        self.shifts = LevelShiftFinder(scene.rate, options)
         self._context = residual_windows.context_samples(scene.rate, options, min_samples=edges.MIN_CONTEXT)
 
     @property
     def window(self) -> int:
         """Samples in a window."""
-        return 2 * self._context
+        return 2 * self._context + self.options.max_ramp_frames
 
     def central_filter(self, covariance: WindowCovariance) -> WindowFilters:
         """Make the filter of a step; see `WindowDetector.central_filter`."""
@@ -122,22 +136,47 @@ class StepDetector(WindowDetector):
 
     def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
         """Find the level shifts of one marker, also between edges below the threshold; see `Detector.find_events`."""
-        return self._paired(statistics, marker, self.options.single_jump_fraction)
+        return self._between_edges(statistics, marker, self.options.single_jump_fraction)
 
     def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
         """Find the level shifts between edges above the threshold: smaller ones are often motion.
 
         See `Detector.find_candidates`.
         """
-        return self._paired(statistics, marker, 1.0)
+        return self._between_edges(statistics, marker, 1.0)
 
     def unexplained(self, statistics: ResidualStatistics, marker: int) -> Sequence[int]:
         """Find the frames of the edges of one marker; see `Detector.unexplained`."""
         return [edge.frame for edge in self.edges(statistics, marker)]
 
-    def _paired(self, statistics: ResidualStatistics, marker: int, fraction: float) -> list[Event]:
+    def displaced(
+        self, statistics: ResidualStatistics, marker: int, found: Sequence[Edge], missing: np.ndarray
+    ) -> list[DisplacedStretch]:
+        """Find the stretches in which one marker is displaced.
+
+        Parameters
+        ----------
+        statistics : ResidualStatistics
+            Statistics of the residuals.
+        marker : int
+            Index of the marker.
+        found : Sequence[Edge]
+            Its edges.
+        missing : np.ndarray
+            Where it is not observed, bool (frames,).
+
+        Returns
+        -------
+        list[DisplacedStretch]
+            The stretches, by frame.
+        """
+        evidence = LevelEvidence(self.scene, marker, statistics.residual[:, marker], self.options)
+        runs = level_shifts.explanations(found, evidence, missing=missing, rate=self.scene.rate, options=self.options)
+        return [stretch for run in runs for stretch in run.displaced()]
+
+    def _between_edges(self, statistics: ResidualStatistics, marker: int, fraction: float) -> list[Event]:
         """The level shifts of one marker between edges that exceed a part of the threshold."""
         found = self.edges(statistics, marker, fraction=fraction)
-        return self.shifts.between_edges(
-            statistics.residual[:, marker], found, missing=self.missing[:, marker], name=self.markers[marker]
-        )
+        displaced = self.displaced(statistics, marker, found, self.missing[:, marker])
+        name, sufficient = self.markers[marker], self.options.joint_jump_fraction
+        return [stretch.event(name, sufficient) for stretch in displaced if len(stretch.edges) == 2]

@@ -32,6 +32,7 @@ from markermend.options.published import (
     PublishedSlowOptions,
     PublishedStepsOptions,
 )
+from markermend.options.shape import ShapeOptions
 
 Preset = Annotated[Literal["default", "coordinates", "paper"], Laboratory]
 """The detector: against the neighbours, or coordinate by coordinate with robust thresholds, or as published."""
@@ -312,6 +313,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     `advanced.steps.PRESET`.
     """
 
+    shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
+    """The evidence of the subject's usual shape."""
+
     preset: Preset = "default"
     """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
     robust thresholds) or `paper` (as published: skurowski2022).
@@ -342,47 +346,51 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     white_noise_ratio: Positive = 1000
     """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent)."""
 
-    min_jump_ratio: Share = 0.6
-    """Size of the smaller of the two jumps of a step as a part of the larger, at least (0 to 1)."""
+    max_ramp_frames: CountOrNone = 3
+    """Samples on the way between the two levels of a jump, at most."""
 
-    min_cosine: Annotated[float, AtLeast(-1), AtMost(1)] = 0.8
-    """Cosine of the angle between one jump and the reverse of the other, at least."""
+    ramp_cost: NotNegative = 0.15
+    """By which part of itself the threshold of a jump rises with each sample on the way: motion has ramps."""
 
-    min_shift_fraction: Share = 0.2
-    """Shift of the whole step against as many samples outside, as a part of its jump, at least (0 to 1).
-
-    Change it when two unrelated jumps are taken for a step (higher)."""
-
-    max_imbalance_fraction: Share = 0.3
-    """Such a shift is not needed where the two jumps cancel but for this part of them: motion may hide it (0 to 1)."""
-
-    single_jump_fraction: Share = 0.6
+    single_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.6
     """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
 
     Change it when steps whose jumps differ in clearness are missed (lower)."""
 
     joint_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.78
-    """Root mean square of the two jumps as a part of the threshold, at least (0 to 1).
+    """Geometric mean of the two jumps as a part of the threshold that suffices where nothing else decides (0 to 1).
 
     Change it when weak steps are missed (lower)."""
 
-    weak_min_shift_fraction: Share = 0.7
-    """Shift of a step whose jumps together stay below the threshold, as a part of its jump, at least (0 to 1).
+    jump_exponent: Positive = 8
+    """Jumps of motion become rarer with this power of their size."""
 
-    Change it when false weak steps are found (higher)."""
+    jump_mismatch_fraction: Positive = 0.2
+    """Standard deviation of the sum of the two jumps of a step, as a part of their size."""
+
+    displaced_cost_per_s: NotNegative = 20
+    """By how much the logarithm of the likelihood of a step falls with its duration, per second: the longer part is right where
+    nothing else decides."""
+
+    correlation_time_s: PositiveSeconds = 0.25
+    """Time over which the level of a marker against its neighbours varies: samples nearer to each other say the same."""
+
+    remaining_fractions: Annotated[tuple[Annotated[float, Above(0), AtMost(1)], ...], NotEmpty] = (1, 0.5, 0.25)
+    """Parts of a displacement, all of them tried, that remain in the residual: the regression has learnt the others (0 to 1)."""
+
+    min_shape_deviation_mm: PositiveMillimetres = 0.5
+    """No distance counts as steadier than this when levels are compared."""
+
+    min_probability: Share = 0.95
+    """Probability that a stretch is displaced rather than the stretches around it, or none, at least (0 to 1).
+
+    Change it when good stretches are moved (higher)."""
 
     level_window_s: PositiveSeconds = 0.3
-    """Time on either side over which levels are compared where a gap or an end of the recording cuts a step short."""
-
-    truncated_min_shift_fraction: NotNegative = 0.4
-    """Shift of such a step against either side as a part of its jump, at least.
-
-    Change it when false steps are found next to gaps (higher)."""
+    """Time beyond a gap over which a marker must be back where a gap cuts a step short."""
 
     recording_end_factor: Factor = 2
-    """Size of the jump, in units of the threshold, of a step that an end of the recording cuts short, at least.
-
-    Change it when false steps are found at the ends (higher), or steps are missed there (lower)."""
+    """Size of the jump, in units of the threshold, of a step that an end of the recording cuts short, at least."""
 
     coordinates: PublishedStepsOptions = field(default_factory=PublishedStepsOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""

@@ -118,15 +118,15 @@ RENAMED: dict[str, tuple[str, dict[str, str]]] = {
             "rivals": "attribution_neighbours",
             "shortest_s": "min_duration_s",
             "longest_s": "max_duration_s",
-            "ratio": "min_jump_ratio",
-            "cosine": "min_cosine",
-            "held": "min_shift_fraction",
-            "alike": "max_imbalance_fraction",
+            "ratio": "jump_mismatch_fraction",
+            "cosine": "jump_mismatch_fraction",
+            "held": "min_probability",
+            "alike": "jump_mismatch_fraction",
             "weak": "single_jump_fraction",
             "joint": "joint_jump_fraction",
-            "whole": "weak_min_shift_fraction",
+            "whole": "min_probability",
             "level_s": "level_window_s",
-            "cut": "truncated_min_shift_fraction",
+            "cut": "min_probability",
             "sure": "recording_end_factor",
         },
     ),
@@ -406,7 +406,7 @@ def renamed(path: str) -> str | None:
     Returns
     -------
     str or None
-        Section and name of the option, such as `steps.max_imbalance_fraction`; None for a key that there never was.
+        Section and name of the option, such as `steps.jump_mismatch_fraction`; None for a key that there never was.
     """
     section, _, key = path.rpartition(".")
     if section not in RENAMED:

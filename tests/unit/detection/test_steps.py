@@ -39,11 +39,22 @@ def test_an_open_step_of_the_walker_has_its_size(walker):
     assert step.size_mm == pytest.approx(15, rel=0.2)
 
 
-def test_a_step_that_motion_hides_is_found_by_jumps_that_cancel(walker):
-    t = np.arange(60) / 60
+def test_two_jumps_without_a_level_in_between_are_left_open(walker):
+    t = np.arange(100) / 100
     drift = np.outer(1 - 2 * np.sin(np.pi * t) ** 2, [8, 3, -6])  # back beyond the adjacent trajectory, smoothly
-    found, _ = detect(put(walker.recording, [("C7", 400, 460)], lambda _: drift), only=("steps",))
-    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == [("C7", 400, 460)]
+    found, left = detect(put(walker.recording, [("C7", 400, 500)], lambda _: drift), only=("steps",))
+    assert found["steps"] == []
+    assert [(step.marker, step.frame) for step in left] == [("C7", 400), ("C7", 500)]
+
+
+@pytest.mark.parametrize("ramp", [1, 2])
+def test_dips_with_ramps_of_a_few_frames(walker, ramp):
+    dip = np.minimum(np.arange(1, 41), np.arange(40, 0, -1)) / (ramp + 1)
+    shape = np.outer(np.minimum(dip, 1), [8, 3, -6])
+    found, left = detect(put(walker.recording, [("C7", 400, 440)], lambda _: shape), only=("steps",))
+    [step] = found["steps"]
+    assert step.marker == "C7" and abs(step.start - 400) <= 1 and abs(step.stop - 440) <= 1
+    assert left == []
 
 
 def test_two_jumps_are_a_step_together_where_neither_is_alone(walker):
@@ -60,11 +71,8 @@ def test_two_jumps_are_a_step_together_where_neither_is_alone(walker):
 @pytest.mark.parametrize(
     "key",
     [
-        "min_jump_ratio",
-        "single_jump_fraction",
-        "weak_min_shift_fraction",
-        "min_shift_fraction",
-        "max_imbalance_fraction",
+        "ramp_cost",
+        "displaced_cost_per_s",
         "floor_mm",
         "attribution_rounds",
         "attribution_neighbours",

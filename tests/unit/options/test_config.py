@@ -134,7 +134,7 @@ def test_changes_to_the_local_ridge_are_held_to_its_options(section, keys, wrong
     ("old", "new"),
     [
         ("peaks.default.sigmas", "peaks.threshold_sigmas"),
-        ("steps.default.alike", "advanced.steps.max_imbalance_fraction"),
+        ("steps.default.alike", "advanced.steps.jump_mismatch_fraction"),
         ("fill.ends", "fill.fill_ends"),
         ("fill.ensemble.longest_s", "advanced.fill.ensemble.max_gap_s_of_member"),
         ("fill.variants", "advanced.predictors.local_ridge_variants"),

@@ -11,7 +11,7 @@ from markermend.detection.neighbour import residual_windows
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance
-from markermend.options.detection import ResidualWindowOptions
+from markermend.options.detection import StepsOptions
 
 MIN_CONTEXT = 5
 """Samples of context on either side, at least: they estimate the noise scale."""
@@ -32,16 +32,24 @@ class Edge:
         Its size (3,), mm.
     score : float
         Its size in units of the threshold.
+    ramp : int
+        Samples on the way between the two levels.
     """
 
     frame: int
     jump: np.ndarray
     score: float
+    ramp: int = 0
+
+    @property
+    def centre(self) -> float:
+        """The middle of its ramp, frames."""
+        return self.frame + self.ramp / 2
 
 
-@lru_cache(maxsize=64)
-def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ...]) -> WindowFilters:
-    """Make the matched filters of a unit step.
+@lru_cache(maxsize=256)
+def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ...], *, ramp: int = 0) -> WindowFilters:
+    """Make the matched filters of a unit step, sharp or with a ramp.
 
     Parameters
     ----------
@@ -50,7 +58,9 @@ def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ..
     size : int
         Samples in a window.
     offsets : tuple[int, ...]
-        First sample after the step.
+        First sample that differs from those before the step.
+    ramp : int, optional
+        Samples on the way between the two levels.
 
     Returns
     -------
@@ -58,7 +68,7 @@ def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ..
         A filter for each offset.
     """
     precision = covariance.precision(size)
-    step = (np.arange(size) >= np.array(offsets)[:, None]).astype(float)
+    step = np.clip((np.arange(size) - np.array(offsets)[:, None] + 1) / (ramp + 1), 0, 1)
     across = step @ precision
     information = (across * step).sum(axis=1)
     rest = precision - across[:, :, None] * across[:, None, :] / information[:, None, None]
@@ -67,12 +77,7 @@ def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ..
 
 
 def find_edges(
-    statistics: ResidualStatistics,
-    marker: int,
-    *,
-    rate: float,
-    options: ResidualWindowOptions,
-    fraction: float = 1.0,
+    statistics: ResidualStatistics, marker: int, *, rate: float, options: StepsOptions, fraction: float = 1.0
 ) -> list[Edge]:
     """Find the edges of one marker; of those nearer to each other than half the context the strongest.
 
@@ -84,8 +89,8 @@ def find_edges(
         Index of the marker.
     rate : float
         Sampling rate, Hz.
-    options : ResidualWindowOptions
-        Threshold, context, and how the covariance of windows is estimated.
+    options : StepsOptions
+        Threshold, context, longest ramp, and how the covariance of windows is estimated.
     fraction : float, optional
         Part of the threshold that is enough.
 
@@ -95,17 +100,19 @@ def find_edges(
         The edges, by frame.
     """
     context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
-    size = 2 * context
     candidates: list[Edge] = []
-    for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):
-        for span, offsets in residual_windows.window_spans(start, stop, size, context):
-            inside = tuple(offset for offset in offsets if MIN_GAP_DISTANCE <= offset <= size - MIN_GAP_DISTANCE)
-            filters = step_filters(statistics.covariance, size, inside)
-            over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=fraction)
-            found = zip(over.frame.tolist(), over.amplitude, over.score.tolist(), strict=True)
-            candidates += [Edge(*one) for one in found]
+    for run in runs(~np.isnan(statistics.local_scale[:, marker])):
+        for ramp in range(options.max_ramp_frames + 1):
+            size = 2 * context + ramp
+            for span, offsets in residual_windows.window_spans(*run, size, context):
+                inside = tuple(o for o in offsets if MIN_GAP_DISTANCE <= o <= size - ramp - MIN_GAP_DISTANCE)
+                filters = step_filters(statistics.covariance, size, inside, ramp=ramp)
+                over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=fraction)
+                scores = over.score / (1 + options.ramp_cost * ramp)
+                found = zip(over.frame.tolist(), over.amplitude, scores.tolist(), strict=True)
+                candidates += [Edge(*one, ramp) for one in found if one[2] > fraction]
     kept: list[Edge] = []
-    for edge in sorted(candidates, key=lambda e: (-e.score, e.frame)):
-        if all(2 * abs(edge.frame - one.frame) > context for one in kept):
+    for edge in sorted(candidates, key=lambda e: (-e.score, e.frame, e.ramp)):
+        if all(2 * abs(edge.centre - one.centre) > context for one in kept):
             kept.append(edge)
     return sorted(kept, key=lambda e: e.frame)

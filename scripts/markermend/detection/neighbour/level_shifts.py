@@ -1,222 +1,221 @@
-"""Level shifts: a marker is displaced between two edges, or between an edge and a gap or an end of the recording."""
+"""Level shifts: which stretches between the edges of a marker are displaced, by comparison of all explanations.
+
+An explanation is a set of level shifts without a common edge. A level shift from one edge to another explains both and
+returns to where it began. Its likelihood against none follows from the edges (large ones are rare in motion), the mismatch
+of their jumps, the level of the marker in between against its neighbours and its shape, and the time displaced: the longer
+part is right where nothing else decides. All explanations together give the probability that a stretch is displaced.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection.neighbour.edges import Edge
+from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.numerics import intervals
 from markermend.options.detection import StepsOptions
 
-MIN_BASELINE_RATIO = 3
-"""At an end of the recording, the baseline lasts at least this many times as long as what is displaced."""
-
-
-def shift_fraction(residual: np.ndarray, start: int, stop: int, jump: np.ndarray) -> float:
-    """Measure by which part of a jump an interval is displaced as a whole.
-
-    Parameters
-    ----------
-    residual : np.ndarray
-        Residual (frames, 3), mm, NaN = missing.
-    start, stop : int
-        The interval, [start, stop).
-    jump : np.ndarray
-        The jump (3,), mm.
-
-    Returns
-    -------
-    float
-        Median inside less the median of as many samples outside, half on either side, along the jump, as a part of it.
-    """
-    reach = max(1, (stop - start) // 2)
-    outside = np.concatenate([residual[max(start - reach, 0) : start], residual[stop : stop + reach]])
-    shift = np.nanmedian(residual[start:stop], axis=0) - np.nanmedian(outside, axis=0)
-    return float(shift @ jump / (jump @ jump))
-
-
-def joint_score(first: Edge, second: Edge) -> float:
-    """Measure two jumps together.
-
-    Parameters
-    ----------
-    first, second : Edge
-        The jumps.
-
-    Returns
-    -------
-    float
-        Root mean square of their scores.
-    """
-    return float(np.hypot(first.score, second.score) / np.sqrt(2))
+MAX_EVIDENCE = 50.0
+"""The level decides no more than this: the logarithm of a ratio of likelihoods that spares looking at it."""
 
 
 @dataclass(frozen=True)
-class LevelShiftFinder:
-    """Finds the level shifts of a marker among its edges.
+class DisplacedStretch:
+    """A stretch of a marker that is displaced.
 
     Attributes
     ----------
+    start, stop : int
+        First frame, and the frame after the last.
+    edges : tuple of Edge
+        The edges at its ends: one where a gap or an end of the recording cuts it short.
+    """
+
+    start: int
+    stop: int
+    edges: tuple[Edge, ...]
+
+    def event(self, marker: str, sufficient: float) -> Event:
+        """Report the stretch as an event.
+
+        Parameters
+        ----------
+        marker : str
+            Name of the marker.
+        sufficient : float
+            Score of an edge that just suffices.
+
+        Returns
+        -------
+        Event
+            The event; its score is the root mean square of those of the edges in units of one that suffices.
+        """
+        score = float(np.sqrt(np.mean([edge.score**2 for edge in self.edges]))) / sufficient
+        axes = events.main_axes(np.array([edge.jump for edge in self.edges]))
+        return Event(marker, self.start, self.stop, max(1.0, score), axes)
+
+
+@dataclass(frozen=True)
+class Explanations:
+    """All explanations of the edges of a marker over a run of frames in which it is observed.
+
+    Attributes
+    ----------
+    edges : Sequence[Edge]
+        The edges in the run, by frame.
+    run : tuple of int
+        The frames, [start, stop).
+    beyond : tuple of ndarray of int
+        Frames before and after the run in which the marker is observed, as far as levels are compared with them; none at an
+        end of the recording.
+    evidence : LevelEvidence
+        What the level of the marker says.
     rate : float
         Sampling rate, Hz.
     options : StepsOptions
         Lengths and thresholds of a step and its two jumps, context, and attribution.
     """
 
+    edges: Sequence[Edge]
+    run: tuple[int, int]
+    beyond: tuple[np.ndarray, np.ndarray]
+    evidence: LevelEvidence
     rate: float
     options: StepsOptions
 
-    @property
-    def shortest(self) -> int:
-        """Shortest level shift, samples."""
-        return intervals.samples(self.options.min_duration_s, self.rate)
+    @cached_property
+    def frames(self) -> np.ndarray:
+        """The start of the run, the frames of the edges, and the stop of the run (edges + 2,)."""
+        return np.array([self.run[0], *(edge.frame for edge in self.edges), self.run[1]])
 
-    @property
-    def longest(self) -> int:
-        """Longest level shift, samples."""
-        return intervals.samples(self.options.max_duration_s, self.rate)
+    @cached_property
+    def rarity(self) -> np.ndarray:
+        """How much rarer each edge is in motion than one that just suffices, less for an end in its place (edges + 2,)."""
+        sufficient, factor = self.options.joint_jump_fraction, self.options.recording_end_factor
+        ends = [sufficient / (1.0 if len(frames) else factor) for frames in self.beyond]
+        scores = [edge.score / sufficient for edge in self.edges]
+        rarity: np.ndarray = self.options.jump_exponent * np.log([ends[0], *scores, ends[1]])
+        return rarity
 
-    def between_edges(
-        self, residual: np.ndarray, found_edges: Sequence[Edge], *, missing: np.ndarray, name: str
-    ) -> list[Event]:
-        """Pair opposite edges of one marker between which it is displaced.
-
-        Pairs that exceed the threshold together are made first, then the shorter ones.
-
-        Parameters
-        ----------
-        residual : np.ndarray
-            Residual of the marker (frames, 3), mm, NaN = missing.
-        found_edges : Sequence[Edge]
-            Its edges by frame, those below the threshold included.
-        missing : np.ndarray
-            Frames in which it is not observed, bool (frames,): no level shift goes on across them. What an earlier
-            detector claimed is not missing.
-        name : str
-            Name of the marker.
+    def displaced(self) -> list[DisplacedStretch]:
+        """Find the stretches that are displaced with sufficient probability.
 
         Returns
         -------
-        list[Event]
-            The level shifts.
+        list[DisplacedStretch]
+            The stretches in order; adjacent ones are one.
         """
-        frames = np.array([edge.frame for edge in found_edges], int)
-        gone = np.cumsum(missing)
-        candidates = [
-            (joint_score(found_edges[k], found_edges[j]) < 1, int(frames[j] - frames[k]), k, j)
-            for k in range(len(frames))
-            for j in range(k + 1, int(np.searchsorted(frames, frames[k] + self.longest, side="right")))
-            if gone[frames[k]] == gone[frames[j]] and self._is_level_shift(residual, found_edges[k], found_edges[j])
-        ]
-        found, used = [], np.zeros(len(frames), bool)
-        for _, _, k, j in sorted(candidates):
-            if not used[k : j + 1].any():
-                used[k : j + 1] = True
-                jumps = np.array([found_edges[k].jump, found_edges[j].jump])
-                score = joint_score(found_edges[k], found_edges[j]) / self.options.joint_jump_fraction
-                found.append(Event(name, int(frames[k]), int(frames[j]), score, events.main_axes(jumps)))
-        return found
+        found = []
+        for first, last in intervals.runs(self.probabilities() >= self.options.min_probability):
+            ends = tuple(self.edges[k - 1] for k in (first, last) if 0 < k <= len(self.edges))
+            stop = self.frames[last] + (self.edges[last - 1].ramp if last <= len(self.edges) else 0)
+            found.append(DisplacedStretch(int(self.frames[first]), int(stop), ends))
+        return [one for one in found if one.edges]
 
-    def truncated(
-        self,
-        residual: np.ndarray,
-        found_edges: Sequence[Edge],
-        others: Sequence[Event],
-        *,
-        missing: np.ndarray,
-        name: str,
-    ) -> list[Event]:
-        """Find the level shifts of one marker with a gap or an end of the recording in place of one edge.
-
-        Parameters
-        ----------
-        residual : np.ndarray
-            Residual of the marker (frames, 3), mm, NaN = missing.
-        found_edges : Sequence[Edge]
-            Its edges by frame.
-        others : Sequence[Event]
-            What was found of all markers: nothing is found that touches an event of this marker, nor at an edge where an
-            event of another one begins or ends, of which it may be the reflection.
-        missing : np.ndarray
-            Where the marker is not observed, or claimed by an earlier detector, bool (frames,).
-        name : str
-            Name of the marker.
+    def probabilities(self) -> np.ndarray:
+        """Compute the probability of each stretch between successive edges and ends to be displaced.
 
         Returns
         -------
-        list[Event]
-            The level shifts, the shorter ones first.
+        np.ndarray
+            Probabilities (edges + 1,).
         """
-        reflected = {frame for other in others if other.marker != name for frame in (other.start, other.stop)}
-        own = [other for other in others if other.marker == name]
-        found: list[Event] = []
-        for start, stop, edge in self._sides([edge for edge in found_edges if edge.frame not in reflected], missing):
-            free = all(stop < other.start or other.stop < start for other in [*own, *found])
-            if free and self._is_displaced(residual, (start, stop), edge, missing):
-                found.append(Event(name, start, stop, edge.score, events.main_axes(edge.jump[None])))
-        return found
+        ratios, count = self.log_ratios(), len(self.frames)
+        before, after = np.zeros(count + 1), np.zeros(count + 1)
+        for k in range(count):
+            before[k + 1] = np.logaddexp.reduce([before[k], *(before[:k] + ratios[:k, k])])
+        for k in reversed(range(count)):
+            after[k] = np.logaddexp.reduce([after[k + 1], *(ratios[k, k + 1 :] + after[k + 2 :])])
+        each = np.exp(before[:-1, None] + ratios + after[None, 1:] - before[-1])
+        probabilities: np.ndarray = np.cumsum(each.sum(axis=1) - each.sum(axis=0))[:-1]
+        return probabilities
 
-    def _is_level_shift(self, residual: np.ndarray, first: Edge, second: Edge) -> bool:
-        """Whether two jumps are opposite and of similar size, and the residual (frames, 3) is displaced in between."""
-        options = self.options
-        sizes = float(np.linalg.norm(first.jump)), float(np.linalg.norm(second.jump))
-        opposite = -first.jump @ second.jump >= options.min_cosine * sizes[0] * sizes[1]
-        balanced = min(sizes) >= options.min_jump_ratio * max(sizes)
-        if second.frame - first.frame < self.shortest or not opposite or not balanced:
-            return False
-        mean, score = (first.jump - second.jump) / 2, joint_score(first, second)
-        if score < options.joint_jump_fraction or np.linalg.norm(mean) < options.floor_mm:
-            return False
-        imbalance = np.linalg.norm(first.jump + second.jump)
-        if score >= 1 and imbalance <= options.max_imbalance_fraction * np.linalg.norm(mean):
-            return True
-        fraction = options.min_shift_fraction if score >= 1 else options.weak_min_shift_fraction
-        return shift_fraction(residual, first.frame, second.frame, mean) >= fraction
+    def log_ratios(self) -> np.ndarray:
+        """Compute the likelihood of each level shift against none.
 
-    def _sides(self, found_edges: Sequence[Edge], missing: np.ndarray) -> list[tuple[int, int, Edge]]:
-        """The intervals between edges and the nearest missing frame or end on either side, the shortest first."""
-        holes = np.flatnonzero(np.concatenate([[True], missing, [True]])) - 1
-        candidates: list[tuple[int, int, Edge]] = []
-        for edge in found_edges:
-            k = int(np.searchsorted(holes, edge.frame))
-            sides = (int(holes[k - 1]) + 1, edge.frame), (edge.frame, int(holes[k]))
-            candidates += [(*side, edge) for side in sides if self.shortest <= side[1] - side[0] <= self.longest]
-        return sorted(candidates, key=lambda candidate: (candidate[1] - candidate[0], candidate[0]))
-
-    def _is_displaced(self, residual: np.ndarray, interval: tuple[int, int], edge: Edge, missing: np.ndarray) -> bool:
-        """Whether an interval with an edge at one border is displaced against what lies beyond the edge and the gap.
-
-        Where nothing lies beyond, the edge must be stronger, and all of the interval displaced against a longer baseline.
+        Returns
+        -------
+        np.ndarray
+            Logarithms (edges + 2, edges + 2) by the first and the last edge or end; -inf where there can be no level shift.
         """
-        start, stop = interval
-        jump = edge.jump if edge.frame == start else -edge.jump
-        seen = np.flatnonzero(~missing)
-        before, after = seen[seen < start], seen[seen >= stop]
-        reaches = [intervals.samples(self.options.level_window_s, self.rate)]
-        if not (len(before) and len(after)):
-            baseline = MIN_BASELINE_RATIO * (stop - start)
-            if edge.score < self.options.recording_end_factor or len(before) + len(after) < baseline:
-                return False
-            reaches.append(baseline)
-        return all(
-            _differ(residual[own], residual[beyond], jump, self.options.truncated_min_shift_fraction)
-            for reach in reaches
-            for own, beyond in (
-                (slice(start, min(start + reach, stop)), before[-reach:]),
-                (slice(max(stop - reach, start), stop), after[:reach]),
-            )
-            if len(beyond)
+        shortest, longest = (
+            intervals.samples(seconds, self.rate)
+            for seconds in (self.options.min_duration_s, self.options.max_duration_s)
         )
+        count = len(self.frames)
+        ratios = np.full((count, count), -np.inf)
+        for k in range(count - 1):
+            first, last = np.searchsorted(self.frames, self.frames[k] + np.array([shortest, longest + 1]))
+            for j in range(max(int(first), k + 1), int(last)):
+                ratios[k, j] = self._log_ratio(k, j)
+        return ratios
+
+    def _log_ratio(self, first: int, last: int) -> float:
+        """The likelihood of a level shift between two edges or ends."""
+        jumps = [self._jump(first, 1), self._jump(last, -1)]
+        known = [jump for jump in jumps if jump is not None]
+        if not known:
+            return -np.inf
+        displacement = np.mean(known, axis=0)
+        start, stop = int(self.frames[first]), int(self.frames[last])
+        scale = self.options.jump_mismatch_fraction * max(float(np.linalg.norm(displacement)), 1e-9)
+        mismatch = float(np.linalg.norm(known[-1] - known[0])) / scale
+        ratio = float(self.rarity[first] + self.rarity[last]) - mismatch**2 / 2
+        ratio -= self.options.displaced_cost_per_s * (stop - start) / self.rate
+        if ratio < -MAX_EVIDENCE:
+            return -np.inf
+        return ratio + self._level_ratio(displacement, first, last)
+
+    def _level_ratio(self, displacement: np.ndarray, first: int, last: int) -> float:
+        """What the level says for a displacement between two edges or ends, and against it beyond an end."""
+        ratio = self.evidence.log_ratio(displacement, np.arange(self.frames[first], self.frames[last]))
+        for end, edge, beyond in ((first, last, self.beyond[0]), (last, first, self.beyond[1])):
+            if end in (0, len(self.frames) - 1):
+                if len(beyond):
+                    ratio = min(ratio, -self.evidence.log_ratio(displacement, beyond))
+                elif self.edges[edge - 1].score < self.options.recording_end_factor:
+                    return -np.inf
+        return ratio
+
+    def _jump(self, node: int, sign: int) -> np.ndarray | None:
+        """The displacement to which an edge leads, or from which it returns; None for an end."""
+        return sign * self.edges[node - 1].jump if 0 < node <= len(self.edges) else None
 
 
-def _differ(inside: np.ndarray, outside: np.ndarray, jump: np.ndarray, fraction: float) -> bool:
-    """Whether the medians of residuals (n, 3) differ by this part of a jump (3,) at least; False where nothing is known."""
-    if np.isnan(inside).all() or np.isnan(outside).all():
-        return False
-    shift = np.nanmedian(inside, axis=0) - np.nanmedian(outside, axis=0)
-    return bool(shift @ jump >= fraction * (jump @ jump))
+def explanations(
+    edges: Sequence[Edge], evidence: LevelEvidence, *, missing: np.ndarray, rate: float, options: StepsOptions
+) -> list[Explanations]:
+    """Make the explanations of each run of frames in which a marker is observed and has an edge.
+
+    Parameters
+    ----------
+    edges : Sequence[Edge]
+        The edges of the marker, by frame.
+    evidence : LevelEvidence
+        What the level of the marker says.
+    missing : np.ndarray
+        Where the marker is not observed, bool (frames,): no level shift goes on across such frames.
+    rate : float
+        Sampling rate, Hz.
+    options : StepsOptions
+        Lengths and thresholds of a step and its two jumps, context, and attribution.
+
+    Returns
+    -------
+    list[Explanations]
+        The explanations, by frame.
+    """
+    seen, reach = np.flatnonzero(~missing), intervals.samples(options.level_window_s, rate)
+    made = []
+    for start, stop in intervals.runs(~missing):
+        own = [edge for edge in edges if start < edge.frame < stop]
+        beyond = seen[seen < start][-reach:], seen[seen >= stop][:reach]
+        if own:
+            made.append(Explanations(own, (start, stop), beyond, evidence, rate, options))
+    return made
