@@ -42,7 +42,7 @@ def from_frame_to_frame(*, markers: int) -> Generator:
         length = round(float(np.exp(site.rng.uniform(0.0, np.log(longest)))))
         start, ring = site.place_group(rings(site, markers), length)
         none, end = np.zeros((markers, 2), int), np.full((markers, 2), length)
-        return relabelled(site, f"ring of {markers}", np.roll(ring, -1), ring, start, none, end)
+        return relabelled(site, f"ring of {markers}", np.roll(ring, -1), ring, start, (none, end))
 
     return generate
 
@@ -75,7 +75,7 @@ def across_gap(*, markers: int, staggered: bool, until: str) -> Generator:
             again += length - again.max()
         start, ring = site.place_group(rings(site, markers), length, at="stop" if until == "end" else "anywhere")
         form = f"ring of {markers}, {'staggered, ' if staggered else ''}until {until}"
-        fault = relabelled(site, form, np.roll(ring, -1), ring, start, first, again)
+        fault = relabelled(site, form, np.roll(ring, -1), ring, start, (first, again))
         if until == "later gap":
             seen, lost = int(first.max()), int(again.min())
             middle = seen + max(1, round((lost - seen) * site.rng.uniform(0.2, 0.6)))
@@ -110,7 +110,7 @@ def limbs(*, across_gaps: bool) -> Generator:
             first[:, 1] = min(site.duration(*GAP_S), length // 3)
             again[:, 0] -= 0 if to_end else min(site.duration(*GAP_S), length // 3)
         form = "from frame to frame" if not across_gaps else "to the end" if to_end else "across gaps"
-        return relabelled(site, form, partners, chosen, start, first, again)
+        return relabelled(site, form, partners, chosen, start, (first, again))
 
     return generate
 
@@ -121,8 +121,7 @@ def relabelled(
     labels: Sequence[int] | np.ndarray,
     markers: Sequence[int] | np.ndarray,
     start: int,
-    lost: np.ndarray,
-    lost_again: np.ndarray,
+    losses: tuple[np.ndarray, np.ndarray],
 ) -> Fault:
     """Show markers under other labels between two losses.
 
@@ -138,7 +137,7 @@ def relabelled(
         The markers.
     start : int
         First row of the fault.
-    lost, lost_again : ndarray of int, shape (markers, 2)
+    losses : tuple of ndarray of int, shape (markers, 2)
         When each marker is not seen, relative to `start`: half-open intervals, after the first of which it has the other
         label, and after the second its own. The first ones overlap, and so do the second ones.
 
@@ -147,6 +146,7 @@ def relabelled(
     Fault
         The fault, up to the end of the last loss.
     """
+    lost, lost_again = losses
     order, length = [int(m) for m in markers], int(lost_again.max())
     samples = np.full((length, len(order), 3), np.nan)
     for k, m in enumerate(order):
