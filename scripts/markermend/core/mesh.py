@@ -133,6 +133,22 @@ class Mesh:
         """
         return _indices(self.predictors, markers)
 
+    def segment_indices(self, markers: Sequence[str]) -> dict[str, np.ndarray]:
+        """Give the markers of each segment.
+
+        Parameters
+        ----------
+        markers : sequence of str
+            Markers of a recording.
+
+        Returns
+        -------
+        dict of str to ndarray of int
+            By name of the segment the indices of its markers.
+        """
+        place = {marker: m for m, marker in enumerate(markers)}
+        return {own.name: np.array([place[name] for name in own.markers], int) for own in self.segments}
+
     def shape(self, markers: Sequence[str]) -> Shape:
         """Give the usual shape of the markers of a recording.
 

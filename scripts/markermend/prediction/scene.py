@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
@@ -40,6 +40,8 @@ class Scene:
         For each marker the indices of the other markers of its segment and of its parent marker; None without a mesh.
     shape : Shape | None
         The usual distances of the markers over all of the subject's recordings; None without a mesh.
+    segments : Mapping[str, np.ndarray] | None
+        For each segment the indices of its markers; None without a mesh.
     """
 
     positions: np.ndarray
@@ -49,6 +51,7 @@ class Scene:
     inherited_std: np.ndarray | None = None
     segment_mates: Sequence[np.ndarray] | None = None
     shape: Shape | None = None
+    segments: Mapping[str, np.ndarray] | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:
@@ -72,7 +75,8 @@ class Scene:
         shown = recording.positions if positions is None else positions
         mates = mesh.segment_mate_indices(markers)
         neighbours, shape = mesh.neighbour_indices(markers), mesh.shape(markers)
-        return cls(shown, recording.rate, neighbours, segment_mates=mates, shape=shape)
+        segments = mesh.segment_indices(markers)
+        return cls(shown, recording.rate, neighbours, segment_mates=mates, shape=shape, segments=segments)
 
     @cached_property
     def present(self) -> np.ndarray:

@@ -1,0 +1,165 @@
+"""Rigid displacement of a whole scene: where the points of one moment stand after all of them were moved together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.numerics.rigid_alignment import nearest_rotations
+
+MIN_POINTS = 3
+"""Points that fix a rigid displacement, at least."""
+
+OUTLIER_FACTOR = 3.0
+"""Points further off than this many times the median distance do not count in the second fit."""
+
+
+@dataclass(frozen=True, eq=False)
+class RigidDisplacement:
+    """A rotation about a point, and a translation.
+
+    Attributes
+    ----------
+    rotation : np.ndarray
+        Rotation (3, 3).
+    before, after : np.ndarray
+        A point (3,) and where it is displaced to, mm.
+    residual_mm : float
+        Root mean square distance per axis of the points from where they are displaced to, mm.
+    points : int
+        Number of points that it was fitted to.
+    """
+
+    rotation: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    residual_mm: float
+    points: int
+
+    def displace(self, positions: np.ndarray) -> np.ndarray:
+        """Displace points.
+
+        Parameters
+        ----------
+        positions : np.ndarray
+            Points (..., 3), mm.
+
+        Returns
+        -------
+        np.ndarray
+            The points after the displacement.
+        """
+        displaced: np.ndarray = (positions - self.before) @ self.rotation.T + self.after
+        return displaced
+
+    def undo(self, positions: np.ndarray) -> np.ndarray:
+        """Move displaced points back.
+
+        Parameters
+        ----------
+        positions : np.ndarray
+            Points (..., 3) after the displacement, mm.
+
+        Returns
+        -------
+        np.ndarray
+            The points before it.
+        """
+        moved: np.ndarray = (positions - self.after) @ self.rotation + self.before
+        return moved
+
+    @property
+    def error_mm(self) -> float:
+        """Standard deviation per axis of points that are moved back, mm: that of six parameters and of the extrapolation."""
+        return self.residual_mm * float(np.sqrt(6 / (3 * self.points)))
+
+
+def fit_displacement(points: np.ndarray, displaced: np.ndarray) -> RigidDisplacement | None:
+    """Fit a rigid displacement to points before and after it.
+
+    Parameters
+    ----------
+    points, displaced : np.ndarray
+        Points (k, 3) before and after, mm; pairs with NaN do not count.
+
+    Returns
+    -------
+    RigidDisplacement or None
+        The displacement of least squares, without points that do not fit; None where fewer than three points are known.
+
+    References
+    ----------
+    Kabsch (1976), Acta Crystallographica A 32(5).
+    """
+    known = ~np.isnan(points + displaced).any(axis=1)
+    if known.sum() < MIN_POINTS:
+        return None
+    first, second = points[known], displaced[known]
+    distance = np.linalg.norm(_least_squares(first, second).displace(first) - second, axis=1)
+    near = distance <= OUTLIER_FACTOR * np.median(distance)
+    if near.sum() < MIN_POINTS:
+        return _least_squares(first, second)
+    return _least_squares(first[near], second[near])
+
+
+def _least_squares(points: np.ndarray, displaced: np.ndarray) -> RigidDisplacement:
+    """The displacement of least squares, of at least three points without NaN."""
+    before, after = points.mean(axis=0), displaced.mean(axis=0)
+    rotation = nearest_rotations((displaced - after).T[None] @ (points - before)[None])[0]
+    distances = (points - before) @ rotation.T + after - displaced
+    freedom = max(1, distances.size - 6)
+    residual = float(np.sqrt((distances**2).sum() / freedom))
+    return RigidDisplacement(rotation, before, after, residual, len(points))
+
+
+def displacement_over(
+    positions: np.ndarray, start: int, stop: int, *, returns: bool
+) -> RigidDisplacement | None:
+    """Estimate by how much a scene is displaced over a stretch, from the motion at its edges.
+
+    Parameters
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing.
+    start, stop : int
+        The stretch, [start, stop).
+    returns : bool
+        Whether the scene is back in its place after the stretch; else only the first edge counts.
+
+    Returns
+    -------
+    RigidDisplacement or None
+        The displacement; None where fewer than three markers are seen on either side of an edge.
+    """
+    edges = [(start - 1, start - 2, start, start + 1)]
+    if returns:
+        edges.append((stop, stop + 1, stop - 1, stop - 2))
+    sides: tuple[list[np.ndarray], list[np.ndarray]] = ([], [])
+    for outer, beyond, inner, within in edges:
+        further = beyond if 0 <= beyond < len(positions) else outer
+        deeper = within if start <= within < stop else inner
+        if 0 <= outer < len(positions):
+            sides[0].append(extrapolate(positions[outer], positions[further]))
+            sides[1].append(extrapolate(positions[inner], positions[deeper]))
+    if not sides[0]:
+        return None
+    return fit_displacement(np.concatenate(sides[0]), np.concatenate(sides[1]))
+
+
+def extrapolate(near: np.ndarray, far: np.ndarray) -> np.ndarray:
+    """Extrapolate by half a frame.
+
+    Parameters
+    ----------
+    near, far : np.ndarray
+        Positions at the last frame and at the one before, of any shape, mm.
+
+    Returns
+    -------
+    np.ndarray
+        Positions half a frame after the last; those of the last frame where the other is missing.
+    """
+    step = np.where(np.isnan(far), 0.0, near - far)
+    extrapolated: np.ndarray = near + 0.5 * step
+    return extrapolated
