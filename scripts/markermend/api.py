@@ -31,6 +31,7 @@ from markermend.core.originals import find_originals
 from markermend.core.recording import ORIGINS, Recording, Restored
 from markermend.core.unjudged import unjudged_markers, unjudged_warnings
 from markermend.core.written import written_changes
+from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
@@ -45,6 +46,7 @@ from markermend.formats.ingest import ingest_file
 from markermend.mesh import inference, user_mesh
 from markermend.options.config import read_config
 from markermend.options.detection import (
+    FramesOptions,
     FrozenOptions,
     LabelsOptions,
     NoiseOptions,
@@ -72,6 +74,7 @@ if TYPE_CHECKING:
 
 DETECTORS: Mapping[str, Callable[..., Any]] = {
     "labels": detect_labels,
+    "frames": detect_frames,
     "frozen": detect_frozen,
     "tails": detect_tails,
     "peaks": detect_peaks,
@@ -98,7 +101,7 @@ class Options:
     ----------
     general : GeneralOptions
         Which classes of artifacts to look for.
-    ingest, mesh, labels, frozen, tails, peaks, noise, steps, slow, repair, fill
+    ingest, mesh, labels, frames, frozen, tails, peaks, noise, steps, slow, repair, fill
         The options of the stage of that name (config/README.md).
 
     Examples
@@ -111,6 +114,7 @@ class Options:
     ingest: IngestOptions
     mesh: MeshOptions
     labels: LabelsOptions
+    frames: FramesOptions
     frozen: FrozenOptions
     tails: TailsOptions
     peaks: PeaksOptions

@@ -15,7 +15,7 @@ def published_after(code):
     return subprocess.run(run, capture_output=True, text=True, check=True).stdout.strip()
 
 
-@pytest.mark.parametrize("stage", ["labels", "frozen", "tails", "peaks", "noise", "steps", "slow"])
+@pytest.mark.parametrize("stage", ["labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow"])
 def test_a_default_detector_and_its_command_import_no_published_one(stage):
     assert published_after(f"import markermend.detection.{stage}") == "[]"
     assert published_after(f"import {stage}") == "[]"

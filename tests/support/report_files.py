@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from markermend.core.applied_changes import applied_changes
+from markermend.core.artifacts import BY_STAGE
 from markermend.core.changes import GAP, Change, Outcome
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh, Segment
@@ -112,9 +113,9 @@ def write(
     name, subject = before.facts["recording"], before.facts["subject"]
     folder = results / encode(subject) / encode(name)
     stage_files.write_recording(folder / "01_markers.parquet", before, {"stage": "ingest", "options": {}})
-    for number, (stage, events) in enumerate(found.items(), 2):
+    for stage, events in found.items():
         facts = {"stage": stage, "options": {"threshold": 5.0}}
-        stage_files.write_events(folder / f"{number:02d}_{stage}.parquet", events, facts)
+        stage_files.write_events(folder / BY_STAGE[stage].events_file, events, facts)
     for file, stage, options in (
         ("06_repaired", "repair", {"max_error_mm": 20.0}),
         ("07_filled", "fill", {"max_gap_s": 2.0, "decisions": list(decisions)}),

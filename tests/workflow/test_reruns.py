@@ -17,7 +17,7 @@ from markermend.planning import code_hashes
 from support.workflow_runs import Project, write_recording
 
 CHAIN = [
-    "ingest", "mesh", "labels", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report",
+    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report",
 ]  # fmt: skip
 NOTHING = "Nothing to be done"
 FAULT = """

@@ -16,7 +16,7 @@ from markermend.options.flags import stage_options
 from support.workflow_runs import PROJECT, Project, write_recording
 
 STAGES = (
-    "ingest", "mesh", "labels", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
+    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Find the artifacts, one class after the other in their strict order; a class that is not in `detect` has no job.
 
 Reads: 01_markers.parquet, mesh.json, the events of the classes before.
-Writes: 02_labels.parquet, 02_frozen.parquet, 02_tails.parquet, 02_peaks.parquet, 03_noise.parquet, 04_steps.parquet, 05_slow.parquet.
+Writes: 02_labels.parquet, 02_frames.parquet, 02_frozen.parquet, 02_tails.parquet, 02_peaks.parquet, 03_noise.parquet, 04_steps.parquet, 05_slow.parquet.
 """
 
 for stage in plan.detectors:

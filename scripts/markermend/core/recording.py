@@ -9,7 +9,21 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 
-ORIGINS = ("measured", "peak", "noise", "step", "swap", "slow", "filled", "missing", "displaced", "creep", "jump", "shift", "slip")
+ORIGINS = (
+    "measured",
+    "peak",
+    "noise",
+    "step",
+    "swap",
+    "slow",
+    "filled",
+    "missing",
+    "displaced",
+    "creep",
+    "jump",
+    "shift",
+    "slip",
+)
 """What a written sample is: as measured, repaired by class, filled, or missing; stored by name, in memory its place here."""
 
 MEASURED, FILLED, MISSING = ORIGINS.index("measured"), ORIGINS.index("filled"), ORIGINS.index("missing")

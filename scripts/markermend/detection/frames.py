@@ -73,8 +73,10 @@ def _displaced(stretch: DisplacedStretch, scene: Scene, markers: Sequence[str]) 
     kind = "jump" if stretch.returns else "shift"
     axes = main_axes(stretch.displacement.after[None] - stretch.displacement.before)
     return [
-        Event(markers[m], stretch.start, stretch.stop, stretch.score, axes, None, kind, ALL, round(stretch.amount_mm, 3))
-        for m in np.flatnonzero(scene.present[stretch.start : stretch.stop].any(axis=0))
+        Event(
+            markers[m], stretch.start, stretch.stop, stretch.score, axes, None, kind, ALL, round(stretch.amount_mm, 3)
+        )
+        for m in np.flatnonzero(scene.present[stretch.start : stretch.stop].any(axis=0)).tolist()
     ]
 
 
@@ -83,7 +85,7 @@ def _slipped(slip: SegmentSlip, markers: Sequence[str]) -> list[Event]:
     axes, amount = main_axes(slip.displacement[None]), round(float(np.linalg.norm(slip.displacement)), 3)
     return [
         Event(markers[m], slip.start, slip.stop, slip.score, axes, None, "slip", slip.segment, amount)
-        for m in slip.markers
+        for m in slip.markers.tolist()
     ]
 
 

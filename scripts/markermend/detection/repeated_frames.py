@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.options.detection import FramesOptions
+from markermend.options.detection import RepeatedFramesOptions
 
 RESOLUTION_QUANTILE = 0.01
 """Smallest changes of coordinates that count as the resolution: fewer may be chance."""
@@ -30,13 +30,13 @@ class RepeatedFrames:
         Positions, mm, NaN = missing.
     rate : float
         Sampling rate, Hz.
-    options : FramesOptions
+    options : RepeatedFramesOptions
         Share of the markers that must repeat, and their motion around.
     """
 
     positions: np.ndarray
     rate: float
-    options: FramesOptions
+    options: RepeatedFramesOptions
 
     @cached_property
     def spans(self) -> list[Span]:
@@ -65,11 +65,11 @@ class RepeatedFrames:
         Returns
         -------
         list of int
-            Indices of the markers that are unchanged wherever they are seen.
+            Indices of the markers that are unchanged wherever they are seen in succession.
         """
-        absent = np.isnan(self.positions[start:stop, :, 0])
-        unchanged = self._unchanged[start:stop]
-        members: list[int] = np.flatnonzero((unchanged | absent).all(axis=0) & unchanged.any(axis=0)).tolist()
+        absent = np.isnan(self.positions[start - 1 : stop, :, 0])
+        unchanged, unknown = self._unchanged[start:stop], absent[1:] | absent[:-1]
+        members: list[int] = np.flatnonzero((unchanged | unknown).all(axis=0) & unchanged.any(axis=0)).tolist()
         return members
 
     @cached_property

@@ -29,6 +29,7 @@ ORDER = 2
 FIT_ORDER = 5
 """Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
 
+
 @dataclass(frozen=True)
 class SegmentSlip:
     """A stretch over which markers of a segment are displaced together.
@@ -70,7 +71,7 @@ def find_segment_slips(scene: Scene, options: SegmentSlipOptions) -> list[Segmen
     list of SegmentSlip
         By segment and frame; those of one segment share no frame.
     """
-    found = []
+    found: list[SegmentSlip] = []
     for name, members in (scene.segments or {}).items():
         anchors = _anchors(scene, members, options.anchors)
         if len(members) >= options.min_markers and len(anchors) >= MIN_ANCHORS:
@@ -113,7 +114,7 @@ class _SegmentCourse:
     @cached_property
     def _known(self) -> np.ndarray:
         """Whether all members and anchors are seen, bool (frames,)."""
-        known: np.ndarray = self.scene.present[:, np.concatenate([self.members, self.anchors])].all(axis=1)
+        known: np.ndarray = np.all(self.scene.present[:, np.concatenate([self.members, self.anchors])], axis=1)
         return known
 
     @cached_property
@@ -144,14 +145,16 @@ class _SegmentCourse:
         options = self.options
         window = samples(options.scale_window_s, self.scene.rate, odd=True)
         centres = [course.mean(axis=1) for course in self._courses]
-        best, amount = np.zeros((2, len(self._known)))
+        best, amount = np.zeros(len(self._known)), np.zeros(len(self._known))
         for length in range(1, options.max_frames + 1):
             kernel = _pulse_kernel(length, options.context_frames)
-            score, size = np.inf, np.inf
+            score = size = np.full(len(best), np.inf)
             for centre in centres:
                 pulse = np.sqrt((ndimage.correlate1d(centre, kernel, axis=0) ** 2).sum(axis=1))
                 known = np.nan_to_num(pulse)
-                usual = np.maximum(ndimage.median_filter(known, window, mode="nearest"), 0.5 * np.median(known[known > 0]))
+                usual = np.maximum(
+                    ndimage.median_filter(known, window, mode="nearest"), 0.5 * np.median(known[known > 0])
+                )
                 size = np.minimum(size, known)
                 score = np.minimum(score, known / (usual + options.noise_mm))
             better = (size >= options.floor_mm) & (score > best)

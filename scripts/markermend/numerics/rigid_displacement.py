@@ -11,6 +11,15 @@ from markermend.numerics.rigid_alignment import nearest_rotations
 MIN_POINTS = 3
 """Points that fix a rigid displacement, at least."""
 
+MIN_ROTATION_GAIN = 20.0
+"""F ratio of the square sum that a rotation explains beyond a translation, at least: motion makes it look like one."""
+
+COMMON_MOTION = 8.0
+"""So many points say as much as one that moves independently."""
+
+TINY_MM = 1e-6
+"""Smallest residual that counts."""
+
 OUTLIER_FACTOR = 3.0
 """Points further off than this many times the median distance do not count in the second fit."""
 
@@ -29,6 +38,8 @@ class RigidDisplacement:
         Root mean square distance per axis of the points from where they are displaced to, mm.
     points : int
         Number of points that it was fitted to.
+    extent_mm : float
+        Root mean square distance of these points from their mean, mm; 0 for a translation.
     """
 
     rotation: np.ndarray
@@ -36,6 +47,7 @@ class RigidDisplacement:
     after: np.ndarray
     residual_mm: float
     points: int
+    extent_mm: float
 
     def displace(self, positions: np.ndarray) -> np.ndarray:
         """Displace points.
@@ -69,10 +81,24 @@ class RigidDisplacement:
         moved: np.ndarray = (positions - self.after) @ self.rotation + self.before
         return moved
 
-    @property
-    def error_mm(self) -> float:
-        """Standard deviation per axis of points that are moved back, mm: that of six parameters and of the extrapolation."""
-        return self.residual_mm * float(np.sqrt(6 / (3 * self.points)))
+    def error_at(self, positions: np.ndarray) -> np.ndarray:
+        """State the error of displaced points that are moved back.
+
+        Parameters
+        ----------
+        positions : np.ndarray
+            Points (..., 3) after the displacement, mm.
+
+        Returns
+        -------
+        np.ndarray
+            Standard deviation (...) per axis, mm: that of a mean, and for a rotation of the distance from its centre, too.
+            The points count as fewer than they are, since their motion is common to many.
+        """
+        distance = np.linalg.norm(positions - self.after, axis=-1)
+        leverage = (distance / self.extent_mm) ** 2 if self.extent_mm else np.zeros_like(distance)
+        error: np.ndarray = self.residual_mm * np.sqrt(COMMON_MOTION / self.points * (1 + leverage))
+        return error
 
 
 def fit_displacement(points: np.ndarray, displaced: np.ndarray) -> RigidDisplacement | None:
@@ -86,7 +112,8 @@ def fit_displacement(points: np.ndarray, displaced: np.ndarray) -> RigidDisplace
     Returns
     -------
     RigidDisplacement or None
-        The displacement of least squares, without points that do not fit; None where fewer than three points are known.
+        The displacement of least squares, without points that do not fit, and without a rotation that explains little; None
+        where fewer than three points are known.
 
     References
     ----------
@@ -98,24 +125,26 @@ def fit_displacement(points: np.ndarray, displaced: np.ndarray) -> RigidDisplace
     first, second = points[known], displaced[known]
     distance = np.linalg.norm(_least_squares(first, second).displace(first) - second, axis=1)
     near = distance <= OUTLIER_FACTOR * np.median(distance)
-    if near.sum() < MIN_POINTS:
-        return _least_squares(first, second)
-    return _least_squares(first[near], second[near])
+    if near.sum() >= MIN_POINTS:
+        first, second = first[near], second[near]
+    moved, turned = _least_squares(first, second, turns=False), _least_squares(first, second)
+    gain = (moved.residual_mm / max(turned.residual_mm, TINY_MM)) ** 2 - 1
+    return turned if gain * len(first) >= MIN_ROTATION_GAIN else moved
 
 
-def _least_squares(points: np.ndarray, displaced: np.ndarray) -> RigidDisplacement:
+def _least_squares(points: np.ndarray, displaced: np.ndarray, *, turns: bool = True) -> RigidDisplacement:
     """The displacement of least squares, of at least three points without NaN."""
     before, after = points.mean(axis=0), displaced.mean(axis=0)
-    rotation = nearest_rotations((displaced - after).T[None] @ (points - before)[None])[0]
+    rotation = np.eye(3)
+    if turns:
+        rotation = nearest_rotations((displaced - after).T[None] @ (points - before)[None])[0]
     distances = (points - before) @ rotation.T + after - displaced
-    freedom = max(1, distances.size - 6)
-    residual = float(np.sqrt((distances**2).sum() / freedom))
-    return RigidDisplacement(rotation, before, after, residual, len(points))
+    residual = float(np.sqrt((distances**2).sum() / max(1, distances.size - (6 if turns else 3))))
+    extent = float(np.sqrt(((displaced - after) ** 2).sum(axis=1).mean())) if turns else 0.0
+    return RigidDisplacement(rotation, before, after, residual, len(points), extent)
 
 
-def displacement_over(
-    positions: np.ndarray, start: int, stop: int, *, returns: bool
-) -> RigidDisplacement | None:
+def displacement_over(positions: np.ndarray, start: int, stop: int, *, returns: bool) -> RigidDisplacement | None:
     """Estimate by how much a scene is displaced over a stretch, from the motion at its edges.
 
     Parameters
@@ -132,6 +161,9 @@ def displacement_over(
     RigidDisplacement or None
         The displacement; None where fewer than three markers are seen on either side of an edge.
     """
+    if returns and stop - start == 1 and start >= 2 and stop + 1 < len(positions):
+        outer, inner = positions[start - 2] + positions[stop + 1], positions[start - 1] + positions[stop]
+        return fit_displacement((4 * inner - outer) / 6, positions[start])
     edges = [(start - 1, start - 2, start, start + 1)]
     if returns:
         edges.append((stop, stop + 1, stop - 1, stop - 2))

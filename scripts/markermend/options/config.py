@@ -10,6 +10,7 @@ from typing import Any
 
 from markermend.options.declaration import Option, describe
 from markermend.options.detection import (
+    FramesOptions,
     FrozenOptions,
     LabelsOptions,
     NoiseOptions,
@@ -40,6 +41,7 @@ SECTIONS: dict[str, type] = {
     "ingest": IngestOptions,
     "mesh": MeshOptions,
     "labels": LabelsOptions,
+    "frames": FramesOptions,
     "frozen": FrozenOptions,
     "tails": TailsOptions,
     "peaks": PeaksOptions,

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from markermend.options.declaration import Distinct, Laboratory, NotEmpty
 
-Stages = Literal["labels", "frozen", "tails", "peaks", "noise", "steps", "slow"]
+Stages = Literal["labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow"]
 """The classes of artifacts that `detect` may list."""
 
 

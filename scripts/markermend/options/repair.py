@@ -27,6 +27,7 @@ from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 
 USUAL_METHODS: Mapping[str, tuple[str, ...]] = {
     "labels": ("exchange",),
+    "frames": ("move_back", "spline", "local_ridge"),
     "peaks": ("spline", "local_ridge"),
     "noise": ("separate_noise", "local_ridge"),
     "steps": ("separate_step", "local_ridge"),

@@ -17,6 +17,9 @@ from markermend.prediction.neural_network.predictor import cannot_train
 from markermend.prediction.registry import REGISTRY
 from markermend.repair.methods import METHODS
 
+OWN_METHODS = {"exchange": "labels", "move_back": "frames"}
+"""Methods of one stage alone."""
+
 REFUSED = "The config cannot be used (config/README.md says what the keys mean):"
 """How a refusal begins."""
 
@@ -82,7 +85,8 @@ def check(config: Mapping[str, Any], *, deployed: bool) -> dict[str, Any]:
             found.append(
                 f"repair.methods.{kind}: swap is now exchange, the method of repair.methods.labels and of no other class"
             )
-        usable = [name for name in METHODS if (name == "exchange") == (kind == "labels")]
+        usable = [name for name in METHODS if OWN_METHODS.get(name, kind) == kind]
+        usable = ["exchange"] if kind == "labels" else usable
         found += unknown(f"repair.methods.{kind}", [name for name in methods if name != "swap"], usable)
     if not deployed and (reason := cannot_train(fill.members)):
         found.append(f"fill.members: {reason}")

@@ -18,7 +18,7 @@ from markermend.repair.methods import Proposal, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 from markermend.repair.separator import Separator
 
-NOT_PROPOSING = ("exchange", "blank")
+NOT_PROPOSING = ("exchange", "move_back", "blank")
 """Methods that propose no samples of their own."""
 
 

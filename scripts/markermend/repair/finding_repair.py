@@ -93,7 +93,7 @@ def _none_taken(
     stage: str, methods: Sequence[str], objections: Mapping[str, Reason | None], best: Candidate | None
 ) -> Reason:
     """Say why no candidate was taken: the objection to each method, and the cause of that to the best."""
-    applicable = [method for method in methods if method != "exchange"]
+    applicable = [method for method in methods if method not in ("exchange", "move_back")]
     if not applicable:
         return Reason(Cause.NO_METHOD, f"no method for {stage}: treated as a gap")
     texts = [f"{method}: {_why_not(method, objections)}" for method in applicable]

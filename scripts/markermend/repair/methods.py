@@ -14,7 +14,16 @@ from markermend.prediction.lagged_regression.predictor import LAGGED_REGRESSIONS
 from markermend.prediction.scene import Scene
 from markermend.repair.separation import SHAPE_COVARIANCES
 
-METHODS = ("exchange", *SHAPE_COVARIANCES, "savitzky_golay", "blank", "local_ridge", *LAGGED_REGRESSIONS, *KINDS)
+METHODS = (
+    "exchange",
+    "move_back",
+    *SHAPE_COVARIANCES,
+    "savitzky_golay",
+    "blank",
+    "local_ridge",
+    *LAGGED_REGRESSIONS,
+    *KINDS,
+)
 """The ways of repair by the names that a config may use."""
 
 

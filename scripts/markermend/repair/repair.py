@@ -1,6 +1,6 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Labels are exchanged first. All other findings were made on trajectories with the exchanges undone; where an exchange is
+Labels are exchanged first, then stretches over which all markers are displaced are moved back. All other findings were made on trajectories with the exchanges undone; where an exchange is
 not carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
 proposal with the least expected error is taken if it changes more than it may err by, and if a method that leaves the
 neighbours aside brings the samples nearer to where these predict them. Where no proposal is accurate enough, the samples
@@ -31,6 +31,7 @@ from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_e
 from markermend.repair.finding_repair import repair_finding
 from markermend.repair.findings import Rulings, group_findings
 from markermend.repair.label_exchanges import linked_events
+from markermend.repair.moving_back import move_back
 from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
 
@@ -115,8 +116,11 @@ def repair_scene(
         decided = apply_decisions(recording, _follow_samples(found, exchanges, carried), rulings.decisions)
     result = Restoration(decided.recording, decided.left, options.radius)
     _exchange_labels(result, planned)
+    methods = options.methods.get("frames", ())
+    settled = move_back(decided.found, rulings, methods=methods, refusal=refusal, result=result)
     exchanged = replace(decided.recording, positions=result.positions.copy())
     remaining = {**decided.found, "labels": not_planned(decided.found["labels"], planned)}
+    remaining["frames"] = [event for event in decided.found["frames"] if event not in settled]
     maker = _candidate_maker(exchanged, remaining, scene, predictors, options)
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)

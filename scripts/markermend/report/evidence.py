@@ -67,6 +67,8 @@ class Evidence:
         What export states about the cleaned file.
     stages : dict[str, dict[str, Any]]
         The options of every stage.
+    noted : tuple of str
+        What the detectors warn of.
     """
 
     before: Recording
@@ -78,6 +80,7 @@ class Evidence:
     left: list[Change]
     certificate: dict[str, Any]
     stages: dict[str, dict[str, Any]]
+    noted: tuple[str, ...] = ()
 
     @property
     def decided(self) -> list[DecisionOutcome]:
@@ -96,8 +99,13 @@ class Evidence:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of ingest, mesh and export, of markers not judged, and of decisions that did nothing."""
-        warnings = [*self.before.facts.get("warnings", ()), *self.mesh.warnings, *unjudged_warnings(self.unjudged)]
+        """Warnings of ingest, mesh, detectors and export, of markers not judged, and of decisions that did nothing."""
+        warnings = [
+            *self.before.facts.get("warnings", ()),
+            *self.mesh.warnings,
+            *self.noted,
+            *unjudged_warnings(self.unjudged),
+        ]
         if refused := self.certificate["refused"]:
             warnings.append(f"{len(refused)} changed samples do not fit the file's number format and were not written")
         return warnings + [outcome.warning for outcome in self.decided if outcome.warning]
@@ -149,6 +157,7 @@ def read_evidence(call: QcCall) -> Evidence:
         changes=changes,
         left=left_open(after, found, changes, record),
         certificate=certificate,
+        noted=tuple(warning for facts in facts_found for warning in facts.get("warnings", ())),
         stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
     )
 

@@ -153,7 +153,11 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
             "missing."
         )
     # Published detectors look for the first class alone.
-    left = [own for own in ARTIFACTS if own.reported and stages.get(own.stage, {}).get("preset") == "default"]
+    left = [
+        own
+        for own in ARTIFACTS
+        if own.reported and stages.get(own.stage, {"preset": ""}).get("preset", "default") == "default"
+    ]
     if left:
         text = " and ".join(artifact.plural for artifact in left)
         yield f"{text[0].upper()}{text[1:]} were reported, and left as measured unless their repair was asked for."

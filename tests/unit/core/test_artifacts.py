@@ -39,19 +39,24 @@ def test_every_class_is_listed_wherever_detectors_are_named():
 
 def test_files_are_an_interface():
     assert [artifact.events_file for artifact in BY_STAGE.values()] == [
-        "02_labels.parquet", "02_frozen.parquet", "02_tails.parquet", "02_peaks.parquet",
+        "02_labels.parquet", "02_frames.parquet", "02_frozen.parquet", "02_tails.parquet", "02_peaks.parquet",
         "03_noise.parquet", "04_steps.parquet", "05_slow.parquet",
     ]  # fmt: skip
 
 
 def test_repaired_samples_have_the_origin_of_their_class_and_unmeasured_ones_none():
     assert all(artifact.origin in ORIGINS for artifact in ARTIFACTS)
-    assert [artifact.name for artifact in ARTIFACTS if artifact.origin == "missing"] == ["foreign", "frozen", "tail"]
+    assert [artifact.name for artifact in ARTIFACTS if artifact.origin == "missing"] == [
+        "foreign",
+        "repeat",
+        "frozen",
+        "tail",
+    ]
 
 
 def test_a_finding_is_named_as_in_the_table_of_changes():
     kinds = [class_of(stage, Event("A", 0, 1, 1.0)).name for stage in DETECTORS]
-    assert kinds == ["swap", "frozen", "tail", "peak", "noise", "step", "slow"]
+    assert kinds == ["swap", "repeat", "frozen", "tail", "peak", "noise", "step", "slow"]
     assert class_of("labels", Event("A", 0, 1, 1.0, "xyz", "B")).name == "swap"
     assert class_of("labels", Event("A", 0, 1, 1.0, kind="peak")).name == "peak"
 

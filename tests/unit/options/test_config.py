@@ -65,7 +65,7 @@ def test_about_forty_options_are_for_laboratories():
         ({"fill": {"max_gap_s": float("nan")}}, "fill.max_gap_s: nan is not a finite number"),
         ({"ingest": {"static_names": ["("]}}, "ingest.static_names[0]: '(' is not a regular expression"),
         ({"detect": ["peaks", "peaks"]}, "detect: 'peaks' is there twice"),
-        ({"detect": ["swaps"]}, "detect[0]: 'swaps' is none of labels, frozen"),
+        ({"detect": ["swaps"]}, "detect[0]: 'swaps' is none of labels, frames, frozen"),
         (
             {"advanced": {"predictors": {"bolero": {"tolerance": "1e-6"}}}},
             "advanced.predictors.bolero.tolerance: '1e-6' is not a number, such as 0.0001",

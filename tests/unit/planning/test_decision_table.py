@@ -81,11 +81,11 @@ def test_places_can_be_copied_from_the_table_of_changes():
         ("run|LANK|7.5|9|accept", "line 2, column first_frame: '7.5' is not a frame number"),
         (
             "run|LANK|7|9|accept|peek",
-            "line 2, column value: 'peek' is none of swap, foreign, frozen, tail, peak, noise, step, displaced,",
+            "line 2, column value: 'peek' is none of swap, foreign, repeat, jump, shift, slip, frozen, tail,",
         ),
         ("run|LANK|7|9|protect|peak", "line 2, column value: 'peak': protect takes no value"),
         ("run|LANK|7|9|missing|peak", "line 2, column value: 'peak': missing takes no value"),
-        ("run|LANK|7|9|class", "line 2, column value: '' is none of foreign, frozen, tail, peak, noise, step,"),
+        ("run|LANK|7|9|class", "line 2, column value: '' is none of foreign, repeat, jump, shift, slip, frozen, tail,"),
         ("run|LANK|7|9|class|gap", "line 2, column value: 'gap' is none of"),
         ("run|LANK|7|9|class|peak:RANK", "line 2, column value: 'peak:RANK' is none of"),
         ("run|LANK|7|9|class|swap", "line 2, column value: 'swap': a swap is between two markers"),

@@ -15,7 +15,7 @@ def test_the_papers_protocol(share):
     found = masks(result, FRAMES)
     distorted = sum(mask.sum(axis=1) for mask in found.values())
     assert distorted.max() == 1
-    assert not any(found.pop(kind).any() for kind in ("labels", "frozen", "tails"))
+    assert not any(found.pop(kind).any() for kind in ("labels", "frames", "frozen", "tails"))
     for mask in found.values():
         assert mask.sum() == pytest.approx(share / 4 * FRAMES, abs=26)
     assert np.array_equal((result.positions != still()).any(axis=(1, 2)), distorted > 0)
