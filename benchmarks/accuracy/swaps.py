@@ -39,7 +39,7 @@ def read(path: Path) -> tuple[tuple[str, ...], Scene]:
     """The markers and the scene of a recording, with its own mesh."""
     recording = api.read(path)
     mesh = api.infer_mesh([recording])
-    return recording.markers, Scene(recording.positions, recording.rate, mesh.neighbour_indices(recording.markers))
+    return recording.markers, Scene.of(recording, mesh)
 
 
 def swap(

@@ -8,7 +8,10 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection.label_cycles import find_cycle_exchanges
+from markermend.detection.label_evidence import LabelEvidence, find_borders, judged_rows
+from markermend.detection.label_levels import relabel_by_level
 from markermend.detection.label_pairs import find_pair_exchanges, length
+from markermend.detection.labelling import exchange_events, labelling
 from markermend.numerics import intervals, robust
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -52,7 +55,16 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
                 Event(markers[m], one.start, one.stop, max(1.0, one.score), "xyz", markers[label])
                 for m, label in zip(members, labels, strict=True)
             ]
-    return sorted(found, key=lambda event: event.order)
+    found = sorted(found, key=lambda event: event.order)
+    if scene.shape is None:
+        return found
+    under, score = labelling(found, scene.present.shape, markers)
+    border = find_borders(scene.present, sudden)
+    rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
+    spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
+    evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
+    evidence, score = relabel_by_level(evidence, score, markers=markers)
+    return found if np.array_equal(under, evidence.under) else exchange_events(evidence.under, score, markers)
 
 
 def sudden_steps(positions: np.ndarray, *, window: int, options: LabelsOptions) -> np.ndarray:

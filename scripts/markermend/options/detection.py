@@ -78,6 +78,47 @@ class LabelsOptions:
 
     Change it when exchanges of three labels are missed (lower), or false ones are found (higher)."""
 
+    spacing_s: PositiveSeconds = 0.1
+    """Time between the frames in which labels are judged by the subject's usual shape."""
+
+    max_frames: Count = 2000
+    """Frames in which labels are judged so, at most."""
+
+    correlation_s: PositiveSeconds = 0.3
+    """Frames count as independent evidence if they are this far apart."""
+
+    min_mean_gain: NotNegative = 0.5
+    """Smallest gain of log likelihood with other labels, mean of a stretch."""
+
+    min_gain: Positive = 3
+    """Smallest gain of log likelihood with other labels, sum of a stretch.
+
+    Change it when exchanges across gaps are missed (lower), or false ones are found (higher)."""
+
+    change_penalty: NotNegative = 1
+    """Gain of log likelihood that each further change of labels in time must bring."""
+
+    max_misfit: NotNegative = 5
+    """Largest loss of log likelihood against what is usual of a marker, mean of the samples that get another label."""
+
+    min_group_pairs: Count = 2
+    """Pairs of left and right markers, or of two subjects, that make a group, at least."""
+
+    max_group_sections: Count = 20
+    """Sections between frames at which trajectories of several markers are broken in which groups are looked for, at most."""
+
+    group_anchors: Count = 16
+    """Markers to which the distances of a marker are judged where labels of a whole group may be exchanged."""
+
+    min_broken_share: Share = 0.75
+    """Labels of several markers pass to each other where so many of their trajectories are broken at the same time (0 to 1)."""
+
+    max_changes: Count = 100
+    """Changes of labels that are found by the usual shape, at most."""
+
+    shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
+    """The subject's usual shape."""
+
 
 @dataclass(frozen=True)
 class DetectorOptions:

@@ -110,12 +110,81 @@ class ShapeEvidence:
             `min_anchors` distances are known. The mean, since distances to the markers of one segment vary together.
         """
         deviation, scale = self.deviations(marker, anchors, points=points), self.scale(marker, anchors)
+        return self._mean(self._log_density(deviation, scale))
+
+    def own_log_likelihoods(self, markers: np.ndarray) -> np.ndarray:
+        """Compute the likelihood of points if they are those of the markers under whose labels they are recorded.
+
+        Parameters
+        ----------
+        markers : np.ndarray
+            Indices of the markers (n,).
+
+        Returns
+        -------
+        np.ndarray
+            Log likelihoods (frames, n), see `log_likelihood`; NaN where they are unknown.
+        """
+        own = [self.log_likelihood(m, self.anchors(m)) for m in markers.tolist()]
+        return np.stack(own, axis=1) if own else np.empty((len(self.positions), 0))
+
+    def label_log_likelihoods(self) -> np.ndarray:
+        """Compute the likelihood of every point if it is that of any marker.
+
+        Returns
+        -------
+        np.ndarray
+            Log likelihoods (frames, labels, markers) of the point that is recorded under a label, if it is that of a marker,
+            see `log_likelihood`; the distance from what is recorded under its own label is left out. NaN where unknown.
+        """
+        tracks, count = self.positions, self.positions.shape[1]
+        distance = np.stack([np.sqrt(np.square(tracks - tracks[:, m, None]).sum(axis=2)) for m in range(count)], axis=1)
+        likelihood = np.full(distance.shape, np.nan)
+        for marker in range(count):
+            anchors = self.anchors(marker)
+            if len(anchors) >= self.options.min_anchors:
+                deviation = distance[:, :, anchors] - self.shape.distance[marker, anchors]
+                deviation[:, anchors, np.arange(len(anchors))] = np.nan
+                likelihood[:, :, marker] = self._mean(self._log_density(deviation, self.scale(marker, anchors)))
+        return likelihood
+
+    def mean_misfits(self, marker: int, label: int, anchors: np.ndarray, labels: np.ndarray) -> np.ndarray:
+        """Compute how badly the distances fit if a marker and its anchors are recorded under other labels.
+
+        Parameters
+        ----------
+        marker, label : int
+            Indices of the marker, and of the label under which it is recorded.
+        anchors, labels : np.ndarray
+            Indices of its anchors, and of the labels under which they are recorded (anchors,).
+
+        Returns
+        -------
+        np.ndarray
+            Log density of the usual distance less that of what is measured, per anchor (anchors,), mean over the frames and
+            divided by the number of anchors; frames in which a distance is unknown count as none.
+        """
+        difference = self.positions[:, labels] - self.positions[:, label, None]
+        deviation = np.sqrt(np.einsum("fai,fai->fa", difference, difference)) - self.shape.distance[marker, anchors]
+        scale = self.scale(marker, anchors)
+        misfit = self._log_density(np.zeros(len(anchors)), scale) - self._log_density(deviation, scale)
+        mean: np.ndarray = np.nan_to_num(misfit).mean(axis=0) / len(anchors) if len(misfit) else np.zeros(len(anchors))
+        return mean
+
+    def _log_density(self, deviation: np.ndarray, scale: np.ndarray) -> np.ndarray:
+        """Log density (1/mm) of Student's t distribution at deviations (..., anchors) of distances, mm."""
         freedom = self.options.degrees_of_freedom
         constant = gammaln((freedom + 1) / 2) - gammaln(freedom / 2) - np.log(freedom * np.pi) / 2
-        density = constant - np.log(scale) - (freedom + 1) / 2 * np.log1p((deviation / scale) ** 2 / freedom)
+        density: np.ndarray = (
+            constant - np.log(scale) - (freedom + 1) / 2 * np.log1p((deviation / scale) ** 2 / freedom)
+        )
+        return density
+
+    def _mean(self, density: np.ndarray) -> np.ndarray:
+        """Mean over the last axis of what is known; NaN where that is from too few anchors."""
         known = ~np.isnan(density)
-        count = known.sum(axis=1)
-        mean = np.where(known, density, 0.0).sum(axis=1) / np.maximum(count, 1)
+        count = known.sum(axis=-1)
+        mean = np.where(known, density, 0.0).sum(axis=-1) / np.maximum(count, 1)
         likelihood: np.ndarray = np.where(count >= self.options.min_anchors, mean, np.nan)
         return likelihood
 

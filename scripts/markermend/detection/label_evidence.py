@@ -1,0 +1,381 @@
+"""The evidence for other labels over time: how much better samples fit, and between which frames labels may have changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from markermend.core.shape import Shape
+from markermend.detection.label_permutations import Permutation
+from markermend.numerics.intervals import runs, samples
+from markermend.options.detection import LabelsOptions
+from markermend.prediction.shape_evidence import ShapeEvidence
+
+
+@dataclass(frozen=True)
+class Relabelling:
+    """Other labels of some markers.
+
+    Attributes
+    ----------
+    permutation : Permutation
+        Under which label each marker is.
+    as_recorded : bool
+        Whether these are labels as recorded, else labels after the changes that were found so far.
+    """
+
+    permutation: Permutation
+    as_recorded: bool = False
+
+    @property
+    def markers(self) -> list[int]:
+        """Indices of the markers."""
+        return list(self.permutation.markers)
+
+    def of(self, under: np.ndarray) -> np.ndarray:
+        """Relabel the markers.
+
+        Parameters
+        ----------
+        under : np.ndarray
+            Under which label each marker was supposed to be recorded, int (frames, markers).
+
+        Returns
+        -------
+        np.ndarray
+            The same with other labels; frames in which the markers are exchanged with others stay as they are.
+        """
+        members, labels = self.markers, list(self.permutation.labels)
+        after = under.copy()
+        after[:, members] = labels if self.as_recorded else under[:, labels]
+        if self.as_recorded:
+            closed = (np.sort(after[:, members], axis=1) == np.sort(under[:, members], axis=1)).all(axis=1)
+            after[~closed] = under[~closed]
+        return after
+
+
+@dataclass(frozen=True)
+class LabelChange:
+    """Other labels over a stretch, under which the samples fit better.
+
+    Attributes
+    ----------
+    relabelling : Relabelling
+        The labels.
+    start, stop : int
+        The stretch, [start, stop).
+    evidence : float
+        Gain of log likelihood, counting frames that are close in time as one.
+    """
+
+    relabelling: Relabelling
+    start: int
+    stop: int
+    evidence: float
+
+
+@dataclass(frozen=True)
+class LabelEvidence:
+    """The samples of some frames under the labels that are supposed to be right, and how well they fit.
+
+    Attributes
+    ----------
+    rows : np.ndarray
+        The frames that are looked at (rows,), ascending.
+    spacing_s : float
+        Time between most of them, s.
+    recorded : np.ndarray
+        Positions in these frames as recorded (rows, markers, 3), mm, NaN = missing.
+    under : np.ndarray
+        Under which label each marker is supposed to be recorded, int (frames, markers).
+    present : np.ndarray
+        Whether each label is recorded, bool (frames, markers).
+    border : np.ndarray
+        Where the trajectory of each label is broken, bool (frames, markers): see find_borders.
+    shape : Shape
+        The usual distances.
+    options : LabelsOptions
+        How clear the evidence must be.
+    """
+
+    rows: np.ndarray
+    spacing_s: float
+    recorded: np.ndarray
+    under: np.ndarray
+    present: np.ndarray
+    border: np.ndarray
+    shape: Shape
+    options: LabelsOptions
+
+    def fit(self, rows: np.ndarray, under: np.ndarray | None = None, *, group: bool = False) -> ShapeEvidence:
+        """Judge samples by the shape.
+
+        Parameters
+        ----------
+        rows : np.ndarray
+            Which of the frames, bool (rows,).
+        under : np.ndarray | None
+            Under which label each marker is (n, markers); by default as it is supposed to be.
+        group : bool
+            Whether labels of a whole group are judged: most of the usual anchors of its markers are in it, so that there must be
+            more of them.
+
+        Returns
+        -------
+        ShapeEvidence
+            The evidence for these labels.
+        """
+        labels = self.under[self.rows[rows]] if under is None else under
+        shape = self.options.shape
+        options = replace(shape, anchors=self.options.group_anchors) if group else shape
+        return ShapeEvidence(np.take_along_axis(self.recorded[rows], labels[..., None], axis=1), self.shape, options)
+
+    @cached_property
+    def everywhere(self) -> np.ndarray:
+        """All of the frames, bool (rows,)."""
+        return np.ones(len(self.rows), bool)
+
+    @cached_property
+    def likelihood(self) -> np.ndarray:
+        """Log likelihoods (rows, labels, markers), see ShapeEvidence.label_log_likelihoods."""
+        return self.fit(self.everywhere).label_log_likelihoods()
+
+    @property
+    def own_likelihood(self) -> np.ndarray:
+        """Log likelihoods (rows, markers) of each marker under its own label."""
+        own: np.ndarray = np.einsum("fmm->fm", self.likelihood)
+        return own
+
+    @cached_property
+    def usual_likelihood(self) -> np.ndarray:
+        """Median log likelihood of each marker under its own label (markers,), NaN where it is unknown."""
+        known = ~np.isnan(self.own_likelihood).all(axis=0)
+        usual = np.full(len(known), np.nan)
+        usual[known] = np.nanmedian(self.own_likelihood[:, known], axis=0)
+        return usual
+
+    def pair_gains(self) -> np.ndarray:
+        """Compute how much better the samples fit if two labels are exchanged.
+
+        Returns
+        -------
+        np.ndarray
+            Gains of log likelihood (rows, markers, markers), both samples together; 0 where neither is observed.
+        """
+        gain = np.nan_to_num(self.likelihood - self.own_likelihood[:, :, None])
+        both: np.ndarray = gain + gain.transpose(0, 2, 1)
+        return both
+
+    def group_gain(self, relabelling: Relabelling, rows: np.ndarray) -> np.ndarray:
+        """Compute how much better the samples fit if the labels of a group are others.
+
+        Parameters
+        ----------
+        relabelling : Relabelling
+            The other labels.
+        rows : np.ndarray
+            Which of the frames, bool (rows,).
+
+        Returns
+        -------
+        np.ndarray
+            Gains of log likelihood (n,), of the markers of the group and of those that are judged by them.
+        """
+        before = self.fit(rows, group=True)
+        after = self.fit(rows, relabelling.of(self.under[self.rows[rows]]), group=True)
+        members = relabelling.markers
+        judged = [
+            m for m in range(len(self.shape.distance)) if m in members or np.isin(before.anchors(m), members).any()
+        ]
+        gain = after.own_log_likelihoods(np.array(judged)) - before.own_log_likelihoods(np.array(judged))
+        total: np.ndarray = np.nan_to_num(gain).sum(axis=1)
+        return total
+
+    def best_change(self, relabelling: Relabelling, gain: np.ndarray) -> LabelChange | None:
+        """Find the stretch between borders over which other labels are most clearly better.
+
+        Parameters
+        ----------
+        relabelling : Relabelling
+            The labels.
+        gain : np.ndarray
+            Gain of log likelihood with them (rows,).
+
+        Returns
+        -------
+        LabelChange | None
+            The change; None where none is clear enough, or where the samples do not fit with these labels either.
+        """
+        options, starts = self.options, self.section_starts(relabelling.markers)
+        section = np.searchsorted(starts, self.rows, side="right") - 1
+        value = np.bincount(section, weights=gain, minlength=len(starts))
+        observed = self.present[self.rows][:, relabelling.markers].any(axis=1)
+        count = np.bincount(section, weights=observed, minlength=len(starts))
+        independent = min(1.0, self.spacing_s / options.correlation_s)
+        changes = []
+        for first, after in runs(better_states(value * independent, options.change_penalty)):
+            seen = np.flatnonzero(count[first:after]) + first
+            if len(seen):
+                mean, number = float(value[seen].sum() / count[seen].sum()), float(count[seen].sum())
+                evidence = mean * (1 + (number - 1) * independent)
+                if mean >= options.min_mean_gain and evidence >= options.min_gain:
+                    stop = int(starts[seen[-1] + 1]) if seen[-1] + 1 < len(starts) else len(self.under)
+                    changes.append(LabelChange(relabelling, int(starts[seen[0]]), stop, evidence))
+        changes.sort(key=lambda change: -change.evidence)
+        return next((change for change in changes if self.misfit_after(change) <= options.max_misfit), None)
+
+    def misfit_after(self, change: LabelChange) -> float:
+        """Compute how badly the samples fit that get another label.
+
+        Parameters
+        ----------
+        change : LabelChange
+            The change.
+
+        Returns
+        -------
+        float
+            Mean loss of log likelihood of a marker against what is usual of it in the recording; the median over the markers,
+            of two the smaller one, since the next change may be about the other.
+        """
+        rows = (self.rows >= change.start) & (self.rows < change.stop)
+        under = change.relabelling.of(self.under[self.rows[rows]])
+        members = np.array(change.relabelling.markers)
+        misfit = self.usual_likelihood[members] - self.fit(rows, under).own_log_likelihoods(members)
+        misfit[(under == self.under[self.rows[rows]])[:, members]] = np.nan
+        moved = ~np.isnan(misfit).all(axis=0)
+        means = np.sort(np.nanmean(misfit[:, moved], axis=0))
+        return float(means[(len(means) - 1) // 2]) if len(means) else np.inf
+
+    def section_starts(self, members: Sequence[int]) -> np.ndarray:
+        """List the frames at which labels of some markers may pass to each other.
+
+        Parameters
+        ----------
+        members : Sequence[int]
+            Indices of the markers.
+
+        Returns
+        -------
+        np.ndarray
+            The first frames of the sections between them, 0 among them: where the trajectories of the markers that are
+            observed before and after are broken, of the share `min_broken_share` of them at least.
+        """
+        labels = self.under[:, members]
+        border = np.take_along_axis(self.border, labels, axis=1)
+        border[1:] |= labels[1:] != labels[:-1]
+        joined = np.take_along_axis(self.present, labels, axis=1)
+        joined[1:] &= joined[:-1].copy()
+        joined[0] = False
+        broken = np.count_nonzero(border & joined, axis=1) >= self.options.min_broken_share * joined.sum(axis=1)
+        return np.unique(np.concatenate([[0], np.flatnonzero(broken & border.any(axis=1))]))
+
+    def changed(self, change: LabelChange) -> tuple[LabelEvidence, np.ndarray]:
+        """Carry out a change.
+
+        Parameters
+        ----------
+        change : LabelChange
+            The change.
+
+        Returns
+        -------
+        evidence : LabelEvidence
+            The evidence with the labels that it supposes.
+        rows : np.ndarray
+            In which of the frames they differ, bool (rows,).
+        """
+        span = slice(change.start, change.stop)
+        inside = (self.rows >= change.start) & (self.rows < change.stop)
+        under = self.under.copy()
+        under[span] = change.relabelling.of(under[span])
+        after = replace(self, under=under)
+        likelihood = self.likelihood.copy()
+        likelihood[inside] = after.fit(inside).label_log_likelihoods()
+        after.__dict__["likelihood"] = likelihood  # what did not change is not computed again
+        return after, inside
+
+
+def find_borders(present: np.ndarray, sudden: np.ndarray) -> np.ndarray:
+    """Mark the frames at which the trajectory of a label is broken.
+
+    Parameters
+    ----------
+    present : np.ndarray
+        Whether each label is recorded, bool (frames, markers).
+    sudden : np.ndarray
+        Where its velocity breaks, bool (frames, markers).
+
+    Returns
+    -------
+    np.ndarray
+        Bool (frames, markers): the first frame of a gap, the first one after it, and jumps.
+    """
+    border = sudden.copy()
+    border[1:] |= present[1:] != present[:-1]
+    return border
+
+
+def judged_rows(present: np.ndarray, border: np.ndarray, *, rate: float, options: LabelsOptions) -> np.ndarray:
+    """Choose the frames that are looked at.
+
+    Parameters
+    ----------
+    present : np.ndarray
+        Whether each label is recorded, bool (frames, markers).
+    border : np.ndarray
+        Where its trajectory is broken, bool (frames, markers).
+    rate : float
+        Sampling rate, Hz.
+    options : LabelsOptions
+        Time between the frames.
+
+    Returns
+    -------
+    np.ndarray
+        Frames at even distances, and for each piece of a trajectory between borders without any of them its middle.
+    """
+    frames = len(present)
+    step = max(samples(options.spacing_s, rate), -(-frames // options.max_frames))
+    chosen = np.zeros(frames, bool)
+    chosen[min(step, frames) // 2 :: step] = True
+    middles: set[int] = set()
+    for m in range(present.shape[1]):
+        cuts = np.concatenate([[0], np.flatnonzero(border[:, m]), [frames]])
+        middle = (cuts[:-1] + cuts[1:]) // 2
+        empty = np.diff(np.concatenate([[0], np.cumsum(chosen)])[cuts]) == 0
+        middles.update(middle[empty & present[np.minimum(middle, frames - 1), m]].tolist())
+    chosen[sorted(middles)] = True
+    return np.flatnonzero(chosen)
+
+
+def better_states(value: np.ndarray, penalty: float) -> np.ndarray:
+    """Choose between two states in time, where each change of the state costs something.
+
+    Parameters
+    ----------
+    value : np.ndarray
+        By how much the second state is better (n,).
+    penalty : float
+        Cost of a change of the state.
+
+    Returns
+    -------
+    np.ndarray
+        Whether the second state is chosen, bool (n,): the sum of the values where it is, less the cost of all changes, is
+        largest; the first state among equals (Viterbi 1967).
+    """
+    came_from = np.zeros((len(value), 2), bool)
+    first = second = 0.0
+    for k, own in enumerate(value.tolist()):
+        came_from[k] = second - penalty > first, second >= first - penalty
+        first, second = max(first, second - penalty), max(second, first - penalty) + own
+    chosen = np.zeros(len(value), bool)
+    state = second > first
+    for k in range(len(value) - 1, -1, -1):
+        chosen[k] = state
+        state = bool(came_from[k, int(state)])
+    return chosen
