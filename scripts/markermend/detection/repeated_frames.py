@@ -14,6 +14,9 @@ from markermend.options.detection import RepeatedFramesOptions
 RESOLUTION_QUANTILE = 0.01
 """Smallest changes of coordinates that count as the resolution: fewer may be chance."""
 
+MIN_REPETITIONS = 5
+"""Repetitions that can be regular, at least."""
+
 CONTEXT = 5
 """Steps on either side of a stretch from which the usual motion is estimated."""
 
@@ -47,11 +50,18 @@ class RepeatedFrames:
     def content_rate(self) -> float | None:
         """Rate of the frames that differ, Hz, where repetition is regular; None where it is not."""
         spans = self.spans
-        if len(spans) < self.options.min_regular_share * len(self.positions) or len(spans) < CONTEXT:
+        if len(spans) < MIN_REPETITIONS:
             return None
         periods = np.array([after[0] - before[0] for before, after in pairwise(spans)])
         repeated = np.array([stop - start for start, stop in spans[:-1]])
         regular = periods <= 2 * np.median(periods)
+        between = np.zeros(len(self.positions), bool)
+        for (start, _), period in zip(np.array(spans[:-1])[regular], periods[regular], strict=True):
+            between[start : start + period] = True
+        steps = np.linalg.norm(np.diff(self.positions, axis=0, prepend=np.nan), axis=2)
+        moving = (steps >= self._floor_mm).mean(axis=1) >= self.options.min_moving_share
+        if between[moving].mean() < self.options.min_regular_share:
+            return None
         return float(self.rate * (1 - repeated[regular].sum() / periods[regular].sum()))
 
     def members(self, start: int, stop: int) -> list[int]:
@@ -91,6 +101,12 @@ class RepeatedFrames:
         )
         return repeated
 
+    @property
+    def _floor_mm(self) -> float:
+        """Step from which a marker moves, mm."""
+        options = self.options
+        return max(options.min_speed_mm_s / self.rate, options.min_resolution_steps * self._resolution)
+
     @cached_property
     def _resolution(self) -> float:
         """Smallest step between the stored values of a coordinate, mm."""
@@ -112,8 +128,6 @@ class RepeatedFrames:
         if not len(frames):
             return None
         steps = np.linalg.norm(self.positions[frames] - self.positions[frames - 1], axis=2)
-        options = self.options
-        floor = max(options.min_speed_mm_s / self.rate, options.min_resolution_steps * self._resolution)
         usual = np.median(np.nan_to_num(steps), axis=0)
-        moving: np.ndarray = steps[0] >= np.maximum(floor, options.min_speed_ratio * usual)
+        moving: np.ndarray = steps[0] >= np.maximum(self._floor_mm, self.options.min_speed_ratio * usual)
         return moving

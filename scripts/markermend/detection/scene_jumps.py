@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
 
+from markermend.numerics.displaced_scene import either_side, jumps, settle
 from markermend.numerics.intervals import samples
-from markermend.numerics.rigid_displacement import RigidDisplacement, displacement_over, extrapolate, fit_displacement
+from markermend.numerics.rigid_displacement import RigidDisplacement, fit_displacement
 from markermend.options.detection import SceneJumpOptions
 
 NEIGHBOUR_RATIO = 1.5
@@ -21,8 +23,8 @@ class SceneJump:
 
     Attributes
     ----------
-    frame : int
-        The first displaced frame.
+    frame, last : int
+        The first displaced frame, and that from which on the markers no longer ring.
     score : float
         Its size in units of the threshold.
     displacement : RigidDisplacement
@@ -32,6 +34,7 @@ class SceneJump:
     """
 
     frame: int
+    last: int
     score: float
     displacement: RigidDisplacement
     points: np.ndarray
@@ -49,16 +52,19 @@ class SceneJump:
         other : SceneJump
             The later jump.
         max_remaining_fraction : float
-            Largest distance that may remain, as a part of the smaller of the two jumps.
+            Largest distance that may remain, as a part of the smaller of the two jumps, beyond what the first leaves
+            unexplained.
 
         Returns
         -------
         bool
             Whether it does.
         """
-        after_both = other.displacement.displace(self.displacement.displace(other.displacement.undo(other.points)))
-        remaining = np.nanmedian(np.linalg.norm(after_both - other.displacement.undo(other.points), axis=1))
-        return bool(remaining <= max_remaining_fraction * min(self.amount_mm, other.amount_mm))
+        remaining = np.linalg.norm(
+            other.displacement.displace(other.points) - self.displacement.undo(other.points), axis=1
+        )
+        allowed = max_remaining_fraction * min(self.amount_mm, other.amount_mm) + self.displacement.residual_mm
+        return bool(np.nanmedian(remaining) <= allowed)
 
 
 @dataclass(frozen=True)
@@ -74,7 +80,7 @@ class DisplacedStretch:
     score : float
         The smaller of the jumps at its ends, in units of the threshold.
     displacement : RigidDisplacement
-        The displacement, estimated from both ends where the markers return.
+        The displacement.
     amount_mm : float
         Median distance by which the markers are displaced, mm.
     """
@@ -107,32 +113,29 @@ def find_displaced_stretches(positions: np.ndarray, rate: float, options: SceneJ
     longest = samples(options.max_duration_s, rate)
     lasting: list[SceneJump] = []
     stretches = []
-    for jump in find_scene_jumps(positions, rate, options):
+    for jump, largest_mm in find_scene_jumps(positions, rate, options):
         last = lasting[-1] if lasting else None
-        if last and jump.frame - last.frame <= longest and last.undone_by(jump, options.max_remaining_fraction):
+        if jump.amount_mm <= options.max_remaining_fraction * largest_mm:
+            stretches.append(DisplacedStretch(jump.frame, jump.last, True, jump.score, jump.displacement, largest_mm))
+        elif last and jump.frame - last.frame <= longest and last.undone_by(jump, options.max_remaining_fraction):
             lasting.pop()
-            stretches.append(_stretch(positions, last, jump.frame, min(last.score, jump.score), returns=True))
+            stretches.append(_stretch(last, jump.frame, min(last.score, jump.score), returns=True))
         else:
             lasting.append(jump)
     stops = [jump.frame for jump in lasting[1:]] + [len(positions)] * bool(lasting)
-    stretches += [
-        _stretch(positions, jump, stop, jump.score, returns=False) for jump, stop in zip(lasting, stops, strict=True)
-    ]
+    stretches += [_stretch(jump, stop, jump.score, returns=False) for jump, stop in zip(lasting, stops, strict=True)]
     return sorted(stretches, key=lambda stretch: stretch.start)
 
 
-def _stretch(positions: np.ndarray, jump: SceneJump, stop: int, score: float, *, returns: bool) -> DisplacedStretch:
+def _stretch(jump: SceneJump, stop: int, score: float, *, returns: bool) -> DisplacedStretch:
     """The stretch that begins with a jump."""
-    displacement = displacement_over(positions, jump.frame, stop, returns=returns) or jump.displacement
-    moved = np.linalg.norm(displacement.displace(jump.points) - jump.points, axis=1)
-    return DisplacedStretch(jump.frame, stop, returns, score, displacement, float(np.nanmedian(moved)))
+    return DisplacedStretch(jump.frame, stop, returns, score, jump.displacement, jump.amount_mm)
 
 
-def find_scene_jumps(positions: np.ndarray, rate: float, options: SceneJumpOptions) -> list[SceneJump]:
+def find_scene_jumps(
+    positions: np.ndarray, rate: float, options: SceneJumpOptions
+) -> Iterator[tuple[SceneJump, float]]:
     """Find the frames to which all markers jump together.
-
-    The positions before and after are extrapolated to the moment between two frames. Their difference is zero for motion
-    of constant acceleration, and a displacement of all markers shows in the median over the markers.
 
     Parameters
     ----------
@@ -143,30 +146,39 @@ def find_scene_jumps(positions: np.ndarray, rate: float, options: SceneJumpOptio
     options : SceneJumpOptions
         Thresholds of a jump.
 
-    Returns
-    -------
-    list of SceneJump
-        By frame.
+    Yields
+    ------
+    jump : SceneJump
+        By frame; jumps that follow each other until the scene is settled are one.
+    largest_mm : float
+        The largest displacement until then, median over the markers, mm.
     """
-    if len(positions) < 4:
-        return []
-    before = extrapolate(positions[1:-2], positions[:-3])
-    after = extrapolate(positions[2:-1], positions[3:])
-    distance = np.sqrt(((after - before) ** 2).sum(axis=2))
-    seen = ~np.isnan(distance)
-    enough = seen.sum(axis=1) >= options.min_markers
+    distance = jumps(positions)
+    enough = (~np.isnan(distance)).sum(axis=1) >= options.min_markers
     size = np.zeros(len(distance))
     size[enough] = np.nanmedian(distance[enough], axis=1)
     usual = ndimage.median_filter(size, samples(options.scale_window_s, rate, odd=True), mode="nearest")
     level = np.maximum(options.floor_mm, options.usual_factor * usual)
     beside = np.maximum(np.append(size[1:], 0), np.append(0, size[:-1]))
-    jumps = []
-    for k in np.flatnonzero((size >= level) & (beside <= NEIGHBOUR_RATIO * size)):
-        displacement = fit_displacement(before[k], after[k])
-        if displacement is None:
-            continue
-        expected = displacement.displace(before[k])
-        moved, off = (np.linalg.norm(expected - other, axis=1)[seen[k]] for other in (before[k], after[k]))
-        if (off <= options.max_residual_fraction * np.median(moved)).mean() >= options.min_share:
-            jumps.append(SceneJump(int(k) + 2, float(size[k] / level[k]), displacement, before[k]))
-    return jumps
+    done = 0
+    for k in np.flatnonzero((size >= level) & (beside <= NEIGHBOUR_RATIO * size)).tolist():
+        if k >= done and _moves_as_one(positions, k, options):
+            last, largest_mm = settle(positions, k)
+            before, after = either_side(positions, k, last)
+            displacement = fit_displacement(before, after)
+            if displacement is not None:
+                done = last + 1
+                score = float((size[k : last + 1] / level[k : last + 1]).max())
+                yield SceneJump(k, last, score, displacement, before), largest_mm
+
+
+def _moves_as_one(positions: np.ndarray, frame: int, options: SceneJumpOptions) -> bool:
+    """Whether nearly all markers jump to a frame as one rigid body."""
+    before, after = either_side(positions, frame, frame)
+    displacement = fit_displacement(before, after)
+    if displacement is None:
+        return False
+    expected = displacement.displace(before)
+    known = ~np.isnan(before + after).any(axis=1)
+    moved, off = (np.linalg.norm(expected - other, axis=1)[known] for other in (before, after))
+    return bool((off <= options.max_residual_fraction * np.median(moved)).mean() >= options.min_share)

@@ -150,8 +150,8 @@ class RepeatedFramesOptions:
     min_speed_ratio: Share = 0.5
     """It moves just before and after at this part of its usual speed there, at least: motion that comes to rest is no fault (0 to 1)."""
 
-    min_regular_share: Annotated[float, Above(0), AtMost(1)] = 0.15
-    """From this number of repetitions per frame, they are regular: the recording has frames of a lower rate, and stays as it is (0 to 1)."""
+    min_regular_share: Annotated[float, Above(0), AtMost(1)] = 0.8
+    """If this share of the frames with motion lies between regular repetitions, the recording has frames of a lower rate, and stays as it is (0 to 1)."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from markermend.core.artifacts import class_of
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
-from markermend.numerics.rigid_displacement import displacement_over
+from markermend.numerics import displaced_scene
 from markermend.repair.findings import Rulings
 from markermend.repair.result import Restoration
 
@@ -56,13 +56,13 @@ def move_back(
         settled += group
         kind = class_of("frames", group[0]).name
         start, stop = min(event.start for event in group), max(event.stop for event in group)
-        displacement = displacement_over(result.positions, start, stop, returns=RETURNS[kind])
+        moved = displaced_scene.move_back(result.positions, start, stop, returns=RETURNS[kind])
         reason = None if ruling.confirmed else refusal
-        if displacement is None:
+        if moved is None:
             reason = Reason(Cause.NO_METHOD, "too few markers are seen before and after to move them back")
         for event in group:
-            if reason is None and displacement is not None:
-                result.move_back(event, displacement, ruling)
+            if reason is None and moved is not None:
+                result.move_back(event, start, *moved, ruling)
             elif reason is not None:
                 result.leave(event, (kind,), reason, ruling, blank=False)
     return settled

@@ -13,7 +13,6 @@ from markermend.core.events import Event
 from markermend.core.reasons import Reason
 from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
 from markermend.core.rulings import Ruling
-from markermend.numerics.rigid_displacement import RigidDisplacement
 from markermend.options.repair import RepairRadiusOptions
 from markermend.repair.candidates import Candidate
 
@@ -98,22 +97,26 @@ class Restoration:
             change = _change(event, ("swap",), Outcome.EXCHANGED, ruling)
             self._repaired(replace(change, method="swap"), np.arange(event.start, event.stop))
 
-    def move_back(self, event: Event, displacement: RigidDisplacement, ruling: Ruling) -> None:
+    def move_back(self, event: Event, start: int, moved: np.ndarray, error: np.ndarray, ruling: Ruling) -> None:
         """Move the samples of a marker back that were displaced together with all others.
 
         Parameters
         ----------
         event : Event
             The finding.
-        displacement : RigidDisplacement
-            By how much they are displaced.
+        start : int
+            First frame of the arrays.
+        moved : ndarray of float, shape (n, markers, 3)
+            All markers, moved back, mm.
+        error : ndarray of float, shape (n, markers)
+            Standard deviation per axis, mm.
         ruling : Ruling
             The ruling on the finding.
         """
         m, name = self.markers.index(event.marker), class_of("frames", event).name
         rows = np.flatnonzero(~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)) + event.start
-        self._error[rows, m] = displacement.error_at(self.positions[rows, m])
-        self.positions[rows, m] = displacement.undo(self.positions[rows, m])
+        self._error[rows, m] = error[rows - start, m]
+        self.positions[rows, m] = moved[rows - start, m]
         self._origin[rows, m] = ORIGINS.index(name)
         self._repaired(replace(_change(event, (name,), Outcome.REPAIRED, ruling), method="move_back"), rows)
 
