@@ -121,12 +121,9 @@ def move_back(positions: np.ndarray, start: int, stop: int, *, returns: bool) ->
 
     Returns
     -------
-    moved : np.ndarray
-        Positions (stop - start, markers, 3) as they would be, mm.
-    error : np.ndarray
-        Their standard deviation (stop - start, markers) per axis, mm.
-
-    None where fewer than three markers are seen on both sides of an edge.
+    tuple of np.ndarray or None
+        Positions (stop - start, markers, 3) as they would be, mm, and their standard deviation (stop - start, markers) per
+        axis; None where fewer than three markers are seen on both sides of an edge.
     """
     moved = positions.copy()
     error = np.zeros(positions.shape[:2])
