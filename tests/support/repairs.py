@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from markermend.core.decisions import Decision
+from markermend.core.shape import Shape
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
 from markermend.prediction.interface import Prediction
@@ -62,7 +63,14 @@ def neighbours_of(recording):
     ]
 
 
-def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
+def usual_shape(positions):
+    """Median distance of each pair, and how much it varies."""
+    distance = np.linalg.norm(positions[:, :, None] - positions[:, None], axis=3)
+    usual = np.nanmedian(distance, axis=0)
+    return Shape(usual, 1.4826 * np.nanmedian(np.abs(distance - usual), axis=0), np.nanstd(distance, axis=0))
+
+
+def mend(recording, found, *, extra=None, decisions=(), near=None, shape=None, **changes):
     options = RepairOptions(
         methods=METHODS,
         max_altered_share=0.3,
@@ -74,7 +82,7 @@ def mend(recording, found, *, extra=None, decisions=(), near=None, **changes):
     return treated(
         repair_scene(
             recording,
-            Scene(recording.positions, recording.rate, near),
+            Scene(recording.positions, recording.rate, near, shape=shape),
             found=found,
             predictors={predictor.name: predictor for predictor in [*PREDICTORS, *([extra] if extra else [])]},
             options=replace(options, **changes),

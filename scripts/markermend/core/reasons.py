@@ -24,6 +24,8 @@ class Cause(StrEnum):
     """The expected error exceeds the limit."""
     NO_BETTER = "no better"
     """The result would be no nearer to the truth than what was measured."""
+    AGAINST_SHAPE = "against shape"
+    """The distances to the steadiest neighbours would come no nearer to what they should be."""
     NO_METHOD = "no method"
     """No method is wanted, or none can be applied."""
     REPORTED = "reported"

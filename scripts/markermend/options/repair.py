@@ -10,6 +10,7 @@ from markermend.options.declaration import (
     AtLeast,
     AtMost,
     Changes,
+    Count,
     CountOrNone,
     Factor,
     Keys,
@@ -83,6 +84,39 @@ class RepairRadiusOptions:
 
 
 @dataclass(frozen=True)
+class ShapeGuardOptions:
+    """Guard against repairs that take a marker away from the subject's usual shape."""
+
+    mates: Count = 8
+    """Markers to which the distances of a marker are judged: those to which it keeps them best."""
+
+    min_mates: Count = 3
+    """Fewer of them that are seen judge nothing."""
+
+    min_deviation_mm: PositiveMillimetres = 0.1
+    """No expected distance counts as more certain than this."""
+
+    degrees_of_freedom: Positive = 4
+    """Degrees of freedom of the Student's t distribution of distances: the fewer, the less a distance that is far off counts."""
+
+    min_gain: NotNegative = 0.1
+    """Mean logarithm of the factor, over samples and distances, by which a repair makes the distances more likely, at least.
+
+    Change it when good samples are repaired (higher), or artifacts are left (lower)."""
+
+    max_loss: NotNegative = 0.5
+    """The same, by which it makes them less likely, at most: over the samples for each of the `steadiest_mates`, and over all
+    distances for the usual ones of the subject alone."""
+
+    steadiest_mates: Count = 2
+    """Mates to none of which a repair may take the distance clearly away from what it should be."""
+
+    max_misfit: NotNegative = 1
+    """Mean logarithm of the factor by which distances are less likely than the expected ones: measured samples that no repair is
+    accurate enough for are taken away above it only, and kept below it."""
+
+
+@dataclass(frozen=True)
 class RepairOptions:
     """Repair what was found."""
 
@@ -132,6 +166,9 @@ class RepairOptions:
 
     separation: SeparationOptions = field(default_factory=SeparationOptions)
     """Options of the methods separate_noise, separate_step and separate_slow, which separate the trajectory from the artifact."""
+
+    guard: ShapeGuardOptions = field(default_factory=ShapeGuardOptions)
+    """Guard against repairs that take a marker away from the subject's usual shape."""
 
     radius: RepairRadiusOptions = field(default_factory=RepairRadiusOptions)
     """Radii of the balls around repaired samples."""

@@ -17,8 +17,9 @@ from markermend.prediction.scene import Scene
 from markermend.repair.methods import Proposal, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 from markermend.repair.separator import Separator
+from markermend.repair.shape_guard import ShapeGuard
 
-NOT_PROPOSING = ("exchange", "move_back", "blank")
+NOT_PROPOSING = frozenset(("exchange", "move_back", "blank"))
 """Methods that propose no samples of their own."""
 
 
@@ -39,6 +40,8 @@ class Candidate:
         NaN where there is no prediction, or where the proposal already weighs the prediction against what was measured.
     prediction_radius : float
         Radius around the prediction that holds the true position with probability 0.95, mm.
+    shape_objection : Reason, optional
+        Why the distances to the steadiest neighbours speak against the proposal; None where they do not.
     """
 
     proposal: Proposal
@@ -47,6 +50,7 @@ class Candidate:
     misfit_before: float
     misfit_after: float
     prediction_radius: float
+    shape_objection: Reason | None = None
 
     @property
     def reason_no_better(self) -> Reason | None:
@@ -57,7 +61,7 @@ class Candidate:
         if self.misfit_after > max(self.misfit_before, self.prediction_radius):
             figures = f"{self.misfit_after:.1f} mm from where the neighbours predict it"
             return Reason(Cause.NO_BETTER, f"{figures}, measured {self.misfit_before:.1f} mm")
-        return None
+        return self.shape_objection
 
     def reason_against(self, max_error_mm: float) -> Reason | None:
         """Find the reason why it is not taken.
@@ -138,6 +142,8 @@ class CandidateMaker:
         The predictors by name; `local_ridge` gives the prediction by the neighbours with which proposals are compared.
     options : RepairOptions
         Options of the methods.
+    guard : ShapeGuard
+        Judges proposals by the distances to the steadiest neighbours.
     """
 
     positions: np.ndarray
@@ -145,6 +151,7 @@ class CandidateMaker:
     scene: Scene
     predictors: Mapping[str, Predictor]
     options: RepairOptions
+    guard: ShapeGuard
 
     def candidates(self, methods: Iterable[str], m: int, start: int, stop: int) -> list[Candidate]:
         """Make the candidates for a finding.
@@ -170,7 +177,10 @@ class CandidateMaker:
         radius = self.options.radius.outer * float(np.sqrt(np.mean(prediction.error**2)))
         proposals = [self._propose(method, m, start, stop) for method in methods if method not in NOT_PROPOSING]
         return [
-            self._candidate(proposal, measured, prediction.positions, radius)
+            replace(
+                self._candidate(proposal, measured, prediction.positions, radius),
+                shape_objection=self.guard.objection(m, start, measured, proposal.positions),
+            )
             for proposal in proposals
             if proposal is not None
         ]

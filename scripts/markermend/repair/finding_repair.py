@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from markermend.core.artifacts import BY_NAME, names_of
 from markermend.core.events import Event
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.rulings import Ruling
-from markermend.repair.candidates import Candidate, CandidateMaker, choose
+from markermend.repair.candidates import NOT_PROPOSING, Candidate, CandidateMaker, choose
 from markermend.repair.findings import Finding
 from markermend.repair.methods import METHODS
 from markermend.repair.result import Restoration
@@ -40,7 +41,11 @@ def repair_finding(
     if reason is None and not ruling.confirmed:
         reason = _too_long(event, maker)
     if reason:
-        result.leave(event, names_of(finding.classes), reason, ruling, blank=True)
+        if reason.cause in (Cause.SEVERAL_CLASSES, Cause.TOO_LONG) and not ruling.confirmed:
+            reason, blank = _unless_as_expected(reason, event, maker, result)
+        else:
+            blank = True
+        result.leave(event, names_of(finding.classes), reason, ruling, blank=blank)
         return
     _repair(finding, event, ruling, maker, result)
 
@@ -53,7 +58,7 @@ def _not_to_be_repaired(finding: Finding, ruling: Ruling) -> Reason | None:
     if ruling.method and ruling.method not in METHODS:
         return Reason(Cause.FILLED_INSTEAD, f"to be filled by {ruling.method}")
     if len(finding.members) > 1 and not ruling.method:
-        return Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once: treated as a gap")
+        return Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once")
     return None
 
 
@@ -67,9 +72,10 @@ def _too_long(event: Event, maker: CandidateMaker) -> Reason | None:
 
 
 def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMaker, result: Restoration) -> None:
-    """Write the best candidate; without any that may be taken the samples become missing.
+    """Write the best candidate; without any that may be taken the samples become missing if their distances contradict them.
 
-    Where the best candidate would leave the recording no better, the samples stay as measured. Where a person confirmed the
+    Where the best candidate would leave the recording no better, or the distances to the neighbours are as expected, the
+    samples stay as measured. Where a person confirmed the
     finding, the best candidate is taken despite any objection.
     """
     options = maker.options
@@ -85,8 +91,19 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
         return
     objections = {own.proposal.method: own.reason_against(options.max_error_mm) for own in candidates}
     reason = _none_taken(finding.stage, methods, objections, best)
-    harmless = best is not None and best.reason_no_better is not None
-    result.leave(event, names_of(finding.classes), reason, ruling, blank=not harmless, candidates=candidates)
+    blank = best is None or best.reason_no_better is None
+    if blank and not NOT_PROPOSING.issuperset(methods) and not ruling.confirmed:
+        reason, blank = _unless_as_expected(reason, event, maker, result)
+    result.leave(event, names_of(finding.classes), reason, ruling, blank=blank, candidates=candidates)
+
+
+def _unless_as_expected(
+    reason: Reason, event: Event, maker: CandidateMaker, result: Restoration
+) -> tuple[Reason, bool]:
+    """The reason why samples are not repaired, and whether they are taken away: not where their distances are as expected."""
+    m = result.markers.index(event.marker)
+    text = maker.guard.why_kept(m, event.start, maker.positions[event.start : event.stop, m])
+    return (reason, True) if text is None else (replace(reason, text=f"{reason.text}; kept as measured: {text}"), False)
 
 
 def _none_taken(

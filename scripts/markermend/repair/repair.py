@@ -34,6 +34,7 @@ from markermend.repair.label_exchanges import linked_events
 from markermend.repair.moving_back import move_back
 from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
+from markermend.repair.shape_guard import ShapeGuard
 
 
 def repair(
@@ -137,7 +138,8 @@ def _candidate_maker(
     """What proposes repairs: it sees all samples of the recording that were not found."""
     flagged = _covered(recording, [event for events in found.values() for event in events])
     unflagged = replace(scene, positions=np.where(flagged[..., None], np.nan, recording.positions))
-    return CandidateMaker(recording.positions, flagged, unflagged, predictors, options)
+    guard = ShapeGuard(unflagged, options.guard, options.predictors.local_ridge, recording.markers)
+    return CandidateMaker(recording.positions, flagged, unflagged, predictors, options, guard)
 
 
 def _covered(recording: Recording, events: Sequence[Event]) -> np.ndarray:

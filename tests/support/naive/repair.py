@@ -1,7 +1,9 @@
 """Naive twins of markermend.repair: joint normal distributions, conditioned by dense inverses."""
 
 import numpy as np
-from scipy.stats import multivariate_normal
+from scipy.stats import multivariate_normal, t
+
+from markermend.numerics.kriging import fit_covariance
 
 
 def conditional_covariance(joint, n):
@@ -34,3 +36,33 @@ def separate(difference, error, artifacts, likelihood_power):
         np.sqrt(max(1.0, weights @ misfits) * variance),
         np.log(likelihoods.mean()) + likelihood_power * largest,
     )
+
+
+def expected_distance(guard, marker, mate, start, stop):
+    """Mean and deviation (n,) of a distance by Bayes' rule, given the border samples and the usual distance."""
+    scene, kriging = guard.scene, guard.kriging
+    usual = scene.shape.distance[marker, mate]
+    length = np.linalg.norm(scene.positions[:, marker] - scene.positions[:, mate], axis=1)
+    covariance = fit_covariance(
+        (length - usual)[:, None],
+        rate=scene.rate,
+        scales_s=np.array(kriging.correlation_times_s),
+        max_lag_s=kriging.max_lag_s,
+    )
+    lags = sorted({round(lag) for lag in np.geomspace(1, max(2, kriging.border_s * scene.rate), 6)})
+    border = [frame for lag in lags for frame in (start - lag, stop - 1 + lag)]
+    border = [frame for frame in border if 0 <= frame < len(length) and not np.isnan(length[frame])]
+    frames = np.array([*range(start, stop), *border]) / scene.rate
+    joint = covariance(frames[:, None] - frames) + (covariance.noise + 1e-12) * np.eye(len(frames))
+    n = stop - start
+    total = joint[0, 0] - 1e-12
+    known = joint[n:, n:] + 1e-5 * total * np.eye(len(border))
+    gain = joint[:n, n:] @ np.linalg.inv(known)
+    variance = np.diag(joint[:n, :n] - gain @ joint[n:, :n])
+    deviation = np.sqrt(variance + guard.options.min_deviation_mm**2)
+    return usual + gain @ (length[border] - usual), deviation
+
+
+def log_density(misfit, degrees_of_freedom):
+    """Log density of Student's t relative to its mode."""
+    return t.logpdf(misfit, degrees_of_freedom) - t.logpdf(0, degrees_of_freedom)

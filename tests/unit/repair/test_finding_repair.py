@@ -7,9 +7,10 @@ import pytest
 
 from markermend.core.decisions import Decision
 from markermend.core.events import Event, mask
+from markermend.core.reasons import Cause
 from markermend.core.recording import MISSING
 from support import bodies
-from support.repairs import MARKER, METHODS, START, STOP, Vague, body, decide, distorted, error, mend
+from support.repairs import MARKER, METHODS, START, STOP, Vague, body, decide, distorted, error, mend, usual_shape
 from support.signals import detect, neighbours, put
 from support.treated import expected
 
@@ -106,6 +107,51 @@ def test_the_limit_still_holds_for_all_else(clean, drifting):
     assert [repair.marker for repair in result.repairs] == [MARKER]
     (left,) = result.repairs_left
     assert left.marker == "1a" and "repair.max_altered_share" in left.reason.text and not left.decisions
+
+
+@pytest.fixture(scope="module")
+def shape(clean):
+    return usual_shape(clean.positions)
+
+
+def test_a_repair_away_from_the_usual_shape_is_not_made(clean, shape):
+    """The prediction is off, the marker is not: its distances to the others of its segment say so."""
+    off = Vague(clean, "local_ridge", deviation=1.0)
+    assert np.allclose(error(clean, mend(clean, SLOW, extra=off)), 12)
+    result = mend(clean, SLOW, extra=off, shape=shape)
+    assert np.array_equal(result.positions, clean.positions)
+    (left,) = result.repairs_left
+    assert (left.outcome, left.reason.cause) == ("left", Cause.AGAINST_SHAPE)
+    assert "expected" in left.reason.text and "repaired" in left.reason.text
+    accepted = mend(clean, SLOW, extra=off, shape=shape, decisions=[decide("accept")])
+    assert np.allclose(error(clean, accepted), 12)
+
+
+def test_a_repair_back_to_the_usual_shape_is_made(clean, drifting, shape):
+    assert error(clean, mend(drifting, SLOW, shape=shape)).max() < 1
+
+
+@pytest.mark.parametrize(
+    ("found", "changes"),
+    [
+        (SLOW, {"methods": {**METHODS, "slow": ["vague"]}}),
+        (SLOW, {"max_repair_s": 0.1}),
+        ({"peaks": [Event(MARKER, 610, 613, 2.0)], **SLOW}, {}),
+    ],
+)
+def test_samples_without_a_repair_are_taken_away_only_where_the_shape_contradicts_them(
+    clean, drifting, shape, found, changes
+):
+    nothing = Vague(clean, off=np.nan)
+    kept = mend(clean, found, shape=shape, extra=nothing, **changes)
+    assert np.array_equal(kept.positions, clean.positions)
+    (left,) = kept.repairs_left
+    assert (
+        left.outcome == "left" and "kept as measured: the distances to its neighbours are usual (" in left.reason.text
+    )
+    gone = mend(drifting, found, shape=shape, extra=nothing, **changes)
+    assert np.isnan(gone.positions[START:STOP, clean.markers.index(MARKER)]).all()
+    assert gone.repairs_left[0].outcome == "blanked"
 
 
 def test_no_guard_vetoes_a_person(clean):

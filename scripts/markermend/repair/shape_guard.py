@@ -1,0 +1,268 @@
+"""Guard of the usual shape: a repair must bring the distances to the steadiest markers nearer to what they should be.
+
+What a distance should be follows from the usual distance of the subject and from the same distance just before and after the
+finding, by kriging: beside the finding it is what it is there, far from it the usual one, and as uncertain as the distance
+varies over the recording. Points are compared by Student's t distribution of the differences, so that a mate that is itself
+off does not decide. Where the distances vary by more than a repair changes them, they say nothing, and the repair stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from markermend.core.reasons import Cause, Reason
+from markermend.numerics.kriging import Covariance, fit_covariance, krige
+from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.repair import ShapeGuardOptions
+from markermend.prediction.scene import Scene
+
+BORDER_LAGS = 6
+"""Samples on either side of a finding from which distances are kriged, at most: the nearest, then at growing distances."""
+
+
+@dataclass(frozen=True)
+class ExpectedDistances:
+    """What the distances of a marker to its steadiest mates should be over an interval.
+
+    Attributes
+    ----------
+    mates : ndarray of int, shape (k,)
+        Indices of the mates, the steadiest first.
+    positions : ndarray of float, shape (n, k, 3)
+        Positions of the mates, mm; NaN = missing.
+    distance, deviation : ndarray of float, shape (n, k)
+        Expected distances and their standard deviations, mm.
+    """
+
+    mates: np.ndarray
+    positions: np.ndarray
+    distance: np.ndarray
+    deviation: np.ndarray
+
+    def lengths(self, points: np.ndarray) -> np.ndarray:
+        """Compute the distances of points to the mates.
+
+        Parameters
+        ----------
+        points : ndarray of float, shape (n, 3)
+            Positions of the marker, mm; NaN = missing.
+
+        Returns
+        -------
+        ndarray of float, shape (n, k)
+            Distances, mm; NaN where a point or a mate is missing.
+        """
+        difference = self.positions - points[:, None]
+        lengths: np.ndarray = np.sqrt(np.einsum("nki,nki->nk", difference, difference))
+        return lengths
+
+    def log_densities(self, points: np.ndarray, *, degrees_of_freedom: float) -> np.ndarray:
+        """Compute how likely points are by their distances.
+
+        Parameters
+        ----------
+        points : ndarray of float, shape (n, 3)
+            Positions of the marker, mm; NaN = missing.
+        degrees_of_freedom : float
+            Of Student's t distribution.
+
+        Returns
+        -------
+        ndarray of float, shape (n, k)
+            Log densities relative to those of the expected distances, at most 0; NaN where a point or a mate is missing.
+        """
+        misfit = ((self.lengths(points) - self.distance) / self.deviation) ** 2
+        densities: np.ndarray = -(degrees_of_freedom + 1) / 2 * np.log1p(misfit / degrees_of_freedom)
+        return densities
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeGuard:
+    """Judges repairs of a recording by the distances to the steadiest mates.
+
+    Attributes
+    ----------
+    scene : Scene
+        The trajectories without any finding, with the usual shape of the subject.
+    options : ShapeGuardOptions
+        Numbers of mates, and how clear the distances must be.
+    kriging : LocalRidgeOptions
+        Correlation times, longest lag and border of the kriging.
+    markers : sequence of str
+        Names of the markers.
+    """
+
+    scene: Scene
+    options: ShapeGuardOptions
+    kriging: LocalRidgeOptions
+    markers: Sequence[str]
+
+    def objection(self, marker: int, start: int, measured: np.ndarray, proposed: np.ndarray) -> Reason | None:
+        """Find the reason why the distances speak against a repair.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        start : int
+            First frame of the finding.
+        measured, proposed : ndarray of float, shape (n, 3)
+            The samples as measured and as proposed, mm; NaN = missing.
+
+        Returns
+        -------
+        Reason or None
+            The reason, with the distance that speaks most clearly against it; None where the repair brings the distances
+            nearer to what is expected, none of the steadiest clearly away from it, and all together not clearly away from
+            usual, and where too few of them are known to tell.
+        """
+        local = self.expected(marker, start, start + len(measured))
+        if local is None:
+            return None
+        seen, options = np.where(np.isnan(measured), np.nan, proposed), self.options
+        gain = self._log_densities(local, seen) - self._log_densities(local, measured)
+        if np.isnan(gain).all():
+            return None
+        each = nan_mean(gain[:, : options.steadiest_mates])
+        if nan_mean(gain, axis=None) < options.min_gain or np.nanmin(each, initial=0.0) < -options.max_loss:
+            return self._against(local, gain, measured, seen)
+        usual = self._usual(marker, local)
+        gain = self._log_densities(usual, seen) - self._log_densities(usual, measured)
+        return self._against(usual, gain, measured, seen) if nan_mean(gain, axis=None) < -options.max_loss else None
+
+    def _against(
+        self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray
+    ) -> Reason:
+        """The reason against a repair, with the distance that speaks most clearly against it; gain: (n, k) as `objection`."""
+        frame, mate = np.unravel_index(np.nanargmin(gain), gain.shape)
+        before, after = (expected.lengths(points)[frame, mate] for points in (measured, proposed))
+        wanted = expected.distance[frame, mate]
+        figures = f"expected {wanted:.1f} mm, measured {before:.1f} mm, repaired {after:.1f} mm"
+        name = self.markers[expected.mates[mate]]
+        return Reason(
+            Cause.AGAINST_SHAPE, f"the distances to its neighbours come no nearer to usual ({name}: {figures})"
+        )
+
+    def why_kept(self, marker: int, start: int, measured: np.ndarray) -> str | None:
+        """Say why samples that no repair is accurate enough for are not taken away.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        start : int
+            First frame of the finding.
+        measured : ndarray of float, shape (n, 3)
+            The samples as measured, mm; NaN = missing.
+
+        Returns
+        -------
+        str or None
+            That the distances are as expected, with the one that is furthest off; None where they contradict the samples, or
+            where too few or none of them can tell.
+        """
+        expected = self.expected(marker, start, start + len(measured))
+        if expected is None:
+            return None
+        densities = self._log_densities(expected, measured)
+        if np.isnan(densities).all() or nan_mean(densities, axis=None) < -self.options.max_misfit:
+            return None
+        frame, mate = np.unravel_index(np.nanargmin(densities), densities.shape)
+        wanted, length = expected.distance[frame, mate], expected.lengths(measured)[frame, mate]
+        name = self.markers[expected.mates[mate]]
+        return f"the distances to its neighbours are usual ({name}: expected {wanted:.1f} mm, measured {length:.1f} mm)"
+
+    def expected(self, marker: int, start: int, stop: int) -> ExpectedDistances | None:
+        """Predict the distances of a marker to its steadiest mates over an interval.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        start, stop : int
+            The interval.
+
+        Returns
+        -------
+        ExpectedDistances or None
+            The distances; None where fewer than `min_mates` mates with usual distances are seen.
+        """
+        scene, shape = self.scene, self.scene.shape
+        if shape is None:
+            return None
+        seen: np.ndarray = np.asarray(scene.present[start:stop].any(axis=0))
+        mates = shape.steadiest(marker, self.options.mates, among=seen)
+        if len(mates) < self.options.min_mates:
+            return None
+        lags = np.geomspace(1, max(2.0, self.kriging.border_s * scene.rate), BORDER_LAGS)
+        reach = np.unique(np.round(lags).astype(int))
+        border = np.concatenate([start - reach[::-1], stop - 1 + reach])
+        border = border[(border >= 0) & (border < len(scene.positions))]
+        usual = shape.distance[marker, mates]
+        parts = [self._krige(marker, mate, border, np.arange(start, stop)) for mate in mates.tolist()]
+        mean, deviation = (np.stack(part, axis=1) for part in zip(*parts, strict=True))
+        return ExpectedDistances(mates, scene.positions[start:stop, mates], usual + mean, deviation)
+
+    def _usual(self, marker: int, like: ExpectedDistances) -> ExpectedDistances:
+        """The usual distances of the subject to the same mates."""
+        shape, mates = self.scene.shape, like.mates
+        assert shape is not None
+        usual = np.broadcast_to(shape.distance[marker, mates], like.distance.shape)
+        deviation = np.maximum(shape.deviation[marker, mates], self.options.min_deviation_mm)
+        return ExpectedDistances(mates, like.positions, usual, np.broadcast_to(deviation, usual.shape))
+
+    def _log_densities(self, expected: ExpectedDistances, points: np.ndarray) -> np.ndarray:
+        """Log densities (n, k) of points by their distances."""
+        return expected.log_densities(points, degrees_of_freedom=self.options.degrees_of_freedom)
+
+    def _krige(self, marker: int, mate: int, border: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Expected departure (n,) of a distance from the usual one, mm, and its standard deviation (n,), mm."""
+        departure, covariance = self._departure(marker, mate)
+        known, rate = border[~np.isnan(departure[border])], self.scene.rate
+        mean, variance = krige(covariance, observed_s=known / rate, values=departure[known, None], target_s=rows / rate)
+        return mean[:, 0], np.sqrt(variance + self.options.min_deviation_mm**2)
+
+    def _departure(self, marker: int, mate: int) -> tuple[np.ndarray, Covariance]:
+        """Departure (frames,) of a distance from the usual one over the recording, mm, and its covariance over time."""
+        if (marker, mate) not in self._departures:
+            positions = self.scene.positions
+            difference = positions[:, marker] - positions[:, mate]
+            length = np.sqrt(np.einsum("ti,ti->t", difference, difference))
+            assert self.scene.shape is not None
+            departure = length - self.scene.shape.distance[marker, mate]
+            scales_s = np.array(self.kriging.correlation_times_s)
+            covariance = fit_covariance(
+                departure[:, None], rate=self.scene.rate, scales_s=scales_s, max_lag_s=self.kriging.max_lag_s
+            )
+            self._departures[marker, mate] = departure, covariance
+        return self._departures[marker, mate]
+
+    @cached_property
+    def _departures(self) -> dict[tuple[int, int], tuple[np.ndarray, Covariance]]:
+        """Departures and covariances that were computed before, by marker and mate."""
+        return {}
+
+
+def nan_mean(values: np.ndarray, axis: int | None = 0) -> np.ndarray:
+    """Compute means of the values that are known, without a warning where none is.
+
+    Parameters
+    ----------
+    values : ndarray of float
+        Values, NaN = unknown.
+    axis : int or None
+        The axis over which they are taken; None = all.
+
+    Returns
+    -------
+    ndarray of float
+        The means, NaN where no value is known.
+    """
+    known = ~np.isnan(values)
+    count = known.sum(axis=axis)
+    mean: np.ndarray = np.where(count > 0, np.where(known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)
+    return mean

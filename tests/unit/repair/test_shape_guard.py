@@ -1,0 +1,99 @@
+"""A repair must bring the distances to the steadiest neighbours nearer to what they should be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.core.reasons import Cause
+from markermend.options.repair import ShapeGuardOptions
+from markermend.prediction.scene import Scene
+from markermend.repair.shape_guard import ShapeGuard
+from support.naive.repair import expected_distance, log_density
+from support.repairs import MARKER, RIDGE, START, STOP, body, neighbours_of, usual_shape
+
+OPTIONS = ShapeGuardOptions(mates=5)
+
+
+@pytest.fixture(scope="module")
+def recording():
+    """A chain of rigid segments with a little noise."""
+    return body()
+
+
+def guard_of(recording, **changes):
+    """The guard of a recording without the finding."""
+    m = recording.markers.index(MARKER)
+    positions = recording.positions.copy()
+    positions[START:STOP, m] = np.nan
+    scene = Scene(positions, recording.rate, neighbours_of(recording), shape=usual_shape(recording.positions))
+    return ShapeGuard(replace(scene, **changes), OPTIONS, RIDGE, recording.markers), m
+
+
+def test_a_repair_that_restores_the_distances_stands(recording):
+    guard, m = guard_of(recording)
+    true = recording.positions[START:STOP, m]
+    assert guard.objection(m, START, true + 5.0, true) is None
+    assert guard.why_kept(m, START, true + 5.0) is None
+
+
+def test_a_repair_of_what_is_usual_is_objected_to(recording):
+    guard, m = guard_of(recording)
+    true = recording.positions[START:STOP, m]
+    reason = guard.objection(m, START, true, true + 5.0)
+    assert reason.cause is Cause.AGAINST_SHAPE and "(2" in reason.text and "measured" in reason.text
+    assert guard.objection(m, START, true, true).cause is Cause.AGAINST_SHAPE
+    assert guard.why_kept(m, START, true).startswith("the distances to its neighbours are usual (")
+
+
+def test_a_mate_that_is_itself_off_does_not_decide(recording):
+    guard, m = guard_of(recording)
+    positions = guard.scene.positions.copy()
+    positions[START:STOP, recording.markers.index("2a")] += 300.0
+    guard = replace(guard, scene=replace(guard.scene, positions=positions))
+    true = recording.positions[START:STOP, m]
+    assert guard.objection(m, START, true + 5.0, true) is None
+    assert guard.objection(m, START, true, true + 5.0) is not None
+
+
+def test_without_mates_or_shape_nothing_is_objected_to(recording):
+    true = recording.positions[START:STOP, recording.markers.index(MARKER)]
+    for changes in ({"shape": None}, {"positions": np.full_like(recording.positions, np.nan)}):
+        guard, m = guard_of(recording, **changes)
+        assert guard.objection(m, START, true, true + 50.0) is None and guard.why_kept(m, START, true) is None
+
+
+def test_distances_that_vary_by_more_than_the_repair_say_little(recording):
+    """Far from the marker's segment every distance changes by decimetres: the border alone can tell, and not for long."""
+    guard, m = guard_of(recording)
+    far = [i for i, name in enumerate(recording.markers) if name[0] in "04"]
+    shape = guard.scene.shape
+    unknown = np.full_like(shape.deviation, np.nan)
+    unknown[m, far] = shape.deviation[m, far]
+    soft = replace(guard, scene=replace(guard.scene, shape=replace(shape, deviation=unknown)))
+    expected = soft.expected(m, START, STOP)
+    assert set(expected.mates) <= set(far) and len(expected.mates) == OPTIONS.mates
+    assert expected.deviation[0].max() < expected.deviation[20].min()
+
+
+def test_missing_samples_and_mates_do_not_count(recording):
+    guard, m = guard_of(recording)
+    measured = recording.positions[START:STOP, m] + 5.0
+    measured[:10] = np.nan
+    assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
+    measured[:] = np.nan
+    assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
+
+
+def test_expected_distances_equal_the_naive_twin(recording):
+    guard, m = guard_of(recording)
+    expected = guard.expected(m, START, STOP)
+    point = recording.positions[START:STOP, m] + 2.0
+    densities = expected.log_densities(point, degrees_of_freedom=4)
+    for k in (0, 4):
+        mate = expected.mates[k]
+        mean, deviation = expected_distance(guard, m, mate, START, STOP)
+        np.testing.assert_allclose(expected.distance[:, k], mean, rtol=1e-6)
+        np.testing.assert_allclose(expected.deviation[:, k], deviation, rtol=1e-6)
+        length = np.linalg.norm(point - recording.positions[START:STOP, mate], axis=1)
+        np.testing.assert_allclose(densities[:, k], log_density((length - mean) / deviation, 4), rtol=1e-6)
