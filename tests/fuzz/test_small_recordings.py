@@ -74,7 +74,7 @@ def test_what_cannot_be_judged_is_named(frames: int, markers: int) -> None:
     rng = np.random.default_rng(frames)
     recording = Recording(tuple("ABCDEFGH"[:markers]), motion(rng, frames, markers, 100.0), 100.0)
     cleaned = api.clean(recording)
-    assert cleaned.changes == ()
+    assert not changed(recording, cleaned.recording).any()
     assert set(cleaned.unjudged) == set(recording.markers)
     assert all(any(marker in text for text in cleaned.warnings) for marker in recording.markers)
 
