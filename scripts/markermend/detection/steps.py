@@ -104,6 +104,8 @@ class StepDetector(WindowDetector):
     def __init__(self, scene: Scene, markers: Sequence[str], options: StepsOptions, *, missing: np.ndarray) -> None:
         super().__init__(scene, markers, options)
         self.options, self.missing = options, missing
+        self._measured: ResidualStatistics | None = None
+        self._found: dict[int, list[Edge]] = {}
         self._context = residual_windows.context_samples(scene.rate, options, min_samples=edges.MIN_CONTEXT)
 
     @property
@@ -132,7 +134,14 @@ class StepDetector(WindowDetector):
         list[Edge]
             The edges, by frame.
         """
-        return edges.find_edges(statistics, marker, rate=self.scene.rate, options=self.options, fraction=fraction)
+        if statistics is not self._measured:
+            self._measured, self._found = statistics, {}
+        if marker not in self._found:
+            fewest = self.options.single_jump_fraction
+            self._found[marker] = edges.find_edges(
+                statistics, marker, rate=self.scene.rate, options=self.options, fraction=fewest
+            )
+        return [edge for edge in self._found[marker] if edge.score > fraction]
 
     def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
         """Find the level shifts of one marker, also between edges below the threshold; see `Detector.find_events`."""

@@ -503,6 +503,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     ramp_cost: NotNegative = 0.15
     """By which part of itself the threshold of a jump rises with each sample on the way: motion has ramps."""
 
+    sidelobe_fraction: Share = 0.25
+    """A jump whose window overlaps that of a larger one is a sidelobe of it below this part of its score (0 to 1)."""
+
     single_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.6
     """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
 
@@ -538,7 +541,11 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     Change it when good stretches are moved (higher)."""
 
     level_window_s: PositiveSeconds = 0.3
-    """Time beyond a gap over which a marker must be back where a gap cuts a step short."""
+    """Time beyond a gap over which a marker must be back where a gap cuts a step short, and within which a marker that flickers
+    returns to the same level."""
+
+    min_flicker_duration_s: Seconds = 0.02
+    """Shortest time between two jumps of a marker that flickers, with a step to the same level nearby."""
 
     recording_end_factor: Factor = 2
     """Size of the jump, in units of the threshold, of a step that an end of the recording cuts short, at least."""

@@ -114,3 +114,9 @@ def test_no_step_is_cut_short_where_the_marker_is_not_back_beyond_the_gap(walker
     found, left = detect(recording, only=("steps",))
     assert found["steps"] == []
     assert ("LELB", 560) in [(step.marker, step.frame) for step in left]
+
+
+def test_a_flicker_between_two_levels_is_found_stretch_by_stretch(walker):
+    places = [("C7", 400, 420), ("C7", 426, 440), ("C7", 446, 453), ("C7", 460, 480)]
+    found, _ = detect(put(walker.recording, places, lambda length: np.ones((length, 1)) * [8, 3, -6]), only=("steps",))
+    assert [(e.marker, e.start, e.stop) for e in found["steps"]] == places

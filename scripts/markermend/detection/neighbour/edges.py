@@ -79,7 +79,7 @@ def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ..
 def find_edges(
     statistics: ResidualStatistics, marker: int, *, rate: float, options: StepsOptions, fraction: float = 1.0
 ) -> list[Edge]:
-    """Find the edges of one marker; of those nearer to each other than half the context the strongest.
+    """Find the edges of one marker; of those nearer to each other than half the context the strongest, without its sidelobes.
 
     Parameters
     ----------
@@ -113,6 +113,9 @@ def find_edges(
                 candidates += [Edge(*one, ramp) for one in found if one[2] > fraction]
     kept: list[Edge] = []
     for edge in sorted(candidates, key=lambda e: (-e.score, e.frame, e.ramp)):
-        if all(2 * abs(edge.centre - one.centre) > context for one in kept):
+        distances = [(abs(edge.centre - one.centre), one) for one in kept]
+        near = [one for distance, one in distances if distance <= context + options.max_ramp_frames]
+        alone = all(2 * distance > context for distance, _ in distances)
+        if alone and all(edge.score >= options.sidelobe_fraction * one.score for one in near):
             kept.append(edge)
     return sorted(kept, key=lambda e: e.frame)

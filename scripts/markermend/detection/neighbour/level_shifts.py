@@ -25,7 +25,7 @@ MAX_EVIDENCE = 50.0
 """The level decides no more than this: the logarithm of a ratio of likelihoods that spares looking at it."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DisplacedStretch:
     """A stretch of a marker that is displaced.
 
@@ -35,11 +35,14 @@ class DisplacedStretch:
         First frame, and the frame after the last.
     edges : tuple of Edge
         The edges at its ends: one where a gap or an end of the recording cuts it short.
+    displacement : ndarray of float, shape (3,)
+        By how much the marker is displaced, mm.
     """
 
     start: int
     stop: int
     edges: tuple[Edge, ...]
+    displacement: np.ndarray
 
     def event(self, marker: str, sufficient: float) -> Event:
         """Report the stretch as an event.
@@ -104,19 +107,34 @@ class Explanations:
         return rarity
 
     def displaced(self) -> list[DisplacedStretch]:
-        """Find the stretches that are displaced with sufficient probability.
+        """Find the stretches that are displaced with sufficient probability; short ones only as part of a flicker.
 
         Returns
         -------
         list[DisplacedStretch]
             The stretches in order; adjacent ones are one.
         """
-        found = []
+        found, steps = [], []
+        shortest = intervals.samples(self.options.min_duration_s, self.rate)
         for first, last in intervals.runs(self.probabilities() >= self.options.min_probability):
-            ends = tuple(self.edges[k - 1] for k in (first, last) if 0 < k <= len(self.edges))
-            stop = self.frames[last] + (self.edges[last - 1].ramp if last <= len(self.edges) else 0)
-            found.append(DisplacedStretch(int(self.frames[first]), int(stop), ends))
-        return [one for one in found if one.edges]
+            displacements = self._displacements(first, last)
+            if displacements:
+                found.append(self._stretch(first, last, np.mean(displacements, axis=0)))
+                steps += found[-1:] if self.frames[last] - self.frames[first] >= shortest else []
+        return [one for one in found if one in steps or any(self._flickers(one, step) for step in steps)]
+
+    def _stretch(self, first: int, last: int, displacement: np.ndarray) -> DisplacedStretch:
+        """The stretch between two edges or ends, with the samples on the way back."""
+        edges = tuple(self.edges[k - 1] for k in (first, last) if 0 < k <= len(self.edges))
+        stop = self.frames[last] + (edges[-1].ramp if last <= len(self.edges) else 0)
+        return DisplacedStretch(int(self.frames[first]), int(stop), edges, displacement)
+
+    def _flickers(self, one: DisplacedStretch, other: DisplacedStretch) -> bool:
+        """Whether two stretches are displaced to the same level, one soon after the other."""
+        apart = max(one.start, other.start) - min(one.stop, other.stop)
+        difference = np.linalg.norm(one.displacement - other.displacement)
+        scale = self.options.jump_mismatch_fraction * np.linalg.norm(other.displacement)
+        return bool(apart <= self.options.level_window_s * self.rate and difference <= 2 * scale)
 
     def probabilities(self) -> np.ndarray:
         """Compute the probability of each stretch between successive edges and ends to be displaced.
@@ -146,7 +164,7 @@ class Explanations:
         """
         shortest, longest = (
             intervals.samples(seconds, self.rate)
-            for seconds in (self.options.min_duration_s, self.options.max_duration_s)
+            for seconds in (self.options.min_flicker_duration_s, self.options.max_duration_s)
         )
         count = len(self.frames)
         ratios = np.full((count, count), -np.inf)
@@ -158,8 +176,7 @@ class Explanations:
 
     def _log_ratio(self, first: int, last: int) -> float:
         """The likelihood of a level shift between two edges or ends."""
-        jumps = [self._jump(first, 1), self._jump(last, -1)]
-        known = [jump for jump in jumps if jump is not None]
+        known = self._displacements(first, last)
         if not known:
             return -np.inf
         displacement = np.mean(known, axis=0)
@@ -183,9 +200,10 @@ class Explanations:
                     return -np.inf
         return ratio
 
-    def _jump(self, node: int, sign: int) -> np.ndarray | None:
-        """The displacement to which an edge leads, or from which it returns; None for an end."""
-        return sign * self.edges[node - 1].jump if 0 < node <= len(self.edges) else None
+    def _displacements(self, first: int, last: int) -> list[np.ndarray]:
+        """The displacements to which the first of two edges leads and from which the last returns; an end has none."""
+        known = [(sign, node - 1) for sign, node in ((1, first), (-1, last)) if 0 < node <= len(self.edges)]
+        return [sign * self.edges[k].jump for sign, k in known]
 
 
 def explanations(

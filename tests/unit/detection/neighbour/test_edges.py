@@ -39,3 +39,12 @@ def test_weak_edges_are_found_with_a_part_of_the_threshold():
     assert edges.find_edges(statistics, 0, rate=100.0, options=STEPS) == []
     [edge] = edges.find_edges(statistics, 0, rate=100.0, options=STEPS, fraction=0.6)
     assert edge.frame == 100 and 0.6 < edge.score < 1
+
+
+@pytest.mark.parametrize("ramp", [1, 2, 3])
+def test_a_jump_with_a_ramp_is_one_edge_without_sidelobes(ramp):
+    residual = rough(400, 5)
+    residual += np.clip((np.arange(400) - 200 + 1) / (ramp + 1), 0, 1)[:, None] * [12, 16, 0]
+    [edge] = edges.find_edges(step_statistics(residual, residual, 100.0), 0, rate=100.0, options=STEPS, fraction=0.6)
+    assert (edge.frame, edge.ramp) == (200, ramp)
+    np.testing.assert_allclose(edge.jump, [12, 16, 0], atol=1)

@@ -132,3 +132,14 @@ def test_the_probabilities_are_those_of_all_explanations(seed):
     ]
     [run] = explanations(rng.normal(0, 4, (FRAMES, 3)), *found)
     np.testing.assert_allclose(run.probabilities(), naive.probabilities(run.log_ratios()), atol=1e-9)
+
+
+def test_short_stretches_count_only_where_the_marker_flickers():
+    residual = level((100, 104, 8), (120, 150, 8))
+    short, long = (edge(100, 8), edge(104, -8)), (edge(120, 8), edge(150, -8))
+    assert displaced(residual, *short) == []
+    assert displaced(residual, *short, *long) == [(100, 104), (120, 150)]
+    elsewhere = edge(120, 8, axis=1), edge(150, -8, axis=1)
+    shifted = level((100, 104, 8))
+    shifted[120:150, 1] += 8
+    assert displaced(shifted, *short, *elsewhere) == [(120, 150)]
