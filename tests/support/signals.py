@@ -6,6 +6,7 @@ import numpy as np
 
 from markermend.command.presets import preset_options
 from markermend.core import events
+from markermend.core.artifacts import class_of
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
 from markermend.detection.published import noise, peaks, slow, steps
@@ -72,7 +73,8 @@ def detect(recording, preset="default", only=tuple(DETECTORS), options=None):
         else:
             result = PUBLISHED[stage](scene, **given)
         found[stage], left = result if stage == "steps" else (result, left)
-        claimed = claimed | events.coordinates(found[stage], recording.frames, recording.markers)
+        hiding = [event for event in found[stage] if not class_of(stage, event).reported]
+        claimed = claimed | events.coordinates(hiding, recording.frames, recording.markers)
     return found, left
 
 

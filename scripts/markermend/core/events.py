@@ -9,6 +9,10 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 
+REFERENCES = ("usual distances", "longer part", "undecided")
+"""What decides which of two levels of a marker counts as right: the subject's usual distances over several recordings, else
+where the marker is for longer, else nothing, and the earlier counts as right."""
+
 
 @dataclass(frozen=True)
 class Event:
@@ -33,6 +37,8 @@ class Event:
         marker, have the same kind and group, and share frames.
     amount_mm : float, optional
         How far the samples are displaced, mm, where the detector states it.
+    reference : str, optional
+        What decided that the other level of the marker counts as right, one of REFERENCES, where there are two levels.
     """
 
     marker: str
@@ -44,6 +50,7 @@ class Event:
     kind: str | None = None
     group: str | None = None
     amount_mm: float | None = None
+    reference: str | None = None
 
     @property
     def markers(self) -> tuple[str, ...]:

@@ -162,7 +162,7 @@ class Mesh:
         Shape
             Usual distances in the order of the markers; NaN where a pair was never seen.
         """
-        return shape_of(self.distances, markers)
+        return shape_of(self.distances, markers, len(self.recordings))
 
     def without(self, markers: Collection[str]) -> Mesh:
         """Give the mesh of a recording that lacks some markers.

@@ -22,11 +22,14 @@ class Shape:
     spread : ndarray, shape (markers, markers)
         Standard deviation by the 5th and the 95th percentile, mm: covers rare poses, and faults of more than 5 % of the
         frames; NaN where a pair is unknown.
+    recordings : int
+        Number of the subject's recordings that they were estimated from.
     """
 
     distance: np.ndarray
     deviation: np.ndarray
     spread: np.ndarray
+    recordings: int = 1
 
     def steadiest(self, marker: int, count: int, *, among: np.ndarray | None = None) -> np.ndarray:
         """List the markers to which a marker keeps its distance best.
@@ -53,7 +56,9 @@ class Shape:
         return order[: min(count, int(np.count_nonzero(~np.isnan(deviation))))]
 
 
-def shape_of(distances: dict[str, dict[str, tuple[float, float, float]]], markers: Sequence[str]) -> Shape:
+def shape_of(
+    distances: dict[str, dict[str, tuple[float, float, float]]], markers: Sequence[str], recordings: int = 1
+) -> Shape:
     """Arrange named distances in the order of markers.
 
     Parameters
@@ -62,6 +67,8 @@ def shape_of(distances: dict[str, dict[str, tuple[float, float, float]]], marker
         For each marker, by the name of each later one: usual distance, deviation, and spread, mm.
     markers : sequence of str
         Names of the markers in the wanted order.
+    recordings : int, optional
+        Number of recordings that they were estimated from.
 
     Returns
     -------
@@ -76,4 +83,4 @@ def shape_of(distances: dict[str, dict[str, tuple[float, float, float]]], marker
             for m, values in known:
                 usual[:, place[first], m] = usual[:, m, place[first]] = values
     usual[:, range(len(markers)), range(len(markers))] = 0.0
-    return Shape(*usual)
+    return Shape(usual[0], usual[1], usual[2], recordings)

@@ -18,6 +18,7 @@ from markermend.detection import inputs
 from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
 from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
+from markermend.detection.neighbour.lasting_shifts import LastingFinder
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection import SlowOptions
@@ -46,7 +47,7 @@ def detect_slow(
     Returns
     -------
     list[Event]
-        Disjoint events, sorted.
+        Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
@@ -56,7 +57,8 @@ def detect_slow(
     found = [
         event for m, name in enumerate(markers) for event in finder.find(m, name=name) if attribution.is_own(m, event)
     ]
-    return events.disjoint(found)
+    lasting = LastingFinder(predictor.options, options.displacement, options.shape)
+    return lasting.added_to(events.disjoint(found), rest, markers, sudden=False)
 
 
 @dataclass(frozen=True)

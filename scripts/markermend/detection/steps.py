@@ -11,6 +11,7 @@ from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, edges, level_shifts, residual_windows
 from markermend.detection.neighbour.edges import Edge
+from markermend.detection.neighbour.lasting_shifts import LastingFinder
 from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.level_shifts import DisplacedStretch
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
@@ -42,7 +43,7 @@ def detect_steps(
     Returns
     -------
     found : list[Event]
-        Disjoint events, sorted.
+        Events, sorted; those of one kind are disjoint, and a step may lie within a lasting displacement.
     open_steps : list[OpenStep]
         Jumps with which no event begins or ends, by marker and frame.
     """
@@ -54,6 +55,8 @@ def detect_steps(
     # A gap may hide a jump, and so may what was claimed earlier: noise on a step often reaches to its end.
     unseen = ~scene.present | earlier.any(axis=2)
     found = events.disjoint([*found, *_truncated(detector, statistics, found, unseen)])
+    lasting = LastingFinder(options.predictors.local_ridge, options.displacement, options.shape)
+    found = lasting.added_to(found, detector.scene, markers, sudden=True)
     return found, _open_steps([detector.edges(statistics, m) for m in range(len(markers))], found, markers)
 
 

@@ -19,6 +19,7 @@ from markermend.options.detection import (
     StepsOptions,
     TailsOptions,
 )
+from markermend.options.displacement import DisplacementOptions
 from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
@@ -54,6 +55,7 @@ SECTIONS: dict[str, type] = {
     "qc": QcOptions,
     "report": NoOptions,
     "shape": ShapeOptions,
+    "displacement": DisplacementOptions,
     "predictors": PredictorOptions,
 }
 """The class of each section, in the order of the config."""

@@ -25,6 +25,7 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
+from markermend.options.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 from markermend.options.published import (
     PublishedNoiseOptions,
@@ -467,6 +468,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The evidence of the subject's usual shape."""
 
+    displacement: Annotated[DisplacementOptions, Shared()] = field(default_factory=DisplacementOptions)
+    """Lasting displacements."""
+
     preset: Preset = "default"
     """The detector: `default` (against the neighbours, all axes together), `coordinates` (coordinate by coordinate, with
     robust thresholds) or `paper` (as published: skurowski2022).
@@ -573,6 +577,12 @@ class SlowOptions(DetectorOptions):
         default_factory=PredictorOptions
     )
     """The predictors."""
+
+    shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
+    """The evidence of the subject's usual shape."""
+
+    displacement: Annotated[DisplacementOptions, Shared()] = field(default_factory=DisplacementOptions)
+    """Lasting displacements."""
 
     preset: Annotated[Literal["default", "paper"], Laboratory] = "default"
     """The detector: `default` (against the neighbours, all axes together) or `paper` (as published: skurowski2022).

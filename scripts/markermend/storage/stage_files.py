@@ -26,6 +26,7 @@ EVENT_SCHEMA = pa.schema(
         ("kind", pa.string()),
         ("group", pa.string()),
         ("amount_mm", pa.float64()),
+        ("reference", pa.string()),
     ]
 )
 """The columns of a file of events."""

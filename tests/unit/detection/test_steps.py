@@ -31,12 +31,22 @@ def test_three_siblings_that_step_at_once(walker, siblings):
 
 
 def test_an_open_step_of_the_walker_has_its_size(walker):
-    recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
-    found, left = detect(recording, only=("steps",))
+    recording = put(walker.recording, [("C7", 1180, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
+    options = replace(StepsOptions(), recording_end_factor=100)
+    found, left = detect(recording, only=("steps",), options=options)
     assert found["steps"] == []
     [step] = left
-    assert (step.marker, step.frame) == ("C7", 700)
+    assert (step.marker, step.frame) == ("C7", 1180)
     assert step.size_mm == pytest.approx(15, rel=0.2)
+
+
+def test_a_jump_without_return_is_a_displaced_marker(walker):
+    recording = put(walker.recording, [("C7", 700, 1200)], lambda length: np.ones((length, 1)) * [12, 0, 9])
+    found, left = detect(recording, only=("steps",))
+    [event] = found["steps"]
+    assert (event.marker, event.start, event.stop, event.kind) == ("C7", 700, 1200, "displaced")
+    assert event.amount_mm == pytest.approx(15, abs=0.5)
+    assert left == []
 
 
 def test_two_jumps_without_a_level_in_between_are_left_open(walker):

@@ -1,0 +1,102 @@
+"""Options of lasting displacements: markers that were knocked, or crept, to another place on their segment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from markermend.options.declaration import (
+    Above,
+    AtLeast,
+    Below,
+    Changes,
+    Count,
+    Factor,
+    Millimetres,
+    NotEmpty,
+    NotNegative,
+    Positive,
+    PositiveSeconds,
+    Share,
+)
+from markermend.options.prediction import LocalRidgeOptions
+
+
+@dataclass(frozen=True)
+class DisplacementOptions:
+    """Detect markers that were knocked, or crept, to another place on their segment, and move them back.
+
+    The stages steps (knocked) and slow (creeping) and the repair share them.
+    """
+
+    local_ridge_changes: Annotated[Mapping[str, Any], Changes(LocalRidgeOptions)] = field(
+        default_factory=lambda: {"anchors": 4, "inputs": 8, "ridge_mm2": 1, "max_training_frames": 400}
+    )
+    """Options of local_ridge that differ here: the regression on the pose must leave a displacement alone."""
+
+    moments: Annotated[int, AtLeast(2)] = 60
+    """Moments, evenly spaced, at which a displacement may begin or end; a sudden one is then placed to the frame."""
+
+    rise_durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty] = (0.5, 1, 2, 4)
+    """Durations over which a marker may creep to its new place."""
+
+    min_duration_s: PositiveSeconds = 0.3
+    """Shortest time before, and shortest time after a displacement."""
+
+    min_duration_share: Share = 0.1
+    """The same as a share of the recording (0 to 1)."""
+
+    min_explained_share: Annotated[float, Above(0), Below(1)] = 0.7
+    """Share of the variance that the pose leaves unexplained which a sudden displacement must explain, at least (0 to 1)."""
+
+    min_creep_explained_share: Annotated[float, Above(0), Below(1)] = 0.8
+    """The same of a creep, which a slow change of pose resembles (0 to 1)."""
+
+    min_independent_variance: NotNegative = 0.01
+    """Variance of the course of the displacement (0 before, 1 after) that the pose does not explain, at least: where poses
+    before and after are unlike, there is nothing to compare."""
+
+    floor_mm: Millimetres = 5
+    """Smallest displacement."""
+
+    ceiling_mm: Millimetres = 100
+    """Largest displacement: markers that are further away are not on their segment."""
+
+    creep_gain: Share = 0.8
+    """A creep must leave at most this part of the variance that a sudden displacement leaves (0 to 1)."""
+
+    return_gain: Share = 0.6
+    """A displacement that ends must leave at most this part of the variance that one to the end leaves (0 to 1)."""
+
+    shared_evidence_fraction: NotNegative = 0.25
+    """Where the same course explains the motion of a neighbour as well, the marker excluded, the pose has changed and not the
+    place of one marker: its evidence (explained to unexplained variance) is at least this part of the marker's."""
+
+    shared_size_fraction: NotNegative = 0.3
+    """Such a neighbour is displaced by this part of the marker's displacement, at least."""
+
+    outlier_sigmas: Positive = 4
+    """Residuals beyond this many robust standard deviations lose weight."""
+
+    max_findings: Count = 2
+    """Lasting displacements of one marker, at most."""
+
+    refine_s: PositiveSeconds = 0.3
+    """Time on either side of a sudden displacement, beyond the distance of two moments, in which its frame is looked for."""
+
+    max_usual_deviation: NotNegative = 0.35
+    """The usual distances decide which of the two places is right if those at one deviate from them by at most this part of
+    the displacement; see also `usual_factor`."""
+
+    usual_factor: Factor = 1.5
+    """Those at the other place must deviate from them by this many times as much."""
+
+    longer_factor: Positive = 1.5
+    """Where the usual distances do not decide, the place at which the marker is for longer by this factor counts as right."""
+
+    level_block_s: PositiveSeconds = 1
+    """The error of a displacement follows from the means of the remaining residual over blocks of this duration."""
+
+    level_correlation_s: PositiveSeconds = 4
+    """Time over which these means are correlated."""

@@ -1,0 +1,122 @@
+"""Markers of a jointed body that sit elsewhere from one moment on are found, with moment, amount and what decided."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.core.shape import Shape
+from markermend.detection.neighbour.lasting_shifts import LastingFinder
+from markermend.mesh.usual_distances import recording_distances
+from markermend.numerics.rigid_alignment import align
+from markermend.options.displacement import DisplacementOptions
+from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.shape import ShapeOptions
+from markermend.prediction.scene import Scene
+from support.bodies import RATE, subject
+from support.signals import neighbours
+
+FRAMES = 1500
+FINDER = LastingFinder(LocalRidgeOptions(), DisplacementOptions(), ShapeOptions())
+NAMES, BODY, OWNERS = subject(3, frames=FRAMES, markers=6)
+
+
+def onset(start, stop=FRAMES, length=1):
+    """From 0 to 1 over some frames, and back at once."""
+    values = np.clip((np.arange(FRAMES) - start + 1) / length, 0, 1)
+    values[stop:] = 0
+    return values
+
+
+def displaced(name, course, vector=(12.0, -9.0, 8.0)):
+    """The body, with soft tissue of 0.4 mm, and a marker displaced in its segment's frame."""
+    rng = np.random.default_rng(0)
+    positions = BODY + rng.normal(0, 0.4, BODY.shape)
+    m = NAMES.index(name)
+    mates = [o for o, owner in enumerate(OWNERS) if owner == OWNERS[m]]
+    turns = align(BODY[:, mates], BODY[0, mates] - BODY[0, mates].mean(axis=0)).axes
+    positions[:, m] += np.einsum("nij,j->ni", turns, np.array(vector)) * course[:, None]
+    return positions
+
+
+def scene(positions, usual=None):
+    """The scene of a subject with the shape of its usual recordings, or of this one alone."""
+    shown = positions if usual is None else usual
+    shape = Shape(*recording_distances(shown, min_frames=20), 1 if usual is None else 3)
+    return Scene(positions, RATE, neighbours(positions), shape=shape)
+
+
+def find(positions, *, usual=None, sudden=True):
+    return FINDER.find(scene(positions, usual), NAMES, sudden=sudden)
+
+
+def test_nothing_where_all_is_well():
+    positions = displaced("2b", np.zeros(FRAMES))
+    assert find(positions) == find(positions, sudden=False) == []
+
+
+def test_a_marker_knocked_for_good():
+    positions = displaced("2b", onset(1000))
+    [event] = find(positions)
+    assert (event.marker, event.start, event.stop, event.kind) == ("2b", 1000, FRAMES, "displaced")
+    assert event.amount_mm == pytest.approx(17, abs=0.5)
+    assert event.reference == "longer part" and event.score > 1
+    assert find(positions, sudden=False) == []
+
+
+def test_the_moment_may_lie_in_a_gap():
+    positions = displaced("1c", onset(1000))
+    positions[980:1030, NAMES.index("1c")] = np.nan
+    [event] = find(positions)
+    assert (event.marker, event.start, event.stop) == ("1c", 1030, FRAMES)
+
+
+def test_a_marker_that_is_put_back():
+    [event] = find(displaced("3a", onset(400, 900)))
+    assert (event.marker, event.start, event.stop) == ("3a", 400, 900)
+
+
+def test_a_marker_that_creeps():
+    positions = displaced("2b", onset(900, length=200))
+    assert find(positions) == []
+    [event] = find(positions, sudden=False)
+    assert (event.marker, event.stop, event.kind) == ("2b", FRAMES, "creep")
+    assert abs(event.start - 900) <= 30
+    assert event.amount_mm == pytest.approx(17, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("start", "usual", "place", "reference"),
+    [
+        (400, False, (0, 400), "longer part"),
+        (750, False, (750, FRAMES), "undecided"),
+        (400, True, (400, FRAMES), "usual distances"),
+    ],
+)
+def test_which_place_is_right(start, usual, place, reference):
+    clean = displaced("2b", np.zeros(FRAMES))
+    [event] = find(displaced("2b", onset(start)), usual=clean if usual else None)
+    assert (event.start, event.stop, event.reference) == (*place, reference)
+
+
+def test_a_change_of_pose_for_good_is_none():
+    still = np.tile(BODY[200], (FRAMES // 2, 1, 1)), np.tile(BODY[460], (FRAMES - FRAMES // 2, 1, 1))
+    positions = np.concatenate(still) + np.random.default_rng(1).normal(0, 0.4, BODY.shape)
+    assert find(positions) == find(positions, sudden=False) == []
+
+
+def test_markers_that_shift_together_have_changed_the_segment():
+    first, second = (displaced(name, onset(1000), (9.0, 9.0, 0.0)) for name in ("2a", "2b"))
+    together = first.copy()
+    together[:, NAMES.index("2b")] = second[:, NAMES.index("2b")]
+    assert find(together) == []
+
+
+def test_further_away_than_on_the_segment_is_left_to_other_classes():
+    assert find(displaced("2b", onset(1000), (300.0, 0.0, 0.0))) == []
+
+
+def test_a_step_that_explains_it_is_not_found_twice():
+    [event] = find(displaced("2b", onset(1000)))
+    own = replace(event, kind=None)
+    assert FINDER.added_to([own], scene(displaced("2b", onset(1000))), NAMES, sudden=True) == [own]
