@@ -15,13 +15,21 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
+<<<<<<< HEAD
 from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
 from markermend.detection.neighbour.lasting_shifts import LastingFinder
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
+=======
+from markermend.detection.neighbour.drift_evidence import LongDriftEvidence, ShortDriftEvidence
+from markermend.detection.neighbour.drift_regression import DriftRegression
+from markermend.detection.neighbour.drift_scores import DriftScorer
+from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.detection.neighbour.short_drifts import ShortDrifts
+>>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
 from markermend.options.detection import SlowOptions
+from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
@@ -51,6 +59,7 @@ def detect_slow(
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
+<<<<<<< HEAD
     scorer = DriftScorer(rest.rate, options)
     scores = scorer.score(rest, *source.scaled_residuals(rest, blocks=options.leverage_blocks))
     finder, attribution = DriftFinder(scorer, scores), DriftAttribution(rest, scores, scorer, source)
@@ -59,128 +68,82 @@ def detect_slow(
     ]
     lasting = LastingFinder(predictor.options, options.displacement, options.shape)
     return lasting.added_to(events.disjoint(found), rest, markers, sudden=False)
+=======
+    return SlowChanges.fit(rest, options, source).find(markers)
+>>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
 
 
-@dataclass(frozen=True)
-class DriftFinder:
-    """Finds the drifts of each marker by their scores.
+@dataclass(frozen=True, eq=False)
+class SlowChanges:
+    """Drifts of all durations on the markers of a scene.
 
     Attributes
     ----------
-    scorer : DriftScorer
-        By which they were scored.
-    scores : DriftScores
-        The scores.
+    short : ShortDrifts
+        Those that templates find in the residuals.
+    long : LongDrifts
+        Those that are estimated together with the regression.
+    short_attribution, long_attribution : DriftAttribution
+        Whose they are.
     """
 
-    scorer: DriftScorer
-    scores: DriftScores
+    short: ShortDrifts
+    long: LongDrifts
+    short_attribution: DriftAttribution
+    long_attribution: DriftAttribution
 
-    @property
-    def options(self) -> SlowOptions:
-        """The options."""
-        return self.scorer.options
-
-    def find(self, marker: int, *, name: str) -> list[Event]:
-        """Find the drifts of one marker, the clearest first; none reaches into the flanks of a clearer one.
+    @classmethod
+    def fit(cls, scene: Scene, options: SlowOptions, predictor: ScaledResidualSource) -> SlowChanges:
+        """Score the drifts of a scene.
 
         Parameters
         ----------
-        marker : int
-            Index of the marker.
-        name : str
-            Its name.
+        scene : Scene
+            What is observed, without what earlier detectors claimed.
+        options : SlowOptions
+            Durations, thresholds, local scale, and attribution.
+        predictor : ScaledResidualSource
+            Predicts each marker from its neighbours.
+
+        Returns
+        -------
+        SlowChanges
+            The drifts, scored.
+        """
+        regressions = list(predictor.regressions(scene, blocks=options.leverage_blocks))
+        residual, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
+        for own in regressions:
+            residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
+        scorer, regression = DriftScorer(scene.rate, options), DriftRegression(scene.rate, options.long_drifts)
+        motion = scorer.motion(scene)
+        scores = scorer.score(scene, residual, factors, motion)
+        scale = regression.scale(scene, residual, motion)
+        models = regression.models(regressions, scale, len(residual))
+        long = LongDrifts(regression, models, residual, options)
+        short_evidence = ShortDriftEvidence(scorer, scores, predictor)
+        long_evidence = LongDriftEvidence(long, scale, predictor)
+        return cls(
+            ShortDrifts(scorer, scores),
+            long,
+            DriftAttribution(scene, short_evidence, options),
+            DriftAttribution(scene, long_evidence, options),
+        )
+
+    def find(self, markers: Sequence[str]) -> list[Event]:
+        """Find the drifts of all markers that are their own.
+
+        Parameters
+        ----------
+        markers : Sequence[str]
+            Names of the markers.
 
         Returns
         -------
         list[Event]
-            The drifts.
+            Disjoint events, sorted.
         """
-        score, residual, flank = (
-            self.scores.score[:, marker],
-            self.scores.residual[:, marker],
-            self.options.flank_fraction,
-        )
-        peaks = [start + int(score[start:stop].argmax()) for start, stop in runs(score > 1)]
-        found, taken = list[Event](), np.zeros(len(score), bool)
-        for peak in sorted(peaks, key=lambda peak: -score[peak]):
-            start, stop = self.extent(marker, peak)
-            if taken[start:stop].any():
-                continue
-            side = int(flank * (stop - start))
-            taken[max(0, start - side) : stop + side] = True
-            if self.is_drift(marker, peak, start, stop):
-                change = drift_shape.displacement(residual, start, stop, flank=flank)
-                found.append(Event(name, start, stop, float(score[peak]), events.main_axes(change[None])))
-        return found
-
-    def extent(self, marker: int, peak: int) -> tuple[int, int]:
-        """Fit where the drift at a peak of the score begins and ends.
-
-        An obvious one may be the tip of a longer drift: it lasts as long as it takes to return to the baseline.
-
-        Parameters
-        ----------
-        marker : int
-            Index of the marker.
-        peak : int
-            Frame of the peak.
-
-        Returns
-        -------
-        tuple[int, int]
-            The drift, [start, stop).
-        """
-        own, residual = self.scores.length[peak, marker], self.scores.residual[:, marker]
-        obvious = self.scores.score[peak, marker] >= self.options.obvious_factor
-        lengths = [length for length in self.scorer.lengths if length == own or (obvious and length > own)]
-        spans = [drift_shape.fit_extent(residual, peak, n, flank=self.options.flank_fraction) for n in lengths]
-        return next((span for span in spans if self.rises_from_baseline(residual, *span)), spans[0])
-
-    def is_drift(self, marker: int, peak: int, start: int, stop: int) -> bool:
-        """Check whether what stands out at a peak of the score is a drift.
-
-        Parameters
-        ----------
-        marker : int
-            Index of the marker.
-        peak : int
-            Frame of the peak.
-        start, stop : int
-            Its extent, [start, stop).
-
-        Returns
-        -------
-        bool
-            Whether it rises from the baseline, is distinct from what the marker does elsewhere, clear enough where the
-            local scale is high, and long enough.
-        """
-        options, score = self.options, self.scores.score[:, marker]
-        return bool(
-            self.rises_from_baseline(self.scores.residual[:, marker], start, stop)
-            and score[peak] >= self.scorer.required_score(score, start, stop)
-            and (
-                score[peak] >= options.high_scale_factor or self.scores.scale_mm[peak, marker] <= options.high_scale_mm
-            )
-            and stop - start >= intervals.samples(options.min_duration_s, self.scorer.rate)
-        )
-
-    def rises_from_baseline(self, residual: np.ndarray, start: int, stop: int) -> bool:
-        """Check whether a residual rises high enough in an interval, from baseline to baseline.
-
-        Parameters
-        ----------
-        residual : np.ndarray
-            Residual (frames, 3), mm, NaN = missing.
-        start, stop : int
-            The interval, [start, stop).
-
-        Returns
-        -------
-        bool
-            Whether it does.
-        """
-        flank = self.options.flank_fraction
-        deviation = drift_shape.baseline_deviation(residual, start, stop, flank=flank)
-        lowest = max(self.options.floor_mm, deviation / self.options.max_baseline_fraction)
-        return drift_shape.height(residual, start, stop, flank=flank) >= lowest
+        found = list[Event]()
+        for m, name in enumerate(markers):
+            found += [event for event in self.short.find(m, name=name) if self.short_attribution.is_own(m, event)]
+            found += [event for event in self.long.find(m, name=name) if self.long_attribution.is_own(m, event)]
+        return events.disjoint(found)

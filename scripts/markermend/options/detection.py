@@ -25,7 +25,11 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
+<<<<<<< HEAD
 from markermend.options.displacement import DisplacementOptions
+=======
+from markermend.options.long_drifts import LongDriftOptions
+>>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 from markermend.options.published import (
     PublishedNoiseOptions,
@@ -589,7 +593,7 @@ class SlowOptions(DetectorOptions):
 
     Change it when you repeat the paper (`paper`)."""
 
-    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (0.25, 0.32, 0.42, 0.55, 0.75, 1, 1.4)
+    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (0.25, 0.32, 0.42, 0.55, 0.75, 1)
     """Durations of the drifts that are looked for.
 
     Change it when slow changes of other durations are real in your data."""
@@ -651,7 +655,7 @@ class SlowOptions(DetectorOptions):
 
     Change it when false slow changes are found (higher), or repeated ones are missed (lower)."""
 
-    obvious_factor: Factor = 3
+    obvious_factor: Factor = 5
     """A drift that exceeds the threshold by this factor need not be distinct, and may be the tip of a longer one.
 
     Change it when a loose marker drifts three times or more in a similar way (lower)."""
@@ -670,6 +674,15 @@ class SlowOptions(DetectorOptions):
 
     remaining_fraction: NotNegative = 1
     """Part of the threshold that the drift must still reach without them."""
+
+    min_distance_sigmas: Positive = 3
+    """Distances to the neighbours show a drift if it would change them, together, by this many of their deviations."""
+
+    min_distance_fraction: NotNegative = 0.5
+    """Such distances must change by this part of what the drift would change them: those on rigid segments decide."""
+
+    long_drifts: LongDriftOptions = field(default_factory=LongDriftOptions)
+    """Options of the drifts of a second and more."""
 
     paper: PublishedSlowOptions = field(default_factory=PublishedSlowOptions)
     """Options of the preset `paper`: as published (skurowski2022)."""

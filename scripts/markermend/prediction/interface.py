@@ -5,7 +5,7 @@ Detection, repair and filling use it: where should a marker be during a gap, and
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -97,7 +97,58 @@ class Trainable(Protocol):
         ...
 
 
-class ScaledResidualSource(Protocol):
+@dataclass(frozen=True, eq=False)
+class LocalRegression:
+    """The regression of a marker on its neighbours in one local frame, where it can be predicted.
+
+    Attributes
+    ----------
+    marker : int
+        Index of the marker.
+    frames : np.ndarray
+        Frames (n,), ascending.
+    inputs : np.ndarray
+        Inputs (n, columns), mm.
+    target : np.ndarray
+        Observed positions (n, 3) in the axes of the local frame, mm.
+    residual : np.ndarray
+        Observed minus predicted positions (n, 3), mm, laboratory axes.
+    factors : np.ndarray
+        Factors (n,), at least 1, by which the leverage of the pose widens the distribution of the residual.
+    """
+
+    marker: int
+    frames: np.ndarray
+    inputs: np.ndarray
+    target: np.ndarray
+    residual: np.ndarray
+    factors: np.ndarray
+
+
+class RegressionSource(Protocol):
+    """A predictor that shows the regressions of its markers."""
+
+    def regressions(self, scene: Scene, markers: np.ndarray | None = None, *, blocks: int) -> Iterator[LocalRegression]:
+        """Fit the regressions of markers to all frames with robust weights.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+        markers : np.ndarray | None
+            Indices of the markers to predict; all if None.
+        blocks : int
+            Number of equal parts of the recording that are left out of the training in turn to estimate the factors.
+
+        Yields
+        ------
+        LocalRegression
+            Each frame of a marker that can be predicted is in one of them.
+        """
+        ...
+
+
+class ScaledResidualSource(RegressionSource, Protocol):
     """A predictor that also states how its errors grow with the leverage of the pose."""
 
     def scaled_residuals(

@@ -181,3 +181,22 @@ def scaled_conjugate_gradient(value, gradient, start, *, iterations, rest, probe
         if comparison < 0.25:
             scale += delta * (1 - comparison) / square
     return w
+
+
+def pulse_height(signal, shape, regressors, scale, covariance, step_s, *, intercept_std, jitter):
+    """Height of a pulse and its deviation, by dense generalised least squares; None where it is hardly known."""
+    known = [n for n in range(len(signal)) if not np.isnan(signal[n]).any()]
+    if (shape[known] ** 2).sum() < 0.8 * (shape**2).sum():
+        return None
+    design = regressors[known] - regressors[known].mean(axis=0)
+    total = np.zeros((len(known), len(known)))
+    for i, one in enumerate(known):
+        for j, other in enumerate(known):
+            own = covariance(np.array([abs(one - other) * step_s]))[0]
+            if one == other:
+                own += covariance.noise + jitter * covariance(np.zeros(1))[0] + 1e-9
+            total[i, j] = own * scale[one] * scale[other] + design[i] @ design[j] + intercept_std**2
+    centred = signal[known] - np.median(signal[known], axis=0)
+    weights = np.linalg.solve(total, shape[known])
+    information = weights @ shape[known]
+    return weights @ centred / information, 1 / np.sqrt(information)

@@ -8,14 +8,16 @@ import numpy as np
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
+from markermend.detection.neighbour.drift_evidence import DriftEvidence
 from markermend.numerics import intervals, robust
 from markermend.options.detection import SlowOptions
-from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.scene import Scene
 
 RIGID_MM = 0.1
 """Deviation of distances that every segment is granted, mm: rounded positions of a rigid body have as much."""
+
+MIN_DEVIATION_MM = 0.02
+"""Smallest deviation of a distance, mm: positions are stored no more precisely."""
 
 BRIEF_SHARE = 8
 """A time is brief next to a drift if it is at most one part in this many of it."""
@@ -29,28 +31,20 @@ class DriftAttribution:
     ----------
     scene : Scene
         What is observed, without what earlier detectors claimed.
-    scores : DriftScores
-        The scores of drifts in it.
-    scorer : DriftScorer
-        By which they were scored.
-    predictor : ScaledResidualSource
-        Source of their residuals.
+    evidence : DriftEvidence
+        How drifts stand out in it.
+    options : SlowOptions
+        Neighbours that are looked at, and how much must remain without them.
     """
 
     scene: Scene
-    scores: DriftScores
-    scorer: DriftScorer
-    predictor: ScaledResidualSource
-
-    @property
-    def options(self) -> SlowOptions:
-        """The options."""
-        return self.scorer.options
+    evidence: DriftEvidence
+    options: SlowOptions
 
     def is_own(self, marker: int, event: Event) -> bool:
         """Check whether a drift is the marker's own.
 
-        It must remain without all neighbours that are observed intermittently. Of each neighbour that deviates as well
+        The distances to the steadiest neighbours must show it. It must remain without all neighbours that are observed intermittently. Of each neighbour that deviates as well
         and may have dragged the marker along: the drift remains without it; or, as on a rigid segment where the residual
         of neither can be computed without the other, the marker's distances to the others change more than that
         neighbour's.
@@ -67,6 +61,8 @@ class DriftAttribution:
         bool
             Whether it is.
         """
+        if not self.shows_in_distances(marker, event):
+            return False
         intermittent = self.intermittent_neighbours(marker, event)
         deviating = np.setdiff1d(self.deviating_neighbours(marker, event), intermittent)
         if len(intermittent) and not self.remains_without(intermittent, marker, event):
@@ -132,15 +128,10 @@ class DriftAttribution:
         np.ndarray
             Their indices.
         """
-        near, flank = self.nearest(marker), self.options.flank_fraction
-        own, *heights = (
-            drift_shape.height(self.scores.residual[:, m], event.start, event.stop, flank=flank)
-            for m in (marker, *near)
-        )
+        near = self.nearest(marker)
+        own, *heights = (float(np.linalg.norm(self.evidence.displacement(m, event))) for m in (marker, *near))
         high = np.nan_to_num(heights) > self.options.suspect_fraction * own
-        deviating: np.ndarray = near[
-            high | (self.scores.score[event.start : event.stop, near].max(axis=0, initial=0.0) > 1)
-        ]
+        deviating: np.ndarray = near[high | [self.evidence.stands_out(m, event) for m in near]]
         return deviating
 
     def remains_without(self, hidden: np.ndarray, marker: int, event: Event) -> bool:
@@ -163,12 +154,59 @@ class DriftAttribution:
         positions = self.scene.positions.copy()
         positions[:, hidden] = np.nan  # throughout: a looser prediction needs its own scale
         rest = replace(self.scene, positions=positions)
-        residual, factors = self.predictor.scaled_residuals(
-            rest, np.array([marker]), blocks=self.options.leverage_blocks
-        )
-        score = self.scorer.rescore(self.scores, residual[:, marker], factors[:, marker], marker=marker)
-        required = self.scorer.required_score(score, event.start, event.stop)
-        return bool(score[event.start : event.stop].max() > self.options.remaining_fraction * required)
+        return self.evidence.remaining_score(rest, marker, event) > self.options.remaining_fraction
+
+    def shows_in_distances(self, marker: int, event: Event) -> bool:
+        """Check whether the distances of a marker change as a drift would change them, beyond their usual range.
+
+        A marker that keeps its distances to rigid segment mates cannot have drifted alone, and one whose distances stay in
+        their usual range contradicts nothing: that may be, but only where the drift is estimated precisely. The part of the
+        drift that the distances show is estimated by least squares, each weighed by how steady it usually is: those that
+        would show the drift by themselves, if there are any.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        event : Event
+            The drift.
+
+        Returns
+        -------
+        bool
+            Whether they show enough of it.
+        """
+        near = self.nearest(marker)
+        near = near[self._observed(event, near).all(axis=0)]
+        displaced = self.evidence.displacement(marker, event)
+        if len(near) == 0 or np.isnan(displaced).any():
+            return False
+        apart = self.scene.positions[:, [marker]] - self.scene.positions[:, near]
+        distance = np.linalg.norm(apart, axis=2)
+        third = (event.stop - event.start) // 3
+        middle = slice(event.start + third, event.stop - third)
+        margin = int(np.ceil(self.options.flank_fraction * (event.stop - event.start)))
+        around = np.r_[max(event.start - margin, 0) : event.start, event.stop : min(event.stop + margin, len(distance))]
+        before = np.linalg.norm(apart[middle] - displaced, axis=2)
+        deviation = np.hypot(self._deviations(marker, near, distance), MIN_DEVIATION_MM)
+        expected = np.nanmedian(distance[middle] - before, axis=0) / deviation
+        change = (np.nanmedian(distance[middle], axis=0) - np.nanmedian(distance[around], axis=0)) / deviation
+        required = self.options.min_distance_sigmas
+        steady = np.abs(expected) >= required
+        some = steady if steady.any() else np.ones(len(near), bool)
+        information = float(expected[some] @ expected[some])
+        shown = float(change[some] @ expected[some])
+        clear = information >= required**2 or self.evidence.is_precise(marker, event)
+        return clear and shown >= self.options.min_distance_fraction * information
+
+    def _deviations(self, marker: int, others: np.ndarray, distance: np.ndarray) -> np.ndarray:
+        """Usual standard deviations of a marker's distances to others (k,), mm, given these distances (frames, k)."""
+        if self.scene.shape is not None:
+            usual: np.ndarray = self.scene.shape.spread[marker, others]
+            return np.where(np.isnan(usual), np.inf, usual)
+        low, high = np.nanpercentile(distance, [5, 95], axis=0)
+        spread: np.ndarray = (high - low) / 3.29
+        return spread
 
     def distances_change_more(self, one: int, other: int, event: Event) -> bool:
         """Check whether a marker's distances to the neighbours of two change clearly more during a drift than the other's.

@@ -68,7 +68,29 @@ class DriftScorer:
         """Lengths of the templates, frames."""
         return [max(MIN_TEMPLATE, intervals.samples(length, self.rate)) for length in self.options.durations_s]
 
-    def score(self, scene: Scene, residual: np.ndarray, factors: np.ndarray) -> DriftScores:
+    def motion(self, scene: Scene) -> np.ndarray:
+        """Measure how the neighbours of each marker move, see residual_scale.neighbour_motion.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+
+        Returns
+        -------
+        np.ndarray
+            Speed, mm/s, and acceleration, mm/s^2, (2, frames, markers).
+        """
+        smoothing = max(3, intervals.samples(self.options.bridged_gap_s, self.rate, odd=True))
+        return residual_scale.neighbour_motion(
+            scene.positions,
+            scene.neighbours,
+            rate=self.rate,
+            count=self.options.scale_neighbours,
+            smoothing=smoothing,
+        )
+
+    def score(self, scene: Scene, residual: np.ndarray, factors: np.ndarray, motion: np.ndarray) -> DriftScores:
         """Score drifts in the residuals of all markers.
 
         Parameters
@@ -79,19 +101,16 @@ class DriftScorer:
             Residuals (frames, markers, 3), mm, NaN = missing.
         factors : np.ndarray
             Factors (frames, markers) by which the leverage of the pose widens their distribution.
+        motion : np.ndarray
+            Motion of the neighbours (kinds, frames, markers).
 
         Returns
         -------
         DriftScores
             The scores; 0 where a near neighbour is briefly missing.
         """
-        options = self.options
         steady = np.where(self.briefly_missing_neighbour(scene)[:, :, None], np.nan, residual)
         each = [self.responses(steady[:, m], factors[:, m]) for m in range(residual.shape[1])]
-        smoothing = max(3, intervals.samples(options.bridged_gap_s, self.rate, odd=True))
-        motion = residual_scale.neighbour_motion(
-            scene.positions, scene.neighbours, rate=self.rate, count=options.scale_neighbours, smoothing=smoothing
-        )
         scale = self._scale(scene, np.stack([own for own, _ in each], axis=2), motion)
         clearest = [self._clearest(*own, scale[:, :, m]) for m, own in enumerate(each)]
         score, length, scale_mm = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
@@ -167,7 +186,7 @@ class DriftScorer:
         return response, deviation
 
     def required_score(self, score: np.ndarray, start: int, stop: int) -> float:
-        """Raise the threshold of a drift by the scores of its marker at other times, since deviations that recur are motion.
+        """Raise the threshold of a drift by the scores of its marker at other times, see `required_score`.
 
         Parameters
         ----------
@@ -179,13 +198,10 @@ class DriftScorer:
         Returns
         -------
         float
-            The score that the drift must reach: a multiple of the second largest elsewhere, within limits.
+            The score that the drift must reach.
         """
-        elsewhere, reach = score.copy(), self.lengths[-1]
-        elsewhere[max(0, start - reach) : stop + reach] = 0
-        top = int(elsewhere.argmax())
-        elsewhere[max(0, top - reach) : top + reach] = 0
-        return float(np.clip(self.options.distinct_factor * elsewhere.max(), 1, self.options.obvious_factor))
+        factor, limit = self.options.distinct_factor, self.options.obvious_factor
+        return required_score(score, start, stop, reach=self.lengths[-1], factor=factor, limit=limit)
 
     def briefly_missing_neighbour(self, scene: Scene) -> np.ndarray:
         """Mark where a near neighbour is missing for a short time: the prediction from the others deviates.
@@ -249,3 +265,31 @@ def median_response(response: np.ndarray) -> np.ndarray:
     """
     known: Sequence[np.ndarray] = [own[~np.isnan(own)] for own in response]
     return np.array([np.median(own) if len(own) else 1.0 for own in known])
+
+
+def required_score(score: np.ndarray, start: int, stop: int, *, reach: int, factor: float, limit: float) -> float:
+    """Raise the threshold of a drift by the scores of its marker at other times, since deviations that recur are motion.
+
+    Parameters
+    ----------
+    score : np.ndarray
+        Scores of the marker (n,).
+    start, stop : int
+        The drift, [start, stop).
+    reach : int
+        Samples on either side of a peak of the score that belong to it.
+    factor : float
+        The drift must exceed the second largest score elsewhere by this factor.
+    limit : float
+        No more than this is required.
+
+    Returns
+    -------
+    float
+        The score that the drift must reach, at least 1.
+    """
+    elsewhere = score.copy()
+    elsewhere[max(0, start - reach) : stop + reach] = 0
+    top = int(elsewhere.argmax())
+    elsewhere[max(0, top - reach) : top + reach] = 0
+    return float(np.clip(factor * elsewhere.max(), 1, limit))

@@ -15,7 +15,7 @@ import numpy as np
 
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
 from markermend.options.prediction import LocalRidgeOptions
-from markermend.prediction.interface import Prediction
+from markermend.prediction.interface import LocalRegression, Prediction
 from markermend.prediction.local_ridge.inputs import Assignment, InputSelection
 from markermend.prediction.local_ridge.leverage import LeverageScale, fit_leverage_scale
 from markermend.prediction.local_ridge.model import LocalInputs, Regression, RidgeRegression, TrainingSet
@@ -96,12 +96,18 @@ class LocalRidge:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Compute residuals and their factors by leverage. See `ScaledResidualSource.scaled_residuals`."""
         out, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
+        for found in self.regressions(scene, markers, blocks=blocks):
+            out[found.frames, found.marker], factors[found.frames, found.marker] = found.residual, found.factors
+        return out, factors
+
+    def regressions(self, scene: Scene, markers: np.ndarray | None = None, *, blocks: int) -> Iterator[LocalRegression]:
+        """Fit the regressions of markers to all frames. See `RegressionSource.regressions`."""
         for found in self._all_residuals(scene, markers):
             marker, assignment = found.fit.marker, found.fit.assignment
-            out[assignment.rows, marker] = found.values
             scale, _ = self._leverage_scale(found.fit, assignment.data.training * blocks // len(scene.positions))
-            factors[assignment.rows, marker] = scale.factor(found.inputs.values)
-        return out, factors
+            target = found.inputs.frames.local(scene.positions[assignment.rows, marker])
+            values = found.inputs.values
+            yield LocalRegression(marker, assignment.rows, values, target, found.values, scale.factor(values))
 
     def _all_residuals(self, scene: Scene, markers: np.ndarray | None) -> Iterator[_Residuals]:
         """Residuals of markers in all frames that show them and enough others."""

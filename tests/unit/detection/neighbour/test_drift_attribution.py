@@ -1,16 +1,17 @@
 """Attribution of drifts: by distances on a rigid segment, and which neighbours are observed intermittently."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from markermend.core.events import Event
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
-from markermend.detection.neighbour.drift_scores import DriftScorer
 from markermend.prediction.scene import Scene
-from support.signals import RIDGE, options_of
+from support.signals import options_of
 
-SCORER = DriftScorer(100.0, options_of("slow", "default"))
+OPTIONS = options_of("slow", "default")
 
 
 def triangle(length, direction):
@@ -26,7 +27,7 @@ def test_on_a_rigid_segment_the_distances_decide_whose_it_is(culprit):
     positions = np.concatenate([rigid, loose], axis=1)
     positions[200:250, culprit] += triangle(50, [0.3, 0.2, -0.1])
     scene = Scene(positions, 100.0, [np.delete(np.arange(9), m) for m in range(9)])
-    attribution = DriftAttribution(scene, None, SCORER, RIDGE)  # the scores do not matter
+    attribution = DriftAttribution(scene, None, OPTIONS)  # the evidence does not matter
     event = Event("culprit", 200, 250, 1.0, "xyz")
     for other in set(range(9)) - {culprit}:
         assert attribution.distances_change_more(culprit, other, event)
@@ -38,5 +39,51 @@ def test_what_is_brief_depends_on_how_long_the_event_is(stop, intermittent):
     positions = np.zeros((300, 3, 3))
     positions[108:112, 1] = np.nan
     scene = Scene(positions, 100.0, [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])])
-    attribution = DriftAttribution(scene, None, SCORER, RIDGE)
+    attribution = DriftAttribution(scene, None, OPTIONS)
     assert attribution.intermittent_neighbours(0, Event("a", 100, stop, 2.0, "xyz")).tolist() == intermittent
+
+
+@dataclass
+class Claim:
+    """Evidence that a drift displaces a marker by so much."""
+
+    displaced: np.ndarray
+    precise: bool = False
+
+    def displacement(self, marker, event):
+        return self.displaced
+
+    def is_precise(self, marker, event):
+        return self.precise
+
+
+def turning_body(spread=0.0, seed=3):
+    """Five markers on a turning body, with distances that vary by `spread` mm."""
+    rng = np.random.default_rng(seed)
+    rotation = Rotation.from_rotvec(np.cumsum(rng.normal(0, 0.02, (400, 3)), axis=0)).as_matrix()
+    body = np.einsum("tij,mj->tmi", rotation, rng.normal(0, 80, (5, 3)))
+    return body + spread * np.sin(np.arange(400)[:, None, None] / 9 + rng.uniform(0, 6, (5, 3)))
+
+
+@pytest.mark.parametrize("precise", [False, True])
+def test_who_keeps_its_distances_to_a_rigid_segment_has_not_drifted(precise):
+    positions, event, displaced = turning_body(), Event("a", 200, 260, 2.0, "xyz"), np.array([4.0, 3.0, 2.0])
+    near = [np.delete(np.arange(5), m) for m in range(5)]
+    still = DriftAttribution(Scene(positions, 100.0, near), Claim(displaced, precise), OPTIONS)
+    assert not still.shows_in_distances(0, event)
+    drifted = positions.copy()
+    drifted[200:260, 0] += displaced
+    moved = DriftAttribution(Scene(drifted, 100.0, near), Claim(displaced, precise), OPTIONS)
+    assert moved.shows_in_distances(0, event)
+
+
+@pytest.mark.parametrize("precise", [False, True])
+def test_within_the_usual_range_of_the_distances_only_a_precise_drift_counts(precise):
+    positions, event, displaced = turning_body(spread=12.0), Event("a", 200, 260, 2.0, "xyz"), np.array([9.0, 7, 5])
+    positions[170:290, 0] = positions[170:290, 1:].mean(axis=1) + 60  # at rest, so that nothing but the drift shows
+    positions[170:290, 1:] = positions[170, 1:]
+    positions[170:290, 0] = positions[170, 0]
+    positions[200:260, 0] += displaced
+    near = [np.delete(np.arange(5), m) for m in range(5)]
+    attribution = DriftAttribution(Scene(positions, 100.0, near), Claim(displaced, precise), OPTIONS)
+    assert attribution.shows_in_distances(0, event) == precise

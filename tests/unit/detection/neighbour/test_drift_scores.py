@@ -23,7 +23,7 @@ def test_where_a_near_neighbour_is_briefly_missing_nothing_is_scored():
 
 @pytest.mark.parametrize(
     ("elsewhere", "expected"),
-    [([], 1), ([0.9], 1), ([5, 0.9], 1.53), ([0.9, 0.4, 5], 1.53), ([2, 2], 3), ([50, 40], 3)],
+    [([], 1), ([0.9], 1), ([5, 0.9], 1.53), ([0.9, 0.4, 5], 1.53), ([2, 2], 3.4), ([50, 40], 5)],
 )
 def test_what_a_marker_does_elsewhere_raises_the_required_score(elsewhere, expected):
     score = np.zeros(2000)
@@ -38,7 +38,8 @@ def scored(residual, factors=None):
     """Scores of three markers among each other that do not move."""
     near = [np.array([1, 2]), np.array([0, 2]), np.array([0, 1])]
     factors = np.ones(residual.shape[:2]) if factors is None else factors
-    return SCORER.score(Scene(np.zeros(residual.shape), 100.0, near), residual, factors)
+    scene = Scene(np.zeros(residual.shape), 100.0, near)
+    return SCORER.score(scene, residual, factors, SCORER.motion(scene))
 
 
 def quiet(seed=0):

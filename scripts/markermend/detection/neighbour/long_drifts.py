@@ -1,0 +1,198 @@
+"""Drifts of a second and more: scored at all places by generalised least squares, and found, the clearest first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.core import events
+from markermend.core.events import Event
+from markermend.detection.neighbour import drift_shape
+from markermend.detection.neighbour.drift_regression import DriftModel, DriftRegression
+from markermend.detection.neighbour.drift_scores import required_score
+from markermend.numerics.intervals import runs
+from markermend.options.detection import SlowOptions
+from markermend.options.long_drifts import LongDriftOptions
+
+MIN_BINS = 3
+"""Bins of the shortest drift that is tried: what fits best with so few is no long drift."""
+
+
+LONGEST = 1.2
+"""Longest drift that is tried, in units of the longest that is looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class LongDrifts:
+    """Finds the long drifts of each marker.
+
+    Attributes
+    ----------
+    regression : DriftRegression
+        By which the models were fitted.
+    models : Sequence[DriftModel]
+        The models of all markers.
+    residual : np.ndarray
+        Residuals (frames, markers, 3), mm, NaN = missing: they show the axes of a drift.
+    options : SlowOptions
+        What a drift of any length must be.
+    """
+
+    regression: DriftRegression
+    models: Sequence[DriftModel]
+    residual: np.ndarray
+    options: SlowOptions
+
+    @property
+    def own(self) -> LongDriftOptions:
+        """The options of long drifts."""
+        return self.options.long_drifts
+
+    def find(self, marker: int, *, name: str) -> list[Event]:
+        """Find the long drifts of one marker, the clearest first; none overlaps a clearer one.
+
+        What is fitted best by a drift shorter than the shortest of them is left to the templates.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        name : str
+            Its name.
+
+        Returns
+        -------
+        list[Event]
+            The drifts.
+        """
+        model, step = self.models[marker], self.regression.step
+        shortest = self.regression.bins(min(self.own.durations_s))
+        score, length = self.scores(model)
+        peaks = [start + int(score[start:stop].argmax()) for start, stop in runs(score > 1)]
+        found, taken = list[Event](), np.zeros(model.bins, bool)
+        for peak in sorted(peaks, key=lambda peak: -score[peak]):
+            start, stop = self.extent(model, peak, int(length[peak]))
+            if taken[start:stop].any():
+                continue
+            taken[start:stop] = True
+            if stop - start >= shortest and self.is_drift(model, score, start, stop):
+                first, last = start * step, min(stop * step, len(self.residual))
+                axes = events.main_axes(self.direction(marker, first, last)[None])
+                found.append(Event(name, first, last, float(score[peak]), axes))
+        return found
+
+    def scores(self, model: DriftModel) -> tuple[np.ndarray, np.ndarray]:
+        """Score drifts of all lengths.
+
+        Parameters
+        ----------
+        model : DriftModel
+            The model of a marker.
+
+        Returns
+        -------
+        score : np.ndarray
+            Score (bins,) of the clearest drift whose middle is there, in units of the threshold; 0 where unknown.
+        length : np.ndarray
+            Its length (bins,), bins.
+        """
+        score, best = np.zeros(model.bins), np.zeros(model.bins, int)
+        for length in map(self.regression.bins, self.own.durations_s):
+            statistic = model.responses(length, min_known_share=self.own.min_known_share).statistic
+            there = slice(length // 2, length // 2 + len(statistic))
+            better = statistic / self.own.threshold_sigmas > score[there]
+            score[there][better] = statistic[better] / self.own.threshold_sigmas
+            best[there][better] = length
+        return score, best
+
+    def extent(self, model: DriftModel, peak: int, length: int) -> tuple[int, int]:
+        """Fit where a drift begins and ends: the likeliest of several lengths and places.
+
+        Parameters
+        ----------
+        model : DriftModel
+            The model of the marker.
+        peak : int
+            Bin of its middle.
+        length : int
+            Length by which it was found, bins.
+
+        Returns
+        -------
+        tuple[int, int]
+            The drift, bins [start, stop).
+        """
+        best = (0.0, peak - length // 2, peak - length // 2 + length)
+        longest = int(LONGEST * self.regression.bins(max(self.own.durations_s)))
+        for own in sorted({min(max(MIN_BINS, int(factor * length)), longest) for factor in drift_shape.LENGTH_FACTORS}):
+            first = max(0, peak - own // 2 - length // 4)
+            statistic = model.responses(own, min_known_share=self.own.min_known_share).statistic
+            near = statistic[first : peak - own // 2 + length // 4 + 1]
+            if len(near):
+                place = first + int(near.argmax())
+                best = max(best, (float(near.max()), place, place + own))
+        return best[1], best[2]
+
+    def is_drift(self, model: DriftModel, score: np.ndarray, start: int, stop: int) -> bool:
+        """Check whether what stands out is a drift.
+
+        Parameters
+        ----------
+        model : DriftModel
+            The model of the marker.
+        score : np.ndarray
+            Scores (bins,) of the marker.
+        start, stop : int
+            Its extent, bins [start, stop).
+
+        Returns
+        -------
+        bool
+            Whether it is high enough, is distinct from what the marker does elsewhere, and comes back: no shift of the level
+            explains the signal as well.
+        """
+        side, step = (stop - start) // 2, self.regression.step
+        edges = np.arange(max(1, start - side), min(model.bins, stop + side))
+        shapes = np.concatenate(
+            [
+                self.regression.shape(start * step, stop * step, model.bins)[None],
+                (np.arange(model.bins) >= edges[:, None]).astype(float),
+            ]
+        )
+        estimated = model.estimate(shapes)
+        statistic, *shifts = estimated.statistic.tolist()
+        required = required_score(
+            score,
+            start,
+            stop,
+            reach=(stop - start) // 2,
+            factor=self.options.distinct_factor,
+            limit=self.options.obvious_factor,
+        )
+        return bool(
+            np.linalg.norm(estimated.height[0]) >= self.options.floor_mm
+            and statistic >= self.own.threshold_sigmas * required
+            and statistic > max(shifts, default=0.0)
+        )
+
+    def direction(self, marker: int, start: int, stop: int) -> np.ndarray:
+        """Measure the direction of a drift in the residual, which follows the regression but points the same way.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        start, stop : int
+            The drift, frames [start, stop).
+
+        Returns
+        -------
+        np.ndarray
+            Unit vector (3,), laboratory axes; NaN where the residual is unknown.
+        """
+        residual, third = self.residual[:, marker], (stop - start) // 3
+        change = drift_shape.known_median(residual[start + third : stop - third]) - drift_shape.known_median(residual)
+        unit: np.ndarray = change / max(float(np.linalg.norm(change)), 1e-9)
+        return unit

@@ -1,0 +1,63 @@
+"""Options of the detector of long drifts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from markermend.options.declaration import (
+    Above,
+    Count,
+    Laboratory,
+    NotEmpty,
+    Positive,
+    PositiveMillimetres,
+    PositiveSeconds,
+    Share,
+    Unit,
+)
+
+
+@dataclass(frozen=True)
+class LongDriftOptions:
+    """Detect drifts of a second and more."""
+
+    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (1, 1.4, 2, 2.8, 4, 5.6)
+    """Durations of the drifts that are looked for, together with the regression on the neighbours.
+
+    Change it when slow changes of other durations are real in your data."""
+
+    threshold_sigmas: Annotated[Positive, Laboratory] = 7
+    """Smallest drift, in standard deviations of its estimated height.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    bin_rate_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] = 10
+    """Rate of the means on which long drifts are estimated."""
+
+    coefficient_std: Positive = 1
+    """Standard deviation, about 0, of the coefficients of the regression."""
+
+    correlation_times_s: tuple[PositiveSeconds, ...] = (0.1, 0.2, 0.5, 1, 3)
+    """Correlation times of the residual that are tried."""
+
+    max_lag_s: PositiveSeconds = 4
+    """Longest lag of the autocovariance of the residual."""
+
+    outlier_sigmas: Positive = 6
+    """Residuals beyond this many robust standard deviations are clipped in the autocovariance."""
+
+    scale_neighbours: Count = 10
+    """Nearest neighbours whose motion and residuals set the local scale."""
+
+    scale_window_s: PositiveSeconds = 0.6
+    """Window over which the local scale is fitted."""
+
+    max_part_s: PositiveSeconds = 60
+    """Longer recordings are divided into overlapping parts of this length, each with a regression of its own."""
+
+    min_known_share: Share = 0.8
+    """Share of a drift, by its square, that must be observed together with the neighbours."""
+
+    precise_mm: PositiveMillimetres = 2
+    """Standard deviation of the height up to which a drift may leave the distances in their usual range."""

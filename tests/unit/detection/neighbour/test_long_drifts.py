@@ -1,0 +1,76 @@
+"""Long drifts on a body whose loose marker is predicted by its neighbours: found whole, and only those that come back."""
+
+import numpy as np
+import pytest
+
+from markermend.detection.neighbour.drift_regression import DriftRegression, bin_means
+from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.numerics.matched_filter import raised_cosine
+from markermend.prediction.interface import LocalRegression
+from support.signals import options_of
+
+OPTIONS = options_of("slow", "default")
+RATE = 100.0
+
+
+def drifts(change, seed=0, known=None):
+    """Long drifts in a marker that follows slow inputs, with a change (frames, 3) put on it."""
+    rng = np.random.default_rng(seed)
+    frames = len(change)
+    inputs = 100 * np.sin(np.arange(frames)[:, None] / rng.uniform(60, 300, 6) + rng.uniform(0, 6, 6))
+    noise = np.stack([np.convolve(rng.normal(0, 3, frames + 40), np.ones(41) / 41, "valid") for _ in range(3)], axis=1)
+    target = inputs @ rng.normal(0, 0.3, (6, 3)) + noise + rng.normal(0, 0.1, (frames, 3)) + change
+    rows = np.arange(frames) if known is None else np.flatnonzero(known)
+    full = np.c_[np.ones(frames), inputs]
+    residual = target - full @ np.linalg.lstsq(full, target, rcond=None)[0]
+    on_all = np.full((frames, 1, 3), np.nan)
+    on_all[rows, 0] = residual[rows]
+    regression = DriftRegression(RATE, OPTIONS.long_drifts)
+    own = LocalRegression(0, rows, inputs[rows], target[rows], residual[rows], np.ones(len(rows)))
+    models = regression.models([own], np.ones((frames // regression.step, 1)), frames)
+    return LongDrifts(regression, models, on_all, OPTIONS)
+
+
+def bump(start, stop, frames=1500, height=(6.0, 0, 8)):
+    return raised_cosine((np.arange(frames) + 0.5 - start) / (stop - start))[:, None] * np.array(height)
+
+
+@pytest.mark.parametrize(("start", "stop"), [(400, 540), (600, 800), (20, 220), (1290, 1490)])
+def test_a_drift_is_found_whole_also_at_the_ends(start, stop):
+    [event] = drifts(bump(start, stop)).find(0, name="a")
+    assert abs(event.start - start) <= 0.2 * (stop - start)
+    assert abs(event.stop - stop) <= 0.2 * (stop - start)
+    assert event.axes == "xz"
+
+
+def test_nothing_where_all_is_well_or_something_does_not_come_back():
+    assert drifts(np.zeros((1500, 3))).find(0, name="a") == []
+    shift = (np.arange(1500) >= 700)[:, None] * np.array([6.0, 0, 8])
+    assert drifts(shift).find(0, name="a") == []
+
+
+def test_a_short_change_is_no_long_drift():
+    assert drifts(bump(700, 750)).find(0, name="a") == []
+
+
+def test_samples_may_be_missing_but_not_most_of_the_drift():
+    known = np.ones(1500, bool)
+    known[[650, 651, *range(660, 680)]] = False
+    [event] = drifts(bump(600, 900), known=known).find(0, name="a")
+    assert abs(event.start - 600) <= 60
+    known[640:860] = False
+    assert drifts(bump(600, 900), known=known).find(0, name="a") == []
+
+
+def test_long_recordings_are_divided_and_nothing_is_lost_between_the_parts():
+    change = bump(5800, 6100, frames=15000) + bump(11000, 11300, frames=15000)
+    found = drifts(change).find(0, name="a")
+    assert [(round(event.start, -2), round(event.stop, -2)) for event in found] in (
+        [(5800, 6100), (11000, 11300)],
+        [(11000, 11300), (5800, 6100)],
+    )
+
+
+def test_means_over_bins_are_those_of_known_values():
+    values = np.array([1.0, 3, np.nan, 5, np.nan, np.nan, 7, 8, 9])
+    np.testing.assert_allclose(bin_means(values, 2), [2, 5, np.nan, 7.5])
