@@ -16,18 +16,12 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour.drift_attribution import DriftAttribution
-<<<<<<< HEAD
-from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
-from markermend.detection.neighbour.lasting_shifts import LastingFinder
-from markermend.numerics import intervals
-from markermend.numerics.intervals import runs
-=======
 from markermend.detection.neighbour.drift_evidence import LongDriftEvidence, ShortDriftEvidence
 from markermend.detection.neighbour.drift_regression import DriftRegression
 from markermend.detection.neighbour.drift_scores import DriftScorer
+from markermend.detection.neighbour.lasting_shifts import LastingFinder
 from markermend.detection.neighbour.long_drifts import LongDrifts
 from markermend.detection.neighbour.short_drifts import ShortDrifts
->>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
 from markermend.options.detection import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
@@ -59,18 +53,9 @@ def detect_slow(
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
-<<<<<<< HEAD
-    scorer = DriftScorer(rest.rate, options)
-    scores = scorer.score(rest, *source.scaled_residuals(rest, blocks=options.leverage_blocks))
-    finder, attribution = DriftFinder(scorer, scores), DriftAttribution(rest, scores, scorer, source)
-    found = [
-        event for m, name in enumerate(markers) for event in finder.find(m, name=name) if attribution.is_own(m, event)
-    ]
+    found = SlowChanges.fit(rest, options, source).find(markers)
     lasting = LastingFinder(predictor.options, options.displacement, options.shape)
-    return lasting.added_to(events.disjoint(found), rest, markers, sudden=False)
-=======
-    return SlowChanges.fit(rest, options, source).find(markers)
->>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
+    return lasting.added_to(found, rest, markers, sudden=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,11 +25,8 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
-<<<<<<< HEAD
 from markermend.options.displacement import DisplacementOptions
-=======
 from markermend.options.long_drifts import LongDriftOptions
->>>>>>> 5759253 (Estimate slow changes of seconds together with the regression; require them to show in the distances)
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 from markermend.options.published import (
     PublishedNoiseOptions,
