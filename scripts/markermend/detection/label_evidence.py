@@ -151,11 +151,22 @@ class LabelEvidence:
 
     @cached_property
     def usual_likelihood(self) -> np.ndarray:
-        """Median log likelihood of each marker under its own label (markers,), NaN where it is unknown."""
+        """Usual log likelihood of each marker under its own label (markers,), NaN where it is unknown."""
         known = ~np.isnan(self.own_likelihood).all(axis=0)
         usual = np.full(len(known), np.nan)
-        usual[known] = np.nanmedian(self.own_likelihood[:, known], axis=0)
+        usual[known] = np.nanquantile(self.own_likelihood[:, known], self.options.usual_quantile, axis=0)
         return usual
+
+    def misfit(self) -> np.ndarray:
+        """Compute how badly the samples fit under their own labels.
+
+        Returns
+        -------
+        np.ndarray
+            Loss of log likelihood against what is usual of a marker in the recording (rows, markers); NaN where unknown.
+        """
+        misfit: np.ndarray = self.usual_likelihood - self.own_likelihood
+        return misfit
 
     def pair_gains(self) -> np.ndarray:
         """Compute how much better the samples fit if two labels are exchanged.

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.events import Event
+from markermend.detection.foreign_labels import ForeignSearch
 from markermend.detection.label_cycles import find_cycle_exchanges
 from markermend.detection.label_evidence import LabelEvidence, find_borders, judged_rows
 from markermend.detection.label_levels import relabel_by_level
@@ -64,7 +65,11 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
     spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
     evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
     evidence, score = relabel_by_level(evidence, score, markers=markers)
-    return found if np.array_equal(under, evidence.under) else exchange_events(evidence.under, score, markers)
+    if not np.array_equal(under, evidence.under):
+        found = exchange_events(evidence.under, score, markers)
+    right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
+    found += ForeignSearch(right, scene.rate, evidence).find(markers)
+    return sorted(found, key=lambda event: event.order)
 
 
 def sudden_steps(positions: np.ndarray, *, window: int, options: LabelsOptions) -> np.ndarray:

@@ -103,6 +103,9 @@ class LabelsOptions:
     max_misfit: NotNegative = 5
     """Largest loss of log likelihood against what is usual of a marker, mean of the samples that get another label."""
 
+    usual_quantile: Share = 0.8
+    """Quantile of the log likelihood of a marker over the recording that counts as usual (0 to 1)."""
+
     min_group_pairs: Count = 2
     """Pairs of left and right markers, or of two subjects, that make a group, at least."""
 
@@ -117,6 +120,38 @@ class LabelsOptions:
 
     max_changes: Count = 100
     """Changes of labels that are found by the usual shape, at most."""
+
+    min_foreign_misfit: Positive = 5
+    """Smallest loss of log likelihood of a label that is on something else, against what is usual of the marker, mean of a stretch.
+
+    Change it when labels on reflections are missed (lower), or false ones are found (higher)."""
+
+    max_anchor_misfit_fraction: Share = 0.5
+    """The markers by which it is judged lose less than this part of it (0 to 1), median of them."""
+
+    min_foreign_mm: Millimetres = 60
+    """Smallest deviation of three quarters of the distances; less may be a marker that was displaced on its segment."""
+
+    min_foreign_s: Seconds = 0.5
+    """Shortest stretch between two jumps without a gap; shorter ones are left to peaks and steps."""
+
+    max_foreign_share: Share = 0.5
+    """Largest share of the samples of a label in a recording that is on something else (0 to 1), unless it rests there."""
+
+    max_rest_mm: Millimetres = 10
+    """A label rests if its samples extend no farther than this, from the 5th to the 95th percentile."""
+
+    min_anchor_motion_mm: Millimetres = 30
+    """Smallest extent of the samples of the markers by which it is judged in the meantime, median of them."""
+
+    max_same_mm: Millimetres = 10
+    """Labels nearer to each other than this are on the same marker."""
+
+    fall_s: Seconds = 0.5
+    """Longest time in which a marker falls off."""
+
+    max_onset_misfit: NotNegative = 1
+    """A fall begins after the last sample whose loss of log likelihood is below this."""
 
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The subject's usual shape."""

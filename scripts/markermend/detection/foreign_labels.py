@@ -1,0 +1,152 @@
+"""Labels on something else than a marker of the subject: a reflection, another marker, or a marker that has fallen off.
+
+The samples contradict the usual distances over a whole stretch, whereas the markers by which they are judged fit each other, and no
+exchange of labels explains it. Such a stretch begins and ends where the trajectory is broken; that of a fallen marker may begin
+anywhere, and lasts to the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.core.events import Event
+from markermend.detection.label_evidence import LabelEvidence, better_states
+from markermend.numerics.intervals import runs, samples
+from markermend.prediction.shape_evidence import ShapeEvidence
+
+
+@dataclass(frozen=True)
+class ForeignSearch:
+    """The samples under their right labels, and how badly they fit.
+
+    Attributes
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing, exchanged labels undone.
+    rate : float
+        Sampling rate, Hz.
+    evidence : LabelEvidence
+        The same in the frames that are looked at.
+    """
+
+    positions: np.ndarray
+    rate: float
+    evidence: LabelEvidence
+
+    def find(self, markers: Sequence[str]) -> list[Event]:
+        """Find the stretches over which labels are on something else.
+
+        Parameters
+        ----------
+        markers : Sequence[str]
+            Names of the markers.
+
+        Returns
+        -------
+        list[Event]
+            Events of the class `foreign`, sorted.
+        """
+        options, misfit = self.evidence.options, self.evidence.misfit()
+        floor = options.min_foreign_misfit
+        found = []
+        for m in np.flatnonzero((np.nan_to_num(misfit) > floor).any(axis=0)).tolist():
+            stretches = list(self._stretches(m, misfit))
+            moving = [own for own in stretches if not self._rests(m, own[0], own[1])]
+            taken = sum(int(np.count_nonzero(self._seen(m, start, stop))) for start, stop, _ in moving)
+            # A marker that sits elsewhere in most of a recording may have been put there.
+            if taken > options.max_foreign_share * np.count_nonzero(self._seen(m, 0, len(self.positions))):
+                stretches = [own for own in stretches if own not in moving]
+            if stretches:
+                found += [
+                    Event(markers[m], start, stop, max(1.0, size / floor), kind="foreign")
+                    for start, stop, size in stretches
+                ]
+        return sorted(found, key=lambda event: event.order)
+
+    def _stretches(self, m: int, misfit: np.ndarray) -> Iterator[tuple[int, int, float]]:
+        """Start, stop and mean misfit of the stretches over which the label of a marker is on something else."""
+        options, rows = self.evidence.options, self.evidence.rows
+        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
+        known = np.flatnonzero(~np.isnan(misfit[:, m]))
+        others = np.nanmedian(np.where(np.isnan(misfit[known][:, anchors]), np.inf, misfit[known][:, anchors]), axis=1)
+        off = misfit[known, m]
+        for first, after in runs(better_states(off - options.min_foreign_misfit, options.change_penalty)):
+            own = off[first:after]
+            quiet = np.mean(others[first:after] < options.max_anchor_misfit_fraction * own)
+            if own.mean() < options.min_foreign_misfit or quiet < 0.5:
+                continue
+            before = int(rows[known[first - 1]]) if first else -1
+            behind = int(rows[known[after]]) if after < len(known) else len(self.positions)
+            span = self._bounds(m, before, int(rows[known[first]]), int(rows[known[after - 1]]), behind)
+            if span and self._far(m, *span, anchors):
+                yield (*span, float(own.mean()))
+
+    def _bounds(self, m: int, before: int, first: int, last: int, behind: int) -> tuple[int, int] | None:
+        """The frames of a stretch whose outermost ones known to be off are given, and the next ones that are not."""
+        starts = [s for s in self.evidence.section_starts([m]).tolist() if s > 0]
+        cuts = [0, *starts, len(self.positions)]
+        start = max((cut for cut in cuts if before < cut <= first), default=None)
+        stop = min((cut for cut in cuts if last < cut <= behind), default=None)
+        if stop is None:
+            return None
+        if start is None:
+            if stop < len(self.positions):
+                return None
+            start = self._onset(m, first)
+        seen = np.flatnonzero(self._seen(m, start, stop)) + start
+        if not len(seen):
+            return None
+        span = int(seen[0]), int(seen[-1]) + 1
+        return None if self._is_jump(m, *span) else span
+
+    def _onset(self, m: int, first: int) -> int:
+        """The frame from which on the samples of a marker depart, before one where they do not fit."""
+        options = self.evidence.options
+        start = max(0, first - samples(options.fall_s, self.rate))
+        part = ShapeEvidence(self.positions[start : first + 1], self.evidence.shape, options.shape)
+        likelihood = part.own_log_likelihoods(np.array([m]))[:, 0]
+        off = np.nan_to_num(self.evidence.usual_likelihood[m] - likelihood, nan=np.inf)
+        fitting = np.flatnonzero(off < options.max_onset_misfit)
+        return start + int(fitting[-1]) + 1 if len(fitting) else start
+
+    def _is_jump(self, m: int, start: int, stop: int) -> bool:
+        """Whether a stretch is so short, without gaps on either side, that it is a step or a peak."""
+        short = stop - start < samples(self.evidence.options.min_foreign_s, self.rate)
+        sides = [frame for frame in (start - 1, stop) if 0 <= frame < len(self.positions)]
+        jumps = len(sides) == 2 and all(self._seen(m, frame, frame + 1)[0] for frame in sides)
+        return short and jumps and not self._on_another(m, start, stop)
+
+    def _on_another(self, m: int, start: int, stop: int) -> bool:
+        """Whether the samples are where another label is, too, in most of a stretch."""
+        distance = np.linalg.norm(self.positions[start:stop] - self.positions[start:stop, m, None], axis=2)
+        distance[:, m] = np.inf
+        return bool((np.nan_to_num(distance, nan=np.inf) < self.evidence.options.max_same_mm).mean(axis=0).max() > 0.5)
+
+    def _rests(self, m: int, start: int, stop: int) -> bool:
+        """Whether the samples rest in the laboratory while the markers by which they are judged move on."""
+        options = self.evidence.options
+        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
+        part = self.positions[(start + stop) // 2 : stop, [m, *anchors]]  # it may have fallen and rolled before
+        part = part[:, ~np.isnan(part).all(axis=(0, 2))]
+        low, high = np.nanpercentile(part, [5, 95], axis=0)
+        extent = np.linalg.norm(high - low, axis=1)
+        return bool(extent[0] < options.max_rest_mm and np.median(extent[1:]) > options.min_anchor_motion_mm)
+
+    def _far(self, m: int, start: int, stop: int, anchors: np.ndarray) -> bool:
+        """Whether the samples are far from where they belong, by three quarters of the distances.
+
+        A marker that was displaced on its segment is nearer, and a segment in a rare pose keeps the distances within it.
+        """
+        step = max(1, (stop - start) // 50)
+        part = ShapeEvidence(self.positions[start:stop:step], self.evidence.shape, self.evidence.options.shape)
+        off = np.abs(part.deviations(m, anchors))
+        off = np.nanmedian(off[:, ~np.isnan(off).all(axis=0)], axis=0)
+        return bool(np.quantile(off, 0.25) >= self.evidence.options.min_foreign_mm) if len(off) else False
+
+    def _seen(self, m: int, start: int, stop: int) -> np.ndarray:
+        """Whether a marker is observed, bool (n,)."""
+        seen: np.ndarray = ~np.isnan(self.positions[start:stop, m, 0])
+        return seen
