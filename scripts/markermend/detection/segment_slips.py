@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 
@@ -10,15 +9,13 @@ import numpy as np
 from scipy import ndimage
 
 from markermend.numerics.intervals import samples
-from markermend.numerics.rigid_alignment import LocalFrames, align, mean_shape
+from markermend.numerics.rigid_alignment import align, mean_shape
+from markermend.numerics.rigid_displacement import fit_displacement
 from markermend.options.detection import SegmentSlipOptions
 from markermend.prediction.scene import Scene
 
 MIN_ANCHORS = 3
-"""Markers outside a segment that fix a frame of reference, at least."""
-
-MIN_SEEN = 0.9
-"""Share of the frames of a segment in which an anchor is seen, at least."""
+"""Markers around a segment that fix a frame of reference, at least."""
 
 FLANKS = (0, 1, 2)
 """Frames over which a slip begins and ends."""
@@ -37,9 +34,9 @@ class SegmentSlip:
     Attributes
     ----------
     segment : str
-        Name of the segment.
+        Name of the segment that holds most of them.
     markers : np.ndarray
-        Indices of its markers that are displaced.
+        Indices of the markers that are displaced.
     start, stop : int
         The stretch, [start, stop).
     displacement : np.ndarray
@@ -69,125 +66,137 @@ def find_segment_slips(scene: Scene, options: SegmentSlipOptions) -> list[Segmen
     Returns
     -------
     list of SegmentSlip
-        By segment and frame; those of one segment share no frame.
+        By frame; no sample belongs to two of them.
     """
+    score = _scores(scene, options)
+    finder = _SlipFinder(scene, options)
+    reach = options.max_frames + max(FLANKS)
     found: list[SegmentSlip] = []
-    for name, members in (scene.segments or {}).items():
-        anchors = _anchors(scene, members, options.anchors)
-        if len(members) >= options.min_markers and len(anchors) >= MIN_ANCHORS:
-            found += _SegmentCourse(scene, name, members, anchors, options).slips()
-    return found
+    taken = np.zeros(score.shape, bool)
+    frames, seeds = np.nonzero(score >= 1)
+    for k in np.argsort(-score[frames, seeds], kind="stable"):
+        frame, seed = int(frames[k]), int(seeds[k])
+        if taken[frame, seed]:
+            continue
+        taken[max(0, frame - reach) : frame + reach + 1, seed] = True
+        slip = finder.slip(seed, frame, float(score[frame, seed]))
+        if slip is not None and not any(_overlap(slip, other) for other in found):
+            taken[max(0, slip.start - reach) : slip.stop + reach, slip.markers] = True
+            found.append(slip)
+    return sorted(found, key=lambda slip: (slip.start, slip.segment))
 
 
-def _anchors(scene: Scene, members: np.ndarray, count: int) -> np.ndarray:
-    """The markers outside a segment that its markers have as nearest neighbours, and that are seen as often."""
-    seen = scene.present[:, members].all(axis=1)
-    rank: dict[int, float] = {}
-    for m in members:
-        outside = [n for n in np.asarray(scene.neighbours[m], int).tolist() if n not in members]
-        for place, neighbour in enumerate(outside[: 2 * count]):
-            rank[neighbour] = rank.get(neighbour, 0.0) + 1 / (1 + place)
-    often = [n for n in rank if scene.present[seen, n].mean() >= MIN_SEEN] if seen.any() else []
-    return np.array(sorted(often, key=lambda n: (-rank[n], n))[:count], int)
+def _overlap(one: SegmentSlip, other: SegmentSlip) -> bool:
+    """Whether two slips share a sample."""
+    return one.start < other.stop and other.start < one.stop and bool(np.isin(one.markers, other.markers).any())
+
+
+def _scores(scene: Scene, options: SegmentSlipOptions) -> np.ndarray:
+    """For each sample (frames, markers) the score of the clearest pulse of the marker around it, in units of the threshold."""
+    window = samples(options.scale_window_s, scene.rate, odd=True)
+    best = np.zeros(scene.present.shape)
+    for length in range(1, options.max_frames + 1):
+        pulse = ndimage.correlate1d(scene.positions, _pulse_kernel(length, options.context_frames), axis=0)
+        size = np.nan_to_num(np.sqrt((pulse**2).sum(axis=2)))
+        score = size / (_usual(size, window) + options.noise_mm)
+        np.maximum(best, np.where(size >= options.floor_mm, score, 0.0), out=best)
+    return best / options.threshold_sigmas
+
+
+def _usual(size: np.ndarray, window: int) -> np.ndarray:
+    """Median (frames, markers) of a size over blocks of a window, at least half of its median over the recording."""
+    blocks = max(1, len(size) // window)
+    parts = np.array_split(size, blocks)
+    medians = np.array([np.median(part, axis=0) for part in parts])
+    wide = ndimage.maximum_filter1d(medians, 2, axis=0) if blocks > 1 else medians
+    spread = np.repeat(wide, [len(part) for part in parts], axis=0)
+    usual: np.ndarray = np.maximum(spread, 0.5 * np.median(medians, axis=0))
+    return usual
 
 
 @dataclass(frozen=True, eq=False)
-class _SegmentCourse:
-    """The course of a segment in the laboratory and in the frame of the anchors around it."""
+class _SlipFinder:
+    """Finds the slip to which a clear pulse of one marker belongs."""
 
     scene: Scene
-    name: str
-    members: np.ndarray
-    anchors: np.ndarray
     options: SegmentSlipOptions
 
     @cached_property
-    def _frames(self) -> LocalFrames | None:
-        """The frames of reference of the anchors, any where one is missing; None where they are hardly ever seen together."""
-        around = self.scene.positions[:, self.anchors]
-        known = np.flatnonzero(self._known)
-        if len(known) < self.options.context_frames * 4:
-            return None
-        shape = mean_shape(around[known[:: max(1, len(known) // self.options.shape_frames)]])
-        return align(np.where(self._known[:, None, None], around, shape), shape)
+    def _segment_names(self) -> dict[int, str]:
+        """The segment of each marker."""
+        return {int(m): name for name, members in (self.scene.segments or {}).items() for m in members}
 
-    @cached_property
-    def _known(self) -> np.ndarray:
-        """Whether all members and anchors are seen, bool (frames,)."""
-        known: np.ndarray = np.all(self.scene.present[:, np.concatenate([self.members, self.anchors])], axis=1)
-        return known
-
-    @cached_property
-    def _courses(self) -> tuple[np.ndarray, np.ndarray]:
-        """The members (frames, k, 3) in the laboratory and in the frames of the anchors, NaN where not known."""
-        assert self._frames is not None
-        own = np.where(self._known[:, None, None], self.scene.positions[:, self.members], np.nan)
-        return own, self._frames.local(own)
-
-    def slips(self) -> Iterator[SegmentSlip]:
-        """Give the slips, the clearest first wherever they overlap."""
-        if self._frames is None:
-            return
-        score, amount = self._scores()
-        margin = self.options.max_frames + self.options.context_frames
-        for peak in self._peaks(score, amount, margin):
-            slip = self._slip(peak, float(score[peak]))
-            if slip is not None:
-                yield slip
-
-    def _peaks(self, score: np.ndarray, amount: np.ndarray, margin: int) -> list[int]:
-        """The frames whose score exceeds the threshold and all scores around, by frame."""
-        highest = ndimage.maximum_filter1d(score, 2 * margin + 1, mode="constant")
-        return [int(t) for t in np.flatnonzero((score >= 1) & (score == highest) & (amount >= self.options.floor_mm))]
-
-    def _scores(self) -> tuple[np.ndarray, np.ndarray]:
-        """For each frame the largest score of a slip centred on it, in units of the threshold, and its size in mm."""
+    def slip(self, seed: int, frame: int, score: float) -> SegmentSlip | None:
+        """Find the slip around a sample; None where its neighbours do not slip alike, or where it is an impact."""
         options = self.options
-        window = samples(options.scale_window_s, self.scene.rate, odd=True)
-        centres = [course.mean(axis=1) for course in self._courses]
-        best, amount = np.zeros(len(self._known)), np.zeros(len(self._known))
-        for length in range(1, options.max_frames + 1):
-            kernel = _pulse_kernel(length, options.context_frames)
-            score = size = np.full(len(best), np.inf)
-            for centre in centres:
-                pulse = np.sqrt((ndimage.correlate1d(centre, kernel, axis=0) ** 2).sum(axis=1))
-                known = np.nan_to_num(pulse)
-                usual = np.maximum(
-                    ndimage.median_filter(known, window, mode="nearest"), 0.5 * np.median(known[known > 0])
-                )
-                size = np.minimum(size, known)
-                score = np.minimum(score, known / (usual + options.noise_mm))
-            better = (size >= options.floor_mm) & (score > best)
-            best[better], amount[better] = score[better], size[better]
-        return best / options.threshold_sigmas, amount
+        margin = options.max_frames + options.context_frames
+        rows = np.arange(max(0, frame - margin), min(len(self.scene.positions), frame + margin + 1))
+        around = np.concatenate([[seed], np.asarray(self.scene.neighbours[seed], int)[: options.neighbours]])
+        around = around[self.scene.present[rows][:, around].all(axis=0)]
+        if len(rows) < margin + 2 * options.context_frames or not len(around) or around[0] != seed:
+            return None
+        courses = self.scene.positions[rows][:, around]
+        pulse = _best_pulse(courses[:, 0], options.max_frames, options.context_frames)
+        group = self._alike(np.tensordot(pulse.weights, courses, 1), 0)
+        for _ in range(2):
+            if group.sum() < options.min_markers:
+                return None
+            centre = courses[:, group].mean(axis=1)
+            pulse = _best_pulse(centre, options.max_frames, options.context_frames)
+            displaced = np.tensordot(pulse.weights, courses, 1)
+            group = self._alike(displaced, int(np.argmin(np.where(group, _off(displaced, displaced[group]), np.inf))))
+        typical = np.median(displaced[group], axis=0) if group.any() else np.zeros(3)
+        if group.sum() < options.min_markers or np.linalg.norm(typical) < options.floor_mm:
+            return None
+        if pulse.residual > options.max_impact_ratio * _impact_residual(centre, options.context_frames):
+            return None
+        group = self._turned_along(courses[int(np.argmax(pulse.weights))], displaced, group)
+        if not self._against_anchors(courses, group, pulse.weights):
+            return None
+        names = [self._segment_names.get(int(m), "") for m in around[group]]
+        segment = max(sorted(set(names)), key=names.count)
+        first, last = int(rows[pulse.start]), int(rows[pulse.stop - 1])
+        return SegmentSlip(segment, np.sort(around[group]), first, last + 1, typical, score)
 
-    def _slip(self, peak: int, score: float) -> SegmentSlip | None:
-        """The slip around a frame; None where the markers do not agree."""
-        options = self.options
-        context, longest = options.context_frames, options.max_frames
-        rows = np.arange(max(0, peak - longest - context), min(len(self._known), peak + longest + context + 1))
-        laboratory, local = (course[rows] for course in self._courses)
-        if np.isnan(local).any():
-            return None
-        centre = local.mean(axis=1)
-        pulse = _best_pulse(centre, longest, context)
-        if pulse.residual > options.max_impact_ratio * _impact_residual(centre, context):
-            return None
-        frames = rows[pulse.start : pulse.stop]
-        relative = self._in_laboratory(np.tensordot(pulse.weights, local, 1), frames)
-        own, typical = np.tensordot(pulse.weights, laboratory, 1), np.median(relative, axis=0)
-        size = float(np.linalg.norm(typical))
-        disagreement = np.maximum(*(np.linalg.norm(each - typical, axis=1) for each in (relative, own)))
-        agree = disagreement <= options.max_disagreement * size
-        if size < options.floor_mm or agree.sum() < max(options.min_markers, options.min_share * len(agree)):
-            return None
-        return SegmentSlip(self.name, self.members[agree], int(frames[0]), int(frames[-1]) + 1, typical, score)
+    def _alike(self, displaced: np.ndarray, seed: int) -> np.ndarray:
+        """Which of some markers, displaced by (k, 3) mm, are displaced like one of them, bool (k,)."""
+        limit = self.options.max_disagreement * np.linalg.norm(displaced[seed])
+        alike: np.ndarray = np.linalg.norm(displaced - displaced[seed], axis=1) <= limit
+        return alike
 
-    def _in_laboratory(self, vectors: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        """Vectors (k, 3) of the frames of the anchors, in the laboratory at the middle of some frames."""
-        assert self._frames is not None
-        turned: np.ndarray = vectors @ self._frames.axes[rows[len(rows) // 2]].T
-        return turned
+    def _turned_along(self, positions: np.ndarray, displaced: np.ndarray, group: np.ndarray) -> np.ndarray:
+        """A group with the other markers (k, 3) that are displaced as a rigid body together with it."""
+        expected = positions - displaced
+        rigid = fit_displacement(expected[group], positions[group])
+        if rigid is None:
+            return group
+        moved = rigid.displace(expected)
+        size = np.linalg.norm(moved - expected, axis=1)
+        near = np.linalg.norm(moved - positions, axis=1) <= self.options.max_disagreement * size
+        together: np.ndarray = group | (near & (np.linalg.norm(displaced, axis=1) >= self.options.floor_mm))
+        return together
+
+    def _against_anchors(self, courses: np.ndarray, group: np.ndarray, weights: np.ndarray) -> bool:
+        """Whether a group slips against the nearest other markers, too, and these do not."""
+        anchors = np.flatnonzero(~group)[: self.options.anchors]
+        typical = np.tensordot(weights, courses[:, group].mean(axis=1), 1)
+        limit = self.options.max_disagreement * np.linalg.norm(typical)
+        still = np.linalg.norm(np.tensordot(weights, courses[:, anchors], 1), axis=1) <= limit
+        if len(anchors) < MIN_ANCHORS or still.mean() < self.options.min_share:
+            return False
+        anchors = anchors[still]
+        if len(anchors) < MIN_ANCHORS:
+            return False
+        frames = align(courses[:, anchors], mean_shape(courses[:, anchors]))
+        relative = np.tensordot(weights, frames.local(courses[:, group]).mean(axis=1), 1)
+        middle = int(np.argmax(weights))
+        return bool(np.linalg.norm(relative @ frames.axes[middle].T - typical) <= limit)
+
+
+def _off(displaced: np.ndarray, some: np.ndarray) -> np.ndarray:
+    """Distance (k,) of displacements (k, 3) from the median of some."""
+    off: np.ndarray = np.linalg.norm(displaced - np.median(some, axis=0), axis=1)
+    return off
 
 
 def _pulse_kernel(length: int, context: int) -> np.ndarray:

@@ -245,20 +245,20 @@ class SegmentSlipOptions:
     max_impact_ratio: Annotated[float, Above(0), AtMost(1)] = 0.5
     """What a slip leaves unexplained of the motion, as a part of what an impact, a break of the velocity, would leave, at most."""
 
-    max_disagreement: Annotated[float, Above(0), AtMost(1)] = 0.4
-    """Distance of a marker's displacement from that of the segment, as a part of it, at most (0 to 1)."""
+    max_disagreement: Annotated[float, Above(0), AtMost(1)] = 0.5
+    """Distance of a marker's displacement from that of the others, as a part of it, at most (0 to 1)."""
 
-    min_share: Annotated[float, Above(0), AtMost(1)] = 0.5
-    """Share of the markers of the segment that agree, at least (0 to 1)."""
-
-    min_markers: Annotated[int, AtLeast(2)] = 2
+    min_markers: Annotated[int, AtLeast(2)] = 3
     """Markers that slip together, at least."""
 
-    anchors: Annotated[int, AtLeast(3)] = 6
-    """Nearest markers outside the segment, against which it moves."""
+    neighbours: Count = 16
+    """Nearest markers among which those are looked for that slip with a marker."""
 
-    shape_frames: Count = 300
-    """Frames from which the shape of these is taken."""
+    anchors: Annotated[int, AtLeast(3)] = 6
+    """Nearest of the others, against which they move."""
+
+    min_share: Annotated[float, Above(0), AtMost(1)] = 0.6
+    """Share of these that do not slip, at least (0 to 1)."""
 
 
 @dataclass(frozen=True)
