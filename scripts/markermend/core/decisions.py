@@ -150,3 +150,19 @@ def protecting(patterns: Iterable[str]) -> list[Decision]:
         One for each pattern, about all frames.
     """
     return [Decision(pattern, -EVER, EVER, "protect", person=False) for pattern in patterns]
+
+
+def accepting(kinds: Iterable[str]) -> list[Decision]:
+    """Make the decisions that stand for an option by which findings are repaired that are else only reported.
+
+    Parameters
+    ----------
+    kinds : iterable of str
+        The classes.
+
+    Returns
+    -------
+    list of Decision
+        One for each class, about all markers and frames.
+    """
+    return [Decision("*", -EVER, EVER, "accept", kind, person=False) for kind in kinds]

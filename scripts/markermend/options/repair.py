@@ -24,6 +24,7 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
+from markermend.options.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 
 USUAL_METHODS: Mapping[str, tuple[str, ...]] = {
@@ -139,6 +140,14 @@ class RepairOptions:
     """Nothing is repaired if more than this share of the seen samples was found (0 to 1).
 
     Change it when recordings of poor quality are refused as a whole (higher, with care)."""
+
+    displacement: Annotated[DisplacementOptions, Shared()] = field(default_factory=DisplacementOptions)
+    """Lasting displacements."""
+
+    move_back_lasting: Annotated[bool, Laboratory] = False
+    """Whether markers that were knocked, or crept, to another place for good are moved back; else they are reported and left.
+
+    Change it when such recordings cannot be measured again (`true`)."""
 
     max_repair_s: Annotated[Seconds, Laboratory] = 2
     """Longer findings become missing instead.

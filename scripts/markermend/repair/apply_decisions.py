@@ -17,6 +17,13 @@ from markermend.core.rulings import Ruling, rule, texts_of
 from markermend.numerics.intervals import runs
 from markermend.repair.label_exchanges import concerned, linked_events
 
+BY_REFERENCE = {
+    "usual distances": "off its usual place, by the subject's usual distances",
+    "longer part": "off where it is for longer",
+    "undecided": "off where it was before, and nothing says which of the two places is right",
+}
+"""What decided which of two levels counts as right, in words."""
+
 
 @dataclass(frozen=True)
 class DecidedFindings:
@@ -116,9 +123,16 @@ def _against(decisions: Iterable[Decision], stage: str, event: Event, markers: S
     if ruling.left or classes:
         return ruling if ruling.left else Ruling(classes[0].reason, texts=texts_of(classes))
     if artifact.reported and not ruling.confirmed:
-        amount = "" if event.amount_mm is None else f"displaced by {event.amount_mm:.1f} mm: "
-        return replace(ruling, left=Reason(Cause.REPORTED, f"{amount}{artifact.reported}"))
+        return replace(ruling, left=Reason(Cause.REPORTED, f"{_extent(event)}{artifact.reported}"))
     return ruling
+
+
+def _extent(event: Event) -> str:
+    """How far a finding is displaced, and by what that was decided, as far as its detector states it."""
+    if event.amount_mm is None:
+        return ""
+    amount = f"{event.amount_mm:.1f} mm"
+    return f"{amount} {BY_REFERENCE[event.reference]}: " if event.reference else f"displaced by {amount}: "
 
 
 def _replaces(decision: Decision, markers: Sequence[str], event: Event) -> bool:

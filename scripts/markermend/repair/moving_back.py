@@ -62,7 +62,8 @@ def move_back(
             reason = Reason(Cause.NO_METHOD, "too few markers are seen before and after to move them back")
         for event in group:
             if reason is None and moved is not None:
-                result.move_back(event, start, *moved, ruling)
+                m, span = result.markers.index(event.marker), slice(event.start - start, event.stop - start)
+                result.move_back(event, moved[0][span, m], moved[1][span, m], ruling)
             elif reason is not None:
                 result.leave(event, (kind,), reason, ruling, blank=False)
     return settled

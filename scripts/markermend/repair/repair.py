@@ -1,7 +1,8 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Labels are exchanged first, then stretches over which all markers are displaced are moved back. All other findings were made on trajectories with the exchanges undone; where an exchange is
-not carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
+Labels are exchanged first, then stretches over which all markers are displaced are moved back, then, on request, markers that
+were displaced for good. All other findings were made on trajectories with the exchanges undone; where an exchange is not
+carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
 proposal with the least expected error is taken if it changes more than it may err by, and if a method that leaves the
 neighbours aside brings the samples nearer to where these predict them. Where no proposal is accurate enough, the samples
 become missing; so do samples that were not measured. Samples outside the findings are returned bit for bit.
@@ -16,7 +17,7 @@ import numpy as np
 
 from markermend.core.artifacts import class_of
 from markermend.core.changes import TreatedRecording
-from markermend.core.decisions import Decision, protecting
+from markermend.core.decisions import Decision, accepting, protecting
 from markermend.core.events import Event, mask
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
@@ -31,6 +32,7 @@ from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_e
 from markermend.repair.finding_repair import repair_finding
 from markermend.repair.findings import Rulings, group_findings
 from markermend.repair.label_exchanges import linked_events
+from markermend.repair.lasting_displacements import KINDS, move_markers_back
 from markermend.repair.moving_back import move_back
 from markermend.repair.predictors import needed_predictors
 from markermend.repair.result import Restoration
@@ -104,7 +106,8 @@ def repair_scene(
     """
     static = recording.facts.get("kind") == "static"
     exchanges = [event for event in found.get("labels", ()) if event.partner]
-    rulings = Rulings([] if static else [*protecting(options.protect), *decisions], linked_events(found))
+    by_options = [*protecting(options.protect), *(accepting(KINDS) if options.move_back_lasting else ())]
+    rulings = Rulings([] if static else [*by_options, *decisions], linked_events(found))
     decided = apply_decisions(recording, found, rulings.decisions)
     refusal = (
         Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(decided, rulings, options)
@@ -119,9 +122,10 @@ def repair_scene(
     _exchange_labels(result, planned)
     methods = options.methods.get("frames", ())
     settled = move_back(decided.found, rulings, methods=methods, refusal=refusal, result=result)
+    settled += move_markers_back(decided.found, scene, rulings, options=options, result=result)
     exchanged = replace(decided.recording, positions=result.positions.copy())
     remaining = {**decided.found, "labels": not_planned(decided.found["labels"], planned)}
-    remaining["frames"] = [event for event in decided.found["frames"] if event not in settled]
+    remaining = {stage: [event for event in events if event not in settled] for stage, events in remaining.items()}
     maker = _candidate_maker(exchanged, remaining, scene, predictors, options)
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)

@@ -97,26 +97,25 @@ class Restoration:
             change = _change(event, ("swap",), Outcome.EXCHANGED, ruling)
             self._repaired(replace(change, method="swap"), np.arange(event.start, event.stop))
 
-    def move_back(self, event: Event, start: int, moved: np.ndarray, error: np.ndarray, ruling: Ruling) -> None:
-        """Move the samples of a marker back that were displaced together with all others.
+    def move_back(self, event: Event, moved: np.ndarray, error: np.ndarray, ruling: Ruling) -> None:
+        """Move the samples of a marker back that were displaced.
 
         Parameters
         ----------
         event : Event
-            The finding.
-        start : int
-            First frame of the arrays.
-        moved : ndarray of float, shape (n, markers, 3)
-            All markers, moved back, mm.
-        error : ndarray of float, shape (n, markers)
+            The finding, which states its class.
+        moved : ndarray of float, shape (n, 3)
+            Its samples, moved back, mm.
+        error : ndarray of float, shape (n,)
             Standard deviation per axis, mm.
         ruling : Ruling
             The ruling on the finding.
         """
         m, name = self.markers.index(event.marker), class_of("frames", event).name
-        rows = np.flatnonzero(~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1)) + event.start
-        self._error[rows, m] = error[rows - start, m]
-        self.positions[rows, m] = moved[rows - start, m]
+        own = np.flatnonzero(~np.isnan(self.positions[event.start : event.stop, m]).any(axis=1))
+        rows = own + event.start
+        self._error[rows, m] = error[own]
+        self.positions[rows, m] = moved[own]
         self._origin[rows, m] = ORIGINS.index(name)
         self._repaired(replace(_change(event, (name,), Outcome.REPAIRED, ruling), method="move_back"), rows)
 

@@ -113,6 +113,9 @@ def displaced_parts(
         reference, is_second = "usual distances", usual == 0
     elif max(counts) >= options.longer_factor * min(counts):
         reference, is_second = "longer part", bool(counts[0] >= counts[1])
+    if not is_second and displacement.course.rise_s > 0:
+        # Until it has arrived, a creep is displaced from its second place.
+        second[: span[0] + round(displacement.course.rise_s * scene.rate)] = False
     return reference, list(runs(second if is_second else ~second))
 
 

@@ -5,45 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.core.shape import Shape
 from markermend.detection.neighbour.lasting_shifts import LastingFinder
-from markermend.mesh.usual_distances import recording_distances
-from markermend.numerics.rigid_alignment import align
 from markermend.options.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
-from markermend.prediction.scene import Scene
-from support.bodies import RATE, subject
-from support.signals import neighbours
+from support.displaced_bodies import BODY, FRAMES, NAMES, displaced, onset, scene
 
-FRAMES = 1500
 FINDER = LastingFinder(LocalRidgeOptions(), DisplacementOptions(), ShapeOptions())
-NAMES, BODY, OWNERS = subject(3, frames=FRAMES, markers=6)
-
-
-def onset(start, stop=FRAMES, length=1):
-    """From 0 to 1 over some frames, and back at once."""
-    values = np.clip((np.arange(FRAMES) - start + 1) / length, 0, 1)
-    values[stop:] = 0
-    return values
-
-
-def displaced(name, course, vector=(12.0, -9.0, 8.0)):
-    """The body, with soft tissue of 0.4 mm, and a marker displaced in its segment's frame."""
-    rng = np.random.default_rng(0)
-    positions = BODY + rng.normal(0, 0.4, BODY.shape)
-    m = NAMES.index(name)
-    mates = [o for o, owner in enumerate(OWNERS) if owner == OWNERS[m]]
-    turns = align(BODY[:, mates], BODY[0, mates] - BODY[0, mates].mean(axis=0)).axes
-    positions[:, m] += np.einsum("nij,j->ni", turns, np.array(vector)) * course[:, None]
-    return positions
-
-
-def scene(positions, usual=None):
-    """The scene of a subject with the shape of its usual recordings, or of this one alone."""
-    shown = positions if usual is None else usual
-    shape = Shape(*recording_distances(shown, min_frames=20), 1 if usual is None else 3)
-    return Scene(positions, RATE, neighbours(positions), shape=shape)
 
 
 def find(positions, *, usual=None, sudden=True):
