@@ -101,7 +101,8 @@ class ShapeGuardOptions:
     """Degrees of freedom of the Student's t distribution of distances: the fewer, the less a distance that is far off counts."""
 
     min_gain: NotNegative = 0.1
-    """Mean logarithm of the factor, over samples and distances, by which a repair makes the distances more likely, at least.
+    """Mean logarithm of the factor, over samples and distances, by which a repair makes the distances more likely, at least: all
+    of them, and those to the `steadiest_mates`.
 
     Change it when good samples are repaired (higher), or artifacts are left (lower)."""
 
@@ -110,7 +111,7 @@ class ShapeGuardOptions:
     distances for the usual ones of the subject alone."""
 
     steadiest_mates: Count = 2
-    """Mates to none of which a repair may take the distance clearly away from what it should be."""
+    """Mates to which a repair must bring the distances nearer to what they should be, and to none of them clearly away from it."""
 
     max_misfit: NotNegative = 1
     """Mean logarithm of the factor by which distances are less likely than the expected ones: measured samples that no repair is

@@ -116,9 +116,9 @@ class ShapeGuard:
         Returns
         -------
         Reason or None
-            The reason, with the distance that speaks most clearly against it; None where the repair brings the distances
-            nearer to what is expected, none of the steadiest clearly away from it, and all together not clearly away from
-            usual, and where too few of them are known to tell.
+            The reason, with the distance that speaks most clearly against it; None where the repair brings all of
+            them and the steadiest nearer to what is expected, none of the steadiest clearly away from it, and all not clearly
+            away from usual; and where too few of them are known to tell.
         """
         local = self.expected(marker, start, start + len(measured))
         if local is None:
@@ -127,8 +127,9 @@ class ShapeGuard:
         gain = self._log_densities(local, seen) - self._log_densities(local, measured)
         if np.isnan(gain).all():
             return None
-        each = nan_mean(gain[:, : options.steadiest_mates])
-        if nan_mean(gain, axis=None) < options.min_gain or np.nanmin(each, initial=0.0) < -options.max_loss:
+        steadiest = gain[:, : options.steadiest_mates]
+        lost = np.nanmin(nan_mean(steadiest), initial=0.0) < -options.max_loss
+        if lost or any(nan_mean(part, axis=None) < options.min_gain for part in (gain, steadiest)):
             return self._against(local, gain, measured, seen)
         usual = self._usual(marker, local)
         gain = self._log_densities(usual, seen) - self._log_densities(usual, measured)

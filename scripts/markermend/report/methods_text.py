@@ -149,8 +149,9 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     yield f"Artifacts were detected in the order {classes} {citations.cite('artifacts')}{', ' if where else ''}{where}."
     if "repair" in stages:
         yield (
-            f"They were repaired by class{limits(stages['repair'])}; samples without a reliable repair were set to "
-            "missing."
+            f"They were repaired by class{limits(stages['repair'])}, where the repair brought the distances to neighbouring "
+            "markers nearer to usual; samples without a reliable repair were set to missing where these distances "
+            "contradicted them, and were left otherwise."
         )
     # Published detectors look for the first class alone.
     left = [
