@@ -138,7 +138,7 @@ class RepairOptions:
     Change it when you prefer another repair for a class."""
 
     max_altered_share: Annotated[Share, Laboratory] = 0.1
-    """Nothing is repaired if more than this share of the seen samples was found (0 to 1).
+    """Nothing is repaired if more than this share of the seen samples was found (0 to 1), exchanged labels aside.
 
     Change it when recordings of poor quality are refused as a whole (higher, with care)."""
 

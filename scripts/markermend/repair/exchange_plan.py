@@ -85,7 +85,10 @@ def plan_exchanges(
             cycle = tuple(cycle_of(event, decided.found["labels"]))
             reason = None
             if not ruling.confirmed:
-                reason = _worse(cycle, decided.recording.markers, maker) if "exchange" in methods else NO_METHOD
+                # What is exchanged over the same frames, as a whole limb is, stands or falls together.
+                same = [one for one in decided.found["labels"] if one.partner and _stretch(one) == _stretch(event)]
+                every = dict.fromkeys([*cycle, *(one for one in same if one.partner in decided.recording.markers)])
+                reason = _worse(list(every), decided.recording.markers, maker) if "exchange" in methods else NO_METHOD
             planned.append(PlannedExchange(cycle, ruling, reason))
     return planned
 
@@ -108,8 +111,13 @@ def not_planned(exchanges: Iterable[Event], planned: Sequence[PlannedExchange]) 
     return [event for event in exchanges if not any(exchange.holds(event) for exchange in planned)]
 
 
+def _stretch(event: Event) -> tuple[int, int]:
+    """The interval of an event."""
+    return event.start, event.stop
+
+
 def _worse(cycle: Sequence[Event], markers: Sequence[str], maker: CandidateMaker) -> Reason | None:
-    """Why the markers of a cycle would be no better with the samples of their partners; None where they would."""
+    """Why the markers of exchanges would be no better with the samples of their partners; None where they would."""
     members = [markers.index(event.marker) for event in cycle]
     partners = [markers.index(str(event.partner)) for event in cycle]
     return maker.worse_exchanged(members, partners, cycle[0].start, cycle[0].stop)

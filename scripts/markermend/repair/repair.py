@@ -157,7 +157,9 @@ def _too_much(decided: DecidedFindings, rulings: Rulings, options: RepairOptions
     members = [(stage, event) for stage, events in decided.found.items() for event in events]
     # Faults of the whole recording say nothing about how much of it is doubtful.
     members = [(stage, event) for stage, event in members if class_of(stage, event).scope != "recording"]
-    unconfirmed = [event for stage, event in members if not rulings.on([(stage, event)]).confirmed]
+    # Samples under another label are measured, and stay as they are.
+    doubtful = [(stage, event) for stage, event in members if not event.partner]
+    unconfirmed = [event for stage, event in doubtful if not rulings.on([(stage, event)]).confirmed]
     seen = int((~decided.recording.missing).sum())
     share = _covered(decided.recording, unconfirmed).sum() / max(1, seen)
     if share <= options.max_altered_share:

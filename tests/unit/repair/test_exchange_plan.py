@@ -108,3 +108,26 @@ def test_without_a_method_a_swap_is_left_and_a_peak_within_it_belongs_to_its_rec
     assert np.array_equal(
         np.delete(wanted.positions, slice(610, 613), 0), np.delete(clean.positions, slice(610, 613), 0)
     )
+
+
+def pair(a, b):
+    return [Event(a, START, STOP, 9.0, "xyz", b), Event(b, START, STOP, 9.0, "xyz", a)]
+
+
+def test_exchanged_labels_do_not_count_as_altered(clean):
+    a, b = clean.markers.index("2b"), clean.markers.index("3a")
+    positions = clean.positions.copy()
+    positions[START:STOP, [a, b]] = positions[START:STOP, [b, a]]
+    result = mend(bodies.recording(clean.markers, positions), {"labels": pair("2b", "3a")}, max_altered_share=0.0)
+    assert np.array_equal(result.positions, clean.positions)
+
+
+@pytest.mark.parametrize("exchanged", [True, False])
+def test_all_exchanges_over_the_same_frames_are_carried_out_or_none(clean, exchanged):
+    positions = clean.positions.copy()
+    for names in (("2b", "3a"), ("1a", "2a")) if exchanged else ():
+        own = [clean.markers.index(name) for name in names]
+        positions[START:STOP, own] = positions[START:STOP, own[::-1]]
+    recording = bodies.recording(clean.markers, positions)
+    result = mend(recording, {"labels": [*pair("2b", "3a"), *pair("1a", "2a")]})
+    assert np.array_equal(result.positions, clean.positions)
