@@ -1,16 +1,20 @@
-"""Heavy noise: a marker jumps from sample to sample for a while (skurowski2022 3.4.3), as its neighbours show."""
+"""Heavy noise: a marker jumps from sample to sample (skurowski2022 3.4.3), or shakes, for a while, as its neighbours show."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.detection.neighbour import attribution
+from markermend.detection.neighbour import attribution, excess_variance
+from markermend.detection.neighbour.excess_variance import BandDetector, Shaking
 from markermend.detection.neighbour.increments import IncrementDetector, IncrementStatistics, clusters
+from markermend.detection.neighbour.neighbourhood import overlap
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection import NoiseOptions
@@ -51,7 +55,7 @@ def detect_noise(
 
 
 class NoiseDetector(IncrementDetector):
-    """Finds stretches of many sudden increments in the residuals.
+    """Finds stretches of many sudden increments in the residuals, and of excess variance in some band of frequencies.
 
     Parameters
     ----------
@@ -60,15 +64,23 @@ class NoiseDetector(IncrementDetector):
     markers : Sequence[str]
         Names of the markers.
     options : NoiseOptions
-        Threshold of an increment; length and density of a stretch; attribution.
+        Threshold of an increment; length and density of a stretch; excess variance; attribution.
     """
 
     def __init__(self, scene: Scene, markers: Sequence[str], options: NoiseOptions) -> None:
         super().__init__(scene, markers, options)
         self.options = options
+        self._shaken: tuple[IncrementStatistics, list[list[Shaking]], list[list[Shaking]]] | None = None
 
     def find_events(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
-        """Find the stretches of heavy noise of one marker; see `Detector.find_events`."""
+        """Find the stretches of heavy noise, jitter and wobble of one marker; see `Detector.find_events`."""
+        jitter, wobble = ([self._event(one, marker) for one in own[marker]] for own in self._shaking(statistics))
+        noise = events.disjoint(self.find_candidates(statistics, marker) + jitter)
+        # White noise has a part in every band.
+        return events.disjoint(noise + [own for own in wobble if not any(overlap(own, other) for other in noise)])
+
+    def find_candidates(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
+        """Find the stretches of heavy noise of one marker; see `Detector.find_candidates`."""
         score, vector, name = statistics.score[:, marker], statistics.vector[:, marker], self.markers[marker]
         found = []
         for start, stop in runs(~np.isnan(statistics.residual[:, marker, 0])):
@@ -79,6 +91,29 @@ class NoiseDetector(IncrementDetector):
                 last = stop if stop - group[-1] <= quiet else int(group[-1])
                 found.append(Event(name, first, last, float(score[group].max()), events.main_axes(vector[group])))
         return found
+
+    def _shaking(self, statistics: IncrementStatistics) -> tuple[list[list[Shaking]], list[list[Shaking]]]:
+        """The stretches of jitter, and those of wobble, of each marker."""
+        if self._shaken is None or self._shaken[0] is not statistics:
+            jitter = self._jitter.find(statistics.residual)
+            bands = [detector.find(statistics.residual) for detector in self._wobble]
+            self._shaken = statistics, jitter, [list(chain(*own)) for own in zip(*bands, strict=True)]
+        return self._shaken[1:]
+
+    def _event(self, shaking: Shaking, marker: int) -> Event:
+        """A stretch of excess variance as an event."""
+        axes = events.main_axes(shaking.axes[None])
+        return Event(self.markers[marker], shaking.start, shaking.stop, shaking.score, axes)
+
+    @cached_property
+    def _jitter(self) -> BandDetector:
+        """The detector of jitter."""
+        return excess_variance.jitter_detector(self.scene, self.options.jitter)
+
+    @cached_property
+    def _wobble(self) -> list[BandDetector]:
+        """The detectors of wobble, one of each band."""
+        return excess_variance.wobble_detectors(self.scene, self.options.wobble)
 
     def _stretches(self, sudden: np.ndarray) -> Iterator[np.ndarray]:
         """The clusters of frames with sudden increments that are long and dense enough."""

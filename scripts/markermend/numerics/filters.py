@@ -1,4 +1,4 @@
-"""Filters of one signal that never look across a gap: differences, moving median and sum, Savitzky-Golay.
+"""Filters of one signal that never look across a gap: differences, moving median and sum, Savitzky-Golay, band-pass.
 
 A signal is a float vector with NaN where nothing was measured. Each function treats the runs of valid samples one by
 one, keeps the signal's length, and leaves NaN where NaN was. Lengths are in samples.
@@ -163,3 +163,60 @@ def moving_sum(signal: np.ndarray, window: int) -> np.ndarray:
     skurowski2022 eq 21, 22.
     """
     return per_run(lambda run: ndimage.convolve1d(run, np.ones(window), mode="constant"), signal)
+
+
+def second_difference(signal: np.ndarray) -> np.ndarray:
+    """Subtract from each sample the mean of the two beside it, scaled so that white noise keeps its standard deviation.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+
+    Returns
+    -------
+    np.ndarray
+        Second differences (frames,), divided by the root of 6; NaN where one of the three samples is missing.
+    """
+    out = np.full(len(signal), np.nan)
+    out[1:-1] = (signal[2:] - 2 * signal[1:-1] + signal[:-2]) / np.sqrt(6)
+    return out
+
+
+def band_pass(signal: np.ndarray, *, band_hz: tuple[float, float], rate: float, half_length: int) -> np.ndarray:
+    """Let a band of frequencies through, without a shift in time.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    band_hz : tuple of float
+        The band.
+    rate : float
+        Sampling rate, Hz.
+    half_length : int
+        Samples on either side of the middle of the filter.
+
+    Returns
+    -------
+    np.ndarray
+        Filtered signal (frames,). Runs are extended by their point reflection; NaN within half of `half_length` of their ends, in
+        runs that are not longer than the filter, and where the signal is NaN.
+
+    References
+    ----------
+    Oppenheim, Schafer (2010), Discrete-Time Signal Processing, section 7.5: the window method (Hamming).
+    """
+    from scipy.signal import firwin, oaconvolve  # slow to import
+
+    taps = firwin(2 * half_length + 1, band_hz, pass_zero=False, fs=rate)
+
+    def run_band_pass(run: np.ndarray) -> np.ndarray:
+        inside = np.full(len(run), np.nan)
+        if len(run) > len(taps):
+            longer = np.pad(run, half_length, mode="reflect", reflect_type="odd")
+            border = half_length // 2
+            inside[border:-border] = oaconvolve(longer, taps, mode="valid")[border:-border]
+        return inside
+
+    return per_run(run_band_pass, signal)

@@ -455,6 +455,78 @@ class IncrementOptions:
 
 
 @dataclass(frozen=True)
+class ExcessVarianceOptions:
+    """Options of the detection of excess variance in a band of frequencies."""
+
+    window_s: PositiveSeconds = 0.15
+    """Window of the root mean square."""
+
+    min_duration_s: PositiveSeconds = 0.25
+    """Shortest time for which the threshold is exceeded."""
+
+    floor_mm: PositiveMillimetres = 0.8
+    """Smallest root mean square.
+
+    Change it when shaking too small to matter to you is reported (higher)."""
+
+    threshold_factor: Annotated[float, AtLeast(1)] = 1.8
+    """Smallest root mean square, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours.
+
+    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+
+    tail_quantile: Share = 0.95
+    """Share of the recording's samples that do not exceed that size (0 to 1)."""
+
+    scale_neighbours: Count = 6
+    """Nearest neighbours whose residuals set what is usual at the time."""
+
+    motion_neighbours: Count = 3
+    """Nearest neighbours of which the one that moves most in the band sets how much the body shakes."""
+
+    min_motion_ratio: NotNegative = 0.3
+    """Smallest root mean square, as a part of that of their motion: at an impact soft tissue shakes along.
+
+    Change it when impacts are taken for noise (higher)."""
+
+    border_power_fraction: Share = 0.2
+    """The stretch extends to the last sample whose square exceeds this part of the median mean square (0 to 1).
+
+    Change it when repair follows the first or last distorted sample, which was not found (lower)."""
+
+
+@dataclass(frozen=True)
+class JitterOptions(ExcessVarianceOptions):
+    """Options of the detection of jitter from frame to frame."""
+
+
+@dataclass(frozen=True)
+class WobbleOptions(ExcessVarianceOptions):
+    """Options of the detection of wobble of several Hz."""
+
+    window_s: PositiveSeconds = 0.2
+    """Window of the root mean square."""
+
+    min_duration_s: PositiveSeconds = 0.6
+    """Shortest time for which the threshold is exceeded."""
+
+    frequencies_hz: Annotated[tuple[Positive, ...], NotEmpty] = (5.6, 7.8, 11.2)
+    """Centres of the bands of frequencies.
+
+    Change it when markers wobble more slowly or faster in your data."""
+
+    bandwidth_ratio: Annotated[float, Above(1)] = 1.25
+    """A band reaches from its centre divided by this to its centre multiplied by it."""
+
+    filter_s: PositiveSeconds = 0.4
+    """Length of the band-pass filters."""
+
+    border_power_fraction: Share = 0.15
+    """The stretch extends to the last sample whose square exceeds this part of the median mean square (0 to 1).
+
+    Change it when repair follows the first or last distorted sample, which was not found (lower)."""
+
+
+@dataclass(frozen=True)
 class NoiseOptions(IncrementOptions, DetectorOptions):
     """Detect heavy noise.
 
@@ -481,6 +553,12 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
 
     min_sudden_changes: Count = 6
     """Sudden changes of a stretch, at least."""
+
+    jitter: JitterOptions = field(default_factory=JitterOptions)
+    """Options of the detection of jitter from frame to frame, whose single changes are not sudden."""
+
+    wobble: WobbleOptions = field(default_factory=WobbleOptions)
+    """Options of the detection of wobble of several Hz."""
 
     coordinates: PublishedNoiseOptions = field(default_factory=PublishedNoiseOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""

@@ -20,6 +20,7 @@ from markermend.options.declaration import (
     NotNegative,
     Positive,
     PositiveMillimetres,
+    PositiveSeconds,
     Seconds,
     Share,
     Shared,
@@ -58,6 +59,15 @@ class SeparationOptions:
 
     roughness_mm: Annotated[tuple[PositiveMillimetres, ...], NotEmpty] = (0.2, 2)
     """Standard deviations, all of them tried, of white noise by which an artifact may depart from the shape of its class."""
+
+    oscillations_hz: tuple[Positive, ...] = (5, 6.5, 8.5, 11)
+    """Frequencies of wobble that are tried beside white noise."""
+
+    oscillation_mm: PositiveMillimetres = 4
+    """Standard deviation of wobble."""
+
+    oscillation_coherence_s: PositiveSeconds = 0.15
+    """Time over which amplitude and phase of wobble stay alike."""
 
     border_s: Seconds = 0.15
     """Time on either side of a finding whose samples are used."""

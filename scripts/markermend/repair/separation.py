@@ -68,8 +68,31 @@ SHAPE_COVARIANCES: Mapping[str, Sequence[Callable[[int], np.ndarray]]] = {
 """Covariances (n, n) of artifacts of amplitude 1 over n frames, by the method that removes such artifacts."""
 
 
+def oscillation_covariance(n: int, *, frequency_hz: float, coherence_s: float, rate: float) -> np.ndarray:
+    """Give the covariance of an oscillation whose amplitude and phase change over time.
+
+    Parameters
+    ----------
+    n : int
+        Number of frames.
+    frequency_hz : float
+        Its frequency.
+    coherence_s : float
+        Time over which amplitude and phase stay alike.
+    rate : float
+        Sampling rate, Hz.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        The covariance of that process with variance 1.
+    """
+    lag_s = np.subtract.outer(np.arange(n), np.arange(n)) / rate
+    return np.cos(2 * np.pi * frequency_hz * lag_s) * np.exp(-((lag_s / coherence_s) ** 2) / 2)
+
+
 def artifact_covariances(
-    method: str, n: int, options: SeparationOptions, extents: Sequence[tuple[int, int]]
+    method: str, n: int, options: SeparationOptions, extents: Sequence[tuple[int, int]], *, rate: float
 ) -> Iterator[np.ndarray]:
     """Give the covariances of the artifacts that are tried; all are equally likely a priori.
 
@@ -83,6 +106,8 @@ def artifact_covariances(
         Amplitudes and roughness of artifacts.
     extents : sequence of tuple of int
         Half-open intervals of the n frames over which the artifact may last.
+    rate : float
+        Sampling rate, Hz.
 
     Yields
     ------
@@ -94,6 +119,11 @@ def artifact_covariances(
         covariance[first:last, first:last] = shape(last - first)
         for amplitude, roughness in itertools.product(options.amplitudes_mm, options.roughness_mm):
             yield amplitude**2 * covariance + roughness**2 * np.eye(n)
+    if method == "separate_noise":
+        for frequency in options.oscillations_hz:
+            coherence = options.oscillation_coherence_s
+            shaken = oscillation_covariance(n, frequency_hz=frequency, coherence_s=coherence, rate=rate)
+            yield options.oscillation_mm**2 * shaken + min(options.roughness_mm) ** 2 * np.eye(n)
 
 
 def conditional_correlation(covariance: Covariance, *, known_s: np.ndarray, wanted_s: np.ndarray) -> np.ndarray:

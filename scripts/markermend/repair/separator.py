@@ -72,7 +72,7 @@ class Separator:
             positions, deviation = prediction.positions[1:-1], prediction.error[1:-1]
             if np.isnan(positions).any() or np.isnan(deviation).any():
                 continue
-            tried = artifact_covariances(method, last - first, self.options, extents)
+            tried = artifact_covariances(method, last - first, self.options, extents, rate=self.scene.rate)
             error = correlation * deviation * deviation[:, None]
             difference, power = original[first:last] - positions, self.options.likelihood_power
             separations.append(separate(difference, error, tried, likelihood_power=power))

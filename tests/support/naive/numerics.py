@@ -200,3 +200,33 @@ def pulse_height(signal, shape, regressors, scale, covariance, step_s, *, interc
     weights = np.linalg.solve(total, shape[known])
     information = weights @ shape[known]
     return weights @ centred / information, 1 / np.sqrt(information)
+
+
+def band_pass(values, band_hz, rate, half_length):
+    """Each sample on its own: the ideal filter under a Hamming window, over the run extended by its point reflection."""
+    lags = np.arange(-half_length, half_length + 1)
+    low, high = (2 * f / rate * np.sinc(2 * f / rate * lags) for f in band_hz)
+    taps = (high - low) * np.hamming(len(lags))
+    middle = sum(band_hz) / 2
+    taps /= np.sum(taps * np.cos(2 * np.pi * middle / rate * lags))
+    out = np.full(len(values), np.nan)
+    known = [i for i in range(len(values)) if not np.isnan(values[i])]
+    for i in known:
+        start = stop = i
+        while start - 1 in known:
+            start -= 1
+        while stop + 1 in known:
+            stop += 1
+        if stop + 1 - start <= len(lags) or min(i - start, stop - i) < half_length // 2:
+            continue
+        total = 0.0
+        for lag, weight in zip(lags, taps, strict=True):
+            j = i + lag
+            if j < start:
+                total += weight * (2 * values[start] - values[2 * start - j])
+            elif j > stop:
+                total += weight * (2 * values[stop] - values[2 * stop - j])
+            else:
+                total += weight * values[j]
+        out[i] = total
+    return out

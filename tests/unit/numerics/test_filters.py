@@ -44,3 +44,29 @@ def test_high_pass_lets_no_quintic_through_and_does_not_look_across_a_gap():
 def test_differences_begin_anew_after_a_gap():
     values = np.array([1.0, 3.0, np.nan, 50.0, 49.0])
     np.testing.assert_array_equal(filters.difference(values), [0, 2, np.nan, 0, -1])
+
+
+def test_second_differences_leave_white_noise_its_size_and_nothing_of_a_line():
+    noise = np.random.default_rng(4).normal(0, 3, 20000)
+    assert np.nanstd(filters.second_difference(noise)) == pytest.approx(3, rel=0.05)
+    line = 5.0 * np.arange(10)
+    line[4] = np.nan
+    np.testing.assert_allclose(
+        filters.second_difference(line), [np.nan, 0, 0] + [np.nan] * 3 + [0, 0, 0, np.nan], atol=1e-12
+    )
+
+
+def test_the_band_pass_equals_its_naive_twin_and_does_not_look_across_a_gap():
+    values = np.random.default_rng(5).normal(0, 1, 260).cumsum()
+    values[120:123] = np.nan
+    values[240] = np.nan  # what follows is shorter than the filter
+    band = filters.band_pass(values, band_hz=(6.0, 9.0), rate=100.0, half_length=20)
+    np.testing.assert_allclose(band, naive.band_pass(values, (6.0, 9.0), 100.0, 20), atol=1e-9)
+    assert np.isnan(band[:10]).all() and np.isnan(band[110:133]).all() and np.isnan(band[230:]).all()
+
+
+def test_the_band_pass_lets_its_band_through_without_a_shift():
+    t = np.arange(600) / 100
+    inside, outside = np.sin(2 * np.pi * 8 * t), 100 * np.sin(2 * np.pi * 0.5 * t)
+    band = filters.band_pass(inside + outside, band_hz=(6.0, 10.0), rate=100.0, half_length=40)
+    assert np.nanmax(np.abs(band - inside)) < 0.3

@@ -12,6 +12,7 @@ from markermend.repair.separation import (
     average_by_likelihood,
     bridge_covariance,
     conditional_correlation,
+    oscillation_covariance,
     separate,
     tent_covariance,
 )
@@ -81,11 +82,19 @@ def test_a_tent_is_one_shape_of_any_size():
     assert tent_covariance(40).max() == pytest.approx(1, abs=0.06)
 
 
+def test_an_oscillation_keeps_its_frequency_and_forgets_its_phase():
+    covariance = oscillation_covariance(400, frequency_hz=8.0, coherence_s=0.2, rate=100.0)
+    drawn = np.random.default_rng(3).multivariate_normal(np.zeros(400), covariance, 100, method="eigh")
+    power = (np.abs(np.fft.rfft(drawn)) ** 2).mean(axis=0)
+    assert power.argmax() == pytest.approx(8.0 * 4, abs=3)
+    assert covariance[0, 0] == 1 and abs(covariance[0, 100]) < 1e-4
+
+
 @pytest.mark.parametrize("method", SHAPE_COVARIANCES)
 @pytest.mark.parametrize(("lost", "power"), [([], 1.0), ([0, 5, 6], 1.0), ([], 0.2)])
 def test_separating_is_bayes_rule(method, lost, power):
     rng = np.random.default_rng(5)
-    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS))
+    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS, rate=100.0))
     difference = rng.multivariate_normal(np.zeros(N), covariance + tried[2], 3).T
     difference[lost] = np.nan
     mean, deviation, log_likelihood = naive.separate(difference, covariance, tried, power)
@@ -99,7 +108,7 @@ def test_separating_is_bayes_rule(method, lost, power):
 @pytest.mark.parametrize("method", SHAPE_COVARIANCES)
 def test_what_remains_unsure_is_stated(method):
     rng = np.random.default_rng(2)
-    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS))
+    covariance, tried = errors(), list(artifact_covariances(method, N, OPTIONS, EXTENTS, rate=100.0))
     missed = []
     for _ in range(150):
         truth = rng.multivariate_normal(np.zeros(N), covariance, 3).T

@@ -53,6 +53,17 @@ def test_what_was_measured_mends_the_prediction(wobbling, kind):
     assert after < share * alone and after < share * before
 
 
+def test_wobble_is_removed_although_it_is_no_white_noise(wobbling):
+    wobble = 5 * np.sin(2 * np.pi * 8.0 * np.arange(40) / wobbling.rate)[:, None] * np.array([0.6, 0.0, 0.8])
+    recording, found = distorted(wobbling, wobble), {"noise": [Event(MARKER, START, STOP, 4.0)]}
+    mended, white = (
+        mend(recording, found, methods={**METHODS, "noise": ["separate_noise"]}, separation=options)
+        for options in (OPTIONS, replace(OPTIONS, oscillations_hz=()))
+    )
+    before, after, without = (np.sqrt((error(wobbling, one) ** 2).mean()) for one in (recording, mended, white))
+    assert after < 0.5 * before and after < 0.7 * without
+
+
 @pytest.mark.parametrize("kind", DAMAGE)
 def test_several_ridges_predict_together(wobbling, kind):
     """Each alone is offered by itself; all together are neither worse than the worst nor any of them alone."""

@@ -1,0 +1,203 @@
+"""Excess variance: for a while a marker shakes more than it usually does in a band of frequencies.
+
+Jitter changes from frame to frame, wobble is an oscillation of several Hz. Both are too small for any single change to be
+conspicuous, so the root mean square over a window is judged: by how much it exceeds what is usual of this marker while its
+neighbours move and fit as they do now, and by how much it exceeds the motion of the neighbours in the same band. At an impact
+the neighbours are shaken as well. How much of either is usual is estimated from the recording, as a quantile over all markers.
+Only what is in the trajectory as recorded counts: the artifact of a neighbour is in the residual alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy import ndimage
+
+from markermend.detection.neighbour import residual_scale
+from markermend.detection.neighbour.residual_scale import moving_mean
+from markermend.numerics import filters
+from markermend.numerics.intervals import runs, samples
+from markermend.options.detection import ExcessVarianceOptions, JitterOptions, WobbleOptions
+from markermend.prediction.scene import Scene
+
+MIN_WINDOW = 9
+"""Samples in a window, at least: the variance of fewer is too uncertain."""
+
+MIN_SIZE = 1e-3
+"""Smallest usual size, mm: markers computed from a model fit exactly."""
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """A stretch in which a marker shakes.
+
+    Attributes
+    ----------
+    start, stop : int
+        The stretch, [start, stop).
+    score : float
+        Size in units of the threshold, sustained over the shortest duration.
+    axes : np.ndarray
+        Root mean square along each axis (3,), mm.
+    """
+
+    start: int
+    stop: int
+    score: float
+    axes: np.ndarray
+
+
+class BandDetector:
+    """Finds excess variance in one band of frequencies.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    band : callable
+        Filters a signal (frames,).
+    options : ExcessVarianceOptions
+        Window, duration and threshold.
+    """
+
+    def __init__(self, scene: Scene, band: Callable[[np.ndarray], np.ndarray], options: ExcessVarianceOptions) -> None:
+        self._scene, self._band, self._options = scene, band, options
+        self._window = max(samples(options.window_s, scene.rate, odd=True), MIN_WINDOW)
+        self._recorded = self._filtered(scene.positions)
+        motion = np.sqrt(np.maximum(moving_mean((self._recorded**2).sum(axis=2), self._window), 0))
+        self._motion = neighbour_maximum(motion, scene.neighbours, options.motion_neighbours)
+
+    def find(self, residual: np.ndarray) -> list[list[Shaking]]:
+        """Find the stretches in which markers shake.
+
+        Parameters
+        ----------
+        residual : np.ndarray
+            Residuals (frames, markers, 3), mm, NaN = missing.
+
+        Returns
+        -------
+        list[list[Shaking]]
+            The stretches of each marker, in order.
+        """
+        shaking = self._filtered(residual)
+        power, common = (
+            np.maximum(moving_mean((shaking * other).sum(axis=2), self._window), 0)
+            for other in (shaking, self._recorded)
+        )
+        power[np.isnan(shaking[..., 0])] = np.nan
+        size = np.minimum(common, power) / np.maximum(np.sqrt(power), MIN_SIZE)
+        score = self._score(np.sqrt(power), size)
+        length = samples(self._options.min_duration_s, self._scene.rate)
+        return [self._stretches(size[:, m], score[:, m], shaking[:, m], length) for m in range(score.shape[1])]
+
+    def _filtered(self, values: np.ndarray) -> np.ndarray:
+        """Filter trajectories (frames, markers, 3)."""
+        columns = [self._band(column) for column in values.reshape(len(values), -1).T]
+        return np.stack(columns, axis=1).reshape(values.shape)
+
+    def _score(self, residual_size: np.ndarray, size: np.ndarray) -> np.ndarray:
+        """Size of shaking (frames, markers) in units of its threshold, 0 where there is none."""
+        options = self._options
+        # In the residuals of neighbours the artifact of the marker itself must not count as their own.
+        level = np.array(
+            [np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else MIN_SIZE for own in residual_size.T]
+        )
+        usual = residual_scale.fitted_scale(
+            np.maximum(size, np.maximum(level, MIN_SIZE)),
+            self._scene.neighbours,
+            self._motion[None],
+            count=options.scale_neighbours,
+            window=1,
+            min_scale=MIN_SIZE,
+        )
+        score = size / np.maximum(options.floor_mm, options.min_motion_ratio * self._motion)
+        known = ~np.isnan(size)
+        for reference in (usual, np.maximum(self._motion, usual)):
+            relative = size / reference
+            often = float(np.quantile(relative[known], options.tail_quantile)) if known.any() else 1.0
+            score = np.minimum(score, relative / (options.threshold_factor * max(often, 1e-9)))
+        return np.nan_to_num(score)
+
+    def _stretches(self, size: np.ndarray, score: np.ndarray, shaking: np.ndarray, length: int) -> list[Shaking]:
+        """The stretches of one marker whose score stays above 1 for a number of samples."""
+        found = []
+        for start, stop in runs(score > 1):
+            if stop - start >= length:
+                around = slice(max(0, start - self._window), stop + self._window)
+                enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
+                inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
+                lasting = ndimage.minimum_filter1d(score[start:stop], length).max()
+                rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
+                found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
+        return found
+
+
+def jitter_detector(scene: Scene, options: JitterOptions) -> BandDetector:
+    """Make the detector of jitter from frame to frame.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    options : JitterOptions
+        Window, duration and threshold.
+
+    Returns
+    -------
+    BandDetector
+        The detector.
+    """
+    return BandDetector(scene, filters.second_difference, options)
+
+
+def wobble_detectors(scene: Scene, options: WobbleOptions) -> list[BandDetector]:
+    """Make the detectors of wobble: one of each band below half of the sampling rate.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    options : WobbleOptions
+        Window, duration and threshold; the bands.
+
+    Returns
+    -------
+    list[BandDetector]
+        The detectors.
+    """
+    half_length = samples(options.filter_s / 2, scene.rate)
+    ratio = options.bandwidth_ratio
+    bands = [(frequency / ratio, frequency * ratio) for frequency in options.frequencies_hz]
+    return [
+        BandDetector(scene, partial(filters.band_pass, band_hz=band, rate=scene.rate, half_length=half_length), options)
+        for band in bands
+        if band[1] < scene.rate / 2
+    ]
+
+
+def neighbour_maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """Take the maximum over the nearest neighbours of each marker: with one that moves alike a marker does not shake alone.
+
+    Parameters
+    ----------
+    size : np.ndarray
+        Sizes (frames, markers), NaN = missing.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    count : int
+        Number of nearest neighbours.
+
+    Returns
+    -------
+    np.ndarray
+        The maximum of what is known (frames, markers), 0 where nothing is.
+    """
+    largest, known = np.zeros_like(size), np.nan_to_num(size)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            largest[:, m] = known[:, np.asarray(around, int)[:count]].max(axis=1)
+    return largest

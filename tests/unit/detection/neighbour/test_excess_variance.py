@@ -1,0 +1,75 @@
+"""Excess variance in a band of frequencies: what a marker makes alone, sustained, and above what is usual of it."""
+
+import numpy as np
+import pytest
+
+from markermend.detection.neighbour import excess_variance
+from markermend.options.detection import JitterOptions, WobbleOptions
+from markermend.prediction.scene import Scene
+
+RATE = 100.0
+NEAR = [np.delete(np.arange(6), m) for m in range(6)]
+
+
+@pytest.fixture
+def still():
+    """The residual of six markers that rest: 0.2 mm of white noise."""
+    return np.random.default_rng(1).normal(0, 0.2, (1000, 6, 3))
+
+
+def find(residual, positions=None):
+    """The stretches of jitter of each marker."""
+    scene = Scene(residual if positions is None else positions, RATE, NEAR)
+    return excess_variance.jitter_detector(scene, JitterOptions()).find(residual)
+
+
+def test_nothing_is_found_where_all_is_as_usual(still):
+    assert not any(find(still))
+
+
+def test_a_stretch_of_jitter_is_found_and_no_shorter_one(still):
+    still[400:480, 2] += np.random.default_rng(2).normal(0, 2.0, (80, 3))
+    still[700:706, 4] += np.random.default_rng(3).normal(0, 2.0, (6, 3))
+    found = find(still)
+    assert [len(own) for own in found] == [0, 0, 1, 0, 0, 0]
+    assert 390 <= found[2][0].start <= 400 and 480 <= found[2][0].stop <= 490
+    assert found[2][0].score > 1
+
+
+def test_what_is_in_the_residual_alone_belongs_to_a_neighbour(still):
+    positions = still.copy()
+    still[400:480, 2] += np.random.default_rng(2).normal(0, 2.0, (80, 3))
+    assert not any(find(still, positions))
+
+
+def test_the_residuals_of_neighbours_excuse_nobody(still):
+    """In a small rigid group the noise of one marker is in the residuals of all."""
+    positions = still.copy()
+    noise = np.random.default_rng(2).normal(0, 3.0, (80, 3))
+    positions[400:480, 2] += noise
+    still[400:480, 2] += noise
+    still[400:480, [0, 1, 3, 4, 5]] -= 0.5 * noise[:, None]
+    assert [len(own) for own in find(still, positions)] == [0, 0, 1, 0, 0, 0]
+
+
+def test_a_marker_that_shakes_with_a_neighbour_is_excused(still):
+    positions = still.copy()
+    noise = np.random.default_rng(2).normal(0, 3.0, (80, 3))
+    positions[400:480, [1, 2]] += noise[:, None]
+    still[400:480, 2] += noise
+    assert not any(find(still, positions))
+
+
+def test_wobble_is_found_in_its_band(still):
+    wave = 4 * np.sin(2 * np.pi * 8.0 * np.arange(120) / RATE)
+    still[400:520, 1, 2] += wave
+    found = [one.find(still)[1] for one in excess_variance.wobble_detectors(Scene(still, RATE, NEAR), WobbleOptions())]
+    assert any(found)
+    for stretch in (one for own in found for one in own):
+        assert abs(stretch.start - 400) <= 20 and abs(stretch.stop - 520) <= 20
+        assert stretch.axes.argmax() == 2
+
+
+def test_bands_above_half_of_the_rate_are_left_out():
+    scene = Scene(np.zeros((300, 2, 3)), 25.0, [np.array([1]), np.array([0])])
+    assert len(excess_variance.wobble_detectors(scene, WobbleOptions())) == 2
