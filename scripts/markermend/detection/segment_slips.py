@@ -131,7 +131,7 @@ class _SlipFinder:
         options = self.options
         margin = options.max_frames + options.context_frames
         rows = np.arange(max(0, frame - margin), min(len(self.scene.positions), frame + margin + 1))
-        around = np.concatenate([[seed], np.asarray(self.scene.neighbours[seed], int)[: options.neighbours]])
+        around = np.concatenate([[seed], np.asarray(self.scene.neighbours[seed], int)])
         around = around[self.scene.present[rows][:, around].all(axis=0)]
         if len(rows) < margin + 2 * options.context_frames or not len(around) or around[0] != seed:
             return None

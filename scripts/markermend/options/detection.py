@@ -251,14 +251,11 @@ class SegmentSlipOptions:
     min_markers: Annotated[int, AtLeast(2)] = 3
     """Markers that slip together, at least."""
 
-    neighbours: Count = 16
-    """Nearest markers among which those are looked for that slip with a marker."""
-
     anchors: Annotated[int, AtLeast(3)] = 6
-    """Nearest of the others, against which they move."""
+    """Nearest markers that do not slip with these, against which they move."""
 
     min_share: Annotated[float, Above(0), AtMost(1)] = 0.6
-    """Share of these that do not slip, at least (0 to 1)."""
+    """Share of the anchors that stay in their places, at least (0 to 1)."""
 
 
 @dataclass(frozen=True)

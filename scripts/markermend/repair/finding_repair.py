@@ -75,8 +75,8 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     """Write the best candidate; without any that may be taken the samples become missing if their distances contradict them.
 
     Where the best candidate would leave the recording no better, or the distances to the neighbours are as expected, the
-    samples stay as measured. Where a person confirmed the
-    finding, the best candidate is taken despite any objection.
+    samples stay as measured. Where a person confirmed the finding, and for markers that slipped together, the best candidate is
+    taken despite any objection of the neighbours.
     """
     options = maker.options
     methods = [ruling.method] if ruling.method else options.methods[finding.stage]
@@ -84,7 +84,7 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     candidates = maker.candidates(methods, m, event.start, event.stop)
     best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)
     taken = choose(candidates, max_error_mm=options.max_error_mm, preference_factor=options.preference_factor)
-    if taken is None and ruling.confirmed:
+    if taken is None and best is not None and (ruling.confirmed or _decides_alone(finding, best, options.max_error_mm)):
         taken = best
     if taken:
         result.write(finding.stage, event, taken, candidates, ruling)
@@ -95,6 +95,12 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     if blank and not NOT_PROPOSING.issuperset(methods) and not ruling.confirmed:
         reason, blank = _unless_as_expected(reason, event, maker, result)
     result.leave(event, names_of(finding.classes), reason, ruling, blank=blank, candidates=candidates)
+
+
+def _decides_alone(finding: Finding, best: Candidate, max_error_mm: float) -> bool:
+    """Whether the expected error decides alone: the neighbours of markers that slipped together slipped, too."""
+    together = any(artifact.scope == "segment" for artifact in finding.classes)
+    return together and best.expected_error <= min(max_error_mm, best.largest_change)
 
 
 def _unless_as_expected(

@@ -66,3 +66,14 @@ def test_without_the_method_they_become_missing_and_without_neighbours_they_are_
     recording.positions[STOP:] = np.nan
     left = mend(recording, found, methods=WITH_MOVING).repairs_left
     assert {one.reason.cause for one in left} == {Cause.NO_METHOD}
+
+
+def test_markers_that_slip_together_are_repaired_together(clean):
+    positions = clean.positions.copy()
+    members = [clean.markers.index(name) for name in ("2a", "2b", "2c", "2d")]
+    positions[600:604, members] += SHIFT
+    recording = type(clean)(clean.markers, positions, clean.rate, facts=clean.facts)
+    found = {"frames": [Event(clean.markers[m], 600, 604, 3.0, kind="slip", group="2") for m in members]}
+    result = mend(recording, found, methods=WITH_MOVING)
+    assert {(one.kind, one.method) for one in result.repairs} == {("slip", "spline")} and len(result.repairs) == 4
+    assert np.abs(result.positions - clean.positions).max() < 1
