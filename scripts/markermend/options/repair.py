@@ -69,6 +69,9 @@ class SeparationOptions:
     oscillation_coherence_s: PositiveSeconds = 0.15
     """Time over which amplitude and phase of wobble stay alike."""
 
+    step_ramps_frames: Annotated[tuple[CountOrNone, ...], NotEmpty] = (0, 2)
+    """Frames, all of them tried, that a step takes to its level and back."""
+
     border_s: Seconds = 0.15
     """Time on either side of a finding whose samples are used."""
 

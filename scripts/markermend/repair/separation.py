@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -60,10 +61,30 @@ def tent_covariance(n: int) -> np.ndarray:
     return np.outer(shape, shape)
 
 
-SHAPE_COVARIANCES: Mapping[str, Sequence[Callable[[int], np.ndarray]]] = {
-    "separate_noise": [np.eye],
-    "separate_step": [lambda n: np.ones((n, n))],
-    "separate_slow": [bridge_covariance, tent_covariance],
+def plateau_covariance(n: int, *, ramp: int) -> np.ndarray:
+    """Give the covariance of a constant shape that begins and ends with a ramp.
+
+    Parameters
+    ----------
+    n : int
+        Number of frames.
+    ramp : int
+        Frames on the way at either end.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        The covariance of that shape with an amplitude of variance 1.
+    """
+    at = np.arange(1, n + 1)
+    shape = np.minimum(np.minimum(at, at[::-1]) / (ramp + 1), 1)
+    return np.outer(shape, shape)
+
+
+SHAPE_COVARIANCES: Mapping[str, Callable[[SeparationOptions], Sequence[Callable[[int], np.ndarray]]]] = {
+    "separate_noise": lambda options: [np.eye],
+    "separate_step": lambda options: [partial(plateau_covariance, ramp=ramp) for ramp in options.step_ramps_frames],
+    "separate_slow": lambda options: [bridge_covariance, tent_covariance],
 }
 """Covariances (n, n) of artifacts of amplitude 1 over n frames, by the method that removes such artifacts."""
 
@@ -114,7 +135,7 @@ def artifact_covariances(
     ndarray of float, shape (n, n)
         A covariance, mm^2.
     """
-    for shape, (first, last) in itertools.product(SHAPE_COVARIANCES[method], extents):
+    for shape, (first, last) in itertools.product(SHAPE_COVARIANCES[method](options), extents):
         covariance = np.zeros((n, n))
         covariance[first:last, first:last] = shape(last - first)
         for amplitude, roughness in itertools.product(options.amplitudes_mm, options.roughness_mm):

@@ -13,6 +13,7 @@ from markermend.repair.separation import (
     bridge_covariance,
     conditional_correlation,
     oscillation_covariance,
+    plateau_covariance,
     separate,
     tent_covariance,
 )
@@ -28,6 +29,7 @@ OPTIONS = SeparationOptions(
     border_s=0.1,
     margin_fractions=(0,),
     likelihood_power=1,
+    step_ramps_frames=(0, 2),
 )
 EXTENTS = [(0, N), (3, N - 2)]
 
@@ -88,6 +90,12 @@ def test_an_oscillation_keeps_its_frequency_and_forgets_its_phase():
     power = (np.abs(np.fft.rfft(drawn)) ** 2).mean(axis=0)
     assert power.argmax() == pytest.approx(8.0 * 4, abs=3)
     assert covariance[0, 0] == 1 and abs(covariance[0, 100]) < 1e-4
+
+
+def test_a_plateau_is_constant_between_its_ramps():
+    assert np.allclose(plateau_covariance(6, ramp=0), np.ones((6, 6)))
+    trajectory = np.array([1, 2, 3, 3, 3, 2, 1]) / 3
+    assert np.allclose(plateau_covariance(7, ramp=2), np.outer(trajectory, trajectory))
 
 
 @pytest.mark.parametrize("method", SHAPE_COVARIANCES)
