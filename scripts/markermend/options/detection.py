@@ -637,7 +637,7 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     jump_mismatch_fraction: Positive = 0.2
     """Standard deviation of the sum of the two jumps of a step, as a part of their size."""
 
-    displaced_cost_per_s: NotNegative = 20
+    displaced_cost_per_s: NotNegative = 8
     """By how much the logarithm of the likelihood of a step falls with its duration, per second: the longer part is right where
     nothing else decides."""
 
