@@ -24,9 +24,9 @@ def test_nothing_where_all_is_well():
 
 
 def test_a_marker_knocked_for_good():
-    positions = displaced("2b", onset(1000))
+    positions = displaced("2b", onset(1200))
     [event] = find(positions)
-    assert (event.marker, event.start, event.stop, event.kind) == ("2b", 1000, FRAMES, "displaced")
+    assert (event.marker, event.start, event.stop, event.kind) == ("2b", 1200, FRAMES, "displaced")
     assert event.amount_mm == pytest.approx(17, abs=0.5)
     assert event.reference == "longer part" and event.score > 1
     assert find(positions, sudden=False) == []
@@ -56,7 +56,7 @@ def test_a_marker_that_creeps():
 @pytest.mark.parametrize(
     ("start", "usual", "place", "reference"),
     [
-        (400, False, (0, 400), "longer part"),
+        (300, False, (0, 300), "longer part"),
         (750, False, (750, FRAMES), "undecided"),
         (400, True, (400, FRAMES), "usual distances"),
     ],
