@@ -14,7 +14,7 @@ import numpy as np
 from markermend.command.stage import Stage
 from markermend.core.originals import find_originals
 from markermend.core.recording import Recording, Restored, SetAside
-from markermend.core.written import written_changes
+from markermend.core.written import is_reported, written_changes
 from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.formats.text import trc
@@ -36,8 +36,10 @@ def work(call: Any) -> str:
     measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
     certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
-    written = written_changes(measured, restored, change_file.read(call.record), certificate["refused"])
-    atomic.write_text(call.changes, change_table([*written.applied, *written.refused], restored))
+    record = change_file.read(call.record)
+    written = written_changes(measured, restored, record, certificate["refused"])
+    rows = [*written.applied, *written.refused, *filter(is_reported, record)]
+    atomic.write_text(call.changes, change_table(rows, restored))
     originals = find_originals(measured, written.recording, written.applied)
     originals_file.write(call.originals, originals, call.facts)
     for path in call.trc:

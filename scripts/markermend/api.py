@@ -30,7 +30,7 @@ from markermend.core.mesh import Mesh
 from markermend.core.originals import find_originals
 from markermend.core.recording import ORIGINS, Recording, Restored
 from markermend.core.unjudged import unjudged_markers, unjudged_warnings
-from markermend.core.written import written_changes
+from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
@@ -482,7 +482,8 @@ def write(
     certificate = write_back.write_cleaned(Path(original), Path(path), cleaned.measured, cleaned.recording)
     written = written_changes(cleaned.measured, cleaned.recording, cleaned.changes, certificate["refused"])
     if changes is not None:
-        atomic.write_text(Path(changes), change_table([*written.applied, *written.refused], cleaned.recording))
+        rows = [*written.applied, *written.refused, *filter(is_reported, cleaned.changes)]
+        atomic.write_text(Path(changes), change_table(rows, cleaned.recording))
     if originals is not None:
         values = find_originals(cleaned.measured, written.recording, written.applied)
         originals_file.write(Path(originals), values, {"stage": "export"})

@@ -79,3 +79,19 @@ def _partly(measured: Recording, restored: Restored, where: np.ndarray) -> Resto
         error=np.where(where, restored.error, np.where(measured.missing, np.nan, 0.0)),
         error95=np.where(where, restored.error95, np.where(measured.missing, np.nan, 0.0)),
     )
+
+
+def is_reported(change: Change) -> bool:
+    """Check whether a finding of one marker is left because its class is only reported.
+
+    Parameters
+    ----------
+    change : Change
+        What was done to it.
+
+    Returns
+    -------
+    bool
+        Whether it is.
+    """
+    return change.group is None and change.reason is not None and change.reason.cause is Cause.REPORTED

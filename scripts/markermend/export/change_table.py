@@ -9,10 +9,12 @@ from typing import Any
 
 from markermend.core.changes import DECIMALS, Change, Outcome
 from markermend.core.recording import Recording
+from markermend.core.written import is_reported
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
     "method", "samples", "largest_change_mm", "expected_error_mm", "decision", "alternatives", "group",
+    "reason",
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
@@ -23,6 +25,9 @@ FILLED_GAP = "filled"
 REFUSED = "refused"
 """What the column `method` says of a change that the number format of the file cannot hold: its samples stay as measured."""
 
+REPORTED = "reported"
+"""What it says of a finding of a class that is only reported: its samples stay as measured, and the column `reason` says why."""
+
 
 def change_table(changes: Iterable[Change], recording: Recording) -> str:
     """Write the table of changes.
@@ -30,7 +35,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
     Parameters
     ----------
     changes : sequence of Change
-        The changes in the order of the rows, as applied or, with the outcome `left`, refused by the file's format.
+        The changes in the order of the rows, as applied or, with the outcome `left`, refused by the file's format or reported.
     recording : Recording
         The recording, whose name, rate and numbering of frames the table uses.
 
@@ -62,14 +67,22 @@ def _row(change: Change, recording: Recording) -> dict[str, Any]:
         "score": _figure(change.score),
         "axes": change.axes if repaired else "",
         "partner": (change.partner or "") if repaired else "",
-        "method": REFUSED if change.outcome is Outcome.LEFT else change.method or change.outcome,
+        "method": _method(change),
         "samples": change.samples,
         "largest_change_mm": _figure(change.largest_change_mm),
         "expected_error_mm": _figure(change.expected_error_mm),
         "decision": "; ".join(change.decisions),
         "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in alternatives),
         "group": change.group or "",
+        "reason": change.reason.text if change.reason and is_reported(change) else "",
     }
+
+
+def _method(change: Change) -> str:
+    """What replaced the samples, or why none did."""
+    if change.outcome is Outcome.LEFT:
+        return REPORTED if is_reported(change) else REFUSED
+    return change.method or change.outcome
 
 
 def _figure(value: float | None) -> float | str:

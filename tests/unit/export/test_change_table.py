@@ -53,6 +53,14 @@ def test_figures_are_blank_where_there_are_none():
     assert (swap["partner"], blanked["partner"]) == ("B", "")
 
 
+def test_what_is_only_reported_says_why_it_is_left():
+    reason = Reason(Cause.REPORTED, "23.0 mm off where it was before: measure again")
+    found = Change("LTIB", 50, 900, ("displaced",), Outcome.LEFT, 4.0, "xz", samples=850, reason=reason)
+    [row] = rows([found])
+    assert (row["marker"], row["class"], row["method"], row["reason"]) == ("LTIB", "displaced", "reported", reason.text)
+    assert (row["start_s"], row["stop_s"], row["largest_change_mm"]) == ("0.5", "9.0", "")
+
+
 def test_without_changes_there_is_a_header():
     assert change_table([], Recording((), np.empty((0, 0, 3)), 1.0)) == "\t".join(COLUMNS) + "\n"
 
