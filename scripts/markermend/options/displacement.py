@@ -92,9 +92,13 @@ class DisplacementOptions:
     usual_factor: Factor = 1.5
     """Those at the other place must deviate from them by this many times as much."""
 
-    longer_factor: Positive = 3
-    """Where the usual distances do not decide, the place at which the marker is for longer by this factor counts as right; else
-    it is undecided, and the earlier place is taken."""
+    longer_factor: Factor = 1.5
+    """Where the usual distances do not decide, the earlier place counts as right if the marker is there for longer by this
+    factor."""
+
+    later_longer_factor: Factor = 3
+    """The later place counts as right if the marker is there for longer by this factor: most markers are knocked after they were
+    placed. Between the two factors it is undecided, and the earlier place is taken."""
 
     level_block_s: PositiveSeconds = 1
     """The error of a displacement follows from the means of the remaining residual over blocks of this duration."""

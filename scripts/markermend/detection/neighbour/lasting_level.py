@@ -111,8 +111,10 @@ def displaced_parts(
     counts = np.count_nonzero(present & ~second), np.count_nonzero(present & second)
     if usual is not None:
         reference, is_second = "usual distances", usual == 0
-    elif max(counts) >= options.longer_factor * min(counts):
-        reference, is_second = "longer part", bool(counts[0] >= counts[1])
+    elif counts[0] >= options.longer_factor * counts[1]:
+        reference = "longer part"
+    elif counts[1] >= options.later_longer_factor * counts[0]:
+        reference, is_second = "longer part", False
     if not is_second and displacement.course.rise_s > 0:
         # Until it has arrived, a creep is displaced from its second place.
         second[: span[0] + round(displacement.course.rise_s * scene.rate)] = False

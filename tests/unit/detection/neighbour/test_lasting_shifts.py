@@ -58,6 +58,8 @@ def test_a_marker_that_creeps():
     [
         (300, False, (0, 300), "longer part"),
         (750, False, (750, FRAMES), "undecided"),
+        (500, False, (500, FRAMES), "undecided"),
+        (1000, False, (1000, FRAMES), "longer part"),
         (400, True, (400, FRAMES), "usual distances"),
     ],
 )
