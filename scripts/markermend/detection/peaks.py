@@ -10,6 +10,7 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, pulses, residual_windows
+from markermend.detection.neighbour.common_motion import without_common_motion
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics import intervals
@@ -42,13 +43,14 @@ def detect_peaks(
     list[Event]
         Disjoint events, sorted.
     """
+    unclaimed = inputs.without_claimed(scene, earlier)
     found, _ = attribution.attribute(
-        PeakDetector(inputs.without_claimed(scene, earlier), markers, options),
+        PeakDetector(unclaimed, markers, options),
         predictor=predictor,
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
     )
-    return events.disjoint(found)
+    return events.disjoint(without_common_motion(found, unclaimed, markers, predictor, options.common_motion))
 
 
 class PeakDetector(WindowDetector):

@@ -370,6 +370,25 @@ class ResidualWindowOptions:
 
 
 @dataclass(frozen=True)
+class CommonMotionOptions:
+    """Options by which common motion, such as an impact, is distinguished from artifacts of single markers."""
+
+    min_unexplained_fraction: Share = 0.15
+    """Part of the marker's acceleration that its neighbours, all of them seen, leave unexplained, at least (0 to 1)."""
+
+    min_unexplained_amid_motion: Share = 0.6
+    """The same where more than `max_moving_share` of the markers are accelerated, as at an impact (0 to 1).
+
+    Change it when impacts are taken for artifacts (higher), or artifacts amid an impact are missed (lower)."""
+
+    alike_fraction: Share = 0.5
+    """Another marker counts as accelerated from this part of the marker's own acceleration on (0 to 1)."""
+
+    max_moving_share: Share = 0.2
+    """Share of the other markers that may be accelerated (0 to 1)."""
+
+
+@dataclass(frozen=True)
 class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     """Detect isolated peaks.
 
@@ -400,6 +419,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     """A finding is no peak if a level shift leaves at most this many times the residual that remains without its samples.
 
     Change it when the edges of steps are taken for peaks (higher)."""
+
+    common_motion: CommonMotionOptions = field(default_factory=CommonMotionOptions)
+    """Options by which common motion is distinguished from peaks."""
 
     coordinates: PublishedPeaksOptions = field(default_factory=PublishedPeaksOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""

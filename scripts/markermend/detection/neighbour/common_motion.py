@@ -1,0 +1,79 @@
+"""Common motion: what looks like a peak of one marker, but the body makes it, as at an impact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from markermend.core.events import Event
+from markermend.options.detection import CommonMotionOptions
+from markermend.prediction.interface import ResidualSource
+from markermend.prediction.scene import Scene
+
+
+def without_common_motion(
+    found: Sequence[Event],
+    scene: Scene,
+    markers: Sequence[str],
+    predictor: ResidualSource,
+    options: CommonMotionOptions,
+) -> list[Event]:
+    """Leave out the events that the neighbours explain once all are seen; where many are accelerated it takes less of it.
+
+    Attribution hides simultaneous candidates of neighbours from each other. Where several markers really move together, each
+    alone is then beyond what the rest predicts, although all together agree.
+
+    Parameters
+    ----------
+    found : Sequence[Event]
+        The events.
+    scene : Scene
+        What is observed.
+    markers : Sequence[str]
+        Names of the markers.
+    predictor : ResidualSource
+        Predicts each marker from its neighbours.
+    options : CommonMotionOptions
+        What counts as alike, as many and as little.
+
+    Returns
+    -------
+    list[Event]
+        The other events, in order.
+    """
+    index = {name: m for m, name in enumerate(markers)}
+    concerned = np.unique([index[event.marker] for event in found]).astype(int)
+    recorded = bend(scene.positions)
+    unexplained = bend(predictor.residuals(scene, concerned)) if len(concerned) else recorded
+    kept = []
+    for event in found:
+        m, rows = index[event.marker], slice(max(0, event.start - 1), event.stop + 1)
+        size = recorded[rows].max(axis=0)
+        seen = np.asarray(scene.present[rows].any(axis=0))
+        seen[m] = False
+        moving = float(np.mean(size[seen] >= options.alike_fraction * size[m])) if seen.any() and size[m] > 0 else 0.0
+        amid_motion = moving >= options.max_moving_share
+        enough = options.min_unexplained_amid_motion if amid_motion else options.min_unexplained_fraction
+        left = unexplained[rows, m].max()
+        if left == 0 or left >= enough * size[m]:
+            kept.append(event)
+    return kept
+
+
+def bend(values: np.ndarray) -> np.ndarray:
+    """Measure how much trajectories bend from frame to frame.
+
+    Parameters
+    ----------
+    values : np.ndarray
+        Trajectories (frames, markers, 3), mm, NaN = missing.
+
+    Returns
+    -------
+    np.ndarray
+        Lengths of the second differences (frames, markers), mm; 0 where one of the three samples is missing.
+    """
+    out = np.zeros(values.shape[:2])
+    out[1:-1] = np.nan_to_num(np.linalg.norm(values[2:] - 2 * values[1:-1] + values[:-2], axis=2))
+    return out
