@@ -73,7 +73,7 @@ class ForeignSearch:
         known = np.flatnonzero(~np.isnan(misfit[:, m]))
         others = np.nanmedian(np.where(np.isnan(misfit[known][:, anchors]), np.inf, misfit[known][:, anchors]), axis=1)
         off = misfit[known, m]
-        for first, after in runs(better_states(off - options.min_foreign_misfit, options.change_penalty)):
+        for first, after in _misfitting(off, options.min_foreign_misfit, options.change_penalty):
             own = off[first:after]
             quiet = np.mean(others[first:after] < options.max_anchor_misfit_fraction * own)
             if own.mean() < options.min_foreign_misfit or quiet < 0.5:
@@ -150,3 +150,14 @@ class ForeignSearch:
         """Whether a marker is observed, bool (n,)."""
         seen: np.ndarray = ~np.isnan(self.positions[start:stop, m, 0])
         return seen
+
+
+def _misfitting(misfit: np.ndarray, floor: float, penalty: float) -> Iterator[tuple[int, int]]:
+    """Stretches of frames (n,) whose misfit is above the floor, and above half of what it is in most of such a stretch.
+
+    In a rare pose the misfit of a marker may come near to the floor before its label is on something else.
+    """
+    for start, stop in runs(better_states(misfit - floor, penalty)):
+        limit = max(floor, float(np.quantile(misfit[start:stop], 0.75)) / 2)
+        for first, after in runs(better_states(misfit[start:stop] - limit, penalty)):
+            yield start + first, start + after

@@ -76,6 +76,11 @@ class LabelChange:
     stop: int
     evidence: float
 
+    @property
+    def place(self) -> tuple[Relabelling, int, int]:
+        """The labels and the stretch."""
+        return self.relabelling, self.start, self.stop
+
 
 @dataclass(frozen=True)
 class LabelEvidence:

@@ -44,10 +44,14 @@ def relabel_by_level(
         relabelling: evidence.group_gain(relabelling, evidence.everywhere)
         for relabelling in group_relabellings(evidence, markers)
     }
+    made: set[tuple[Relabelling, int, int]] = set()
     for _ in range(evidence.options.max_changes):
-        best = max(possible_changes(evidence, gains), key=lambda change: change.evidence, default=None)
+        # Groups are judged by other anchors than pairs: what was made once is not taken back.
+        possible = (change for change in possible_changes(evidence, gains) if change.place not in made)
+        best = max(possible, key=lambda change: change.evidence, default=None)
         if best is None:
             break
+        made.add(best.place)
         before = evidence.under
         evidence, rows = evidence.changed(best)
         moved = evidence.under != before
