@@ -59,7 +59,7 @@ class ForeignSearch:
             # A marker that sits elsewhere in most of a recording may have been put there.
             if taken > options.max_foreign_share * np.count_nonzero(self._seen(m, 0, len(self.positions))):
                 stretches = [own for own in stretches if own not in moving]
-            if stretches:
+            if stretches and not self._rests_otherwise(m, stretches):
                 found += [
                     Event(markers[m], start, stop, max(1.0, size / floor), kind="foreign")
                     for start, stop, size in stretches
@@ -127,9 +127,22 @@ class ForeignSearch:
 
     def _rests(self, m: int, start: int, stop: int) -> bool:
         """Whether the samples rest in the laboratory while the markers by which they are judged move on."""
+        return self._rest(m, np.arange((start + stop) // 2, stop))  # it may have fallen and rolled before
+
+    def _rests_otherwise(self, m: int, stretches: Sequence[tuple[int, int, float]]) -> bool:
+        """Whether the samples outside of the stretches rest: then the usual distances are not those of the marker."""
+        other = np.ones(len(self.positions), bool)
+        for start, stop, _ in stretches:
+            other[start:stop] = False
+        return self._rest(m, np.flatnonzero(other & self._seen(m, 0, len(other))))
+
+    def _rest(self, m: int, frames: np.ndarray) -> bool:
+        """Whether the samples in some frames rest while the markers by which they are judged move."""
         options = self.evidence.options
         anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
-        part = self.positions[(start + stop) // 2 : stop, [m, *anchors]]  # it may have fallen and rolled before
+        part = self.positions[frames][:, [m, *anchors]]
+        if not len(part) or np.isnan(part[:, 0]).all():
+            return False
         part = part[:, ~np.isnan(part).all(axis=(0, 2))]
         low, high = np.nanpercentile(part, [5, 95], axis=0)
         extent = np.linalg.norm(high - low, axis=1)

@@ -255,16 +255,23 @@ class LabelEvidence:
         -------
         float
             Mean loss of log likelihood of a marker against what is usual of it in the recording; the median over the markers,
-            of two the smaller one, since the next change may be about the other.
+            of two the smaller one, since the next change may be about the other, unless that did fit before.
         """
         rows = (self.rows >= change.start) & (self.rows < change.stop)
         under = change.relabelling.of(self.under[self.rows[rows]])
         members = np.array(change.relabelling.markers)
         misfit = self.usual_likelihood[members] - self.fit(rows, under).own_log_likelihoods(members)
-        misfit[(under == self.under[self.rows[rows]])[:, members]] = np.nan
+        same = (under == self.under[self.rows[rows]])[:, members]
+        misfit[same] = np.nan
         moved = ~np.isnan(misfit).all(axis=0)
-        means = np.sort(np.nanmean(misfit[:, moved], axis=0))
-        return float(means[(len(means) - 1) // 2]) if len(means) else np.inf
+        means = np.nanmean(misfit[:, moved], axis=0)
+        if not len(means):
+            return np.inf
+        if len(means) == 2:
+            before = np.where(same, np.nan, self.misfit()[rows][:, members])[:, moved]
+            fitted = np.nan_to_num(np.nanmean(before, axis=0), nan=np.inf) <= self.options.max_misfit
+            return float(max(means.min(), *means[fitted])) if fitted.any() else float(means.min())
+        return float(np.sort(means)[(len(means) - 1) // 2])
 
     def section_starts(self, members: Sequence[int]) -> np.ndarray:
         """List the frames at which labels of some markers may pass to each other.
