@@ -97,7 +97,8 @@ class NoiseDetector(IncrementDetector):
         if self._shaken is None or self._shaken[0] is not statistics:
             jitter = self._jitter.find(statistics.residual)
             bands = [detector.find(statistics.residual) for detector in self._wobble]
-            self._shaken = statistics, jitter, [list(chain(*own)) for own in zip(*bands, strict=True)]
+            wobble = [list(chain.from_iterable(own[m] for own in bands)) for m in range(len(jitter))]
+            self._shaken = statistics, jitter, wobble
         return self._shaken[1:]
 
     def _event(self, shaking: Shaking, marker: int) -> Event:

@@ -127,6 +127,8 @@ def fitted_scale(
     """
     from scipy.optimize import nnls  # slow to import
 
+    if not size.size:
+        return np.full(size.shape, min_scale)
     local = np.sqrt(np.maximum(moving_mean(size**2, window), 1e-6))
     level = np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in local.T)])
     relative = np.nan_to_num(local / level, nan=1.0)
@@ -137,7 +139,9 @@ def fitted_scale(
     regressors = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
     some = slice(None, None, max(1, window // 2))
     seen = ~np.isnan(local[some])
-    exponents, _ = nnls(regressors[some][seen], np.log(relative[some][seen])) if seen.any() else (np.zeros(3), 0)
+    exponents, _ = (
+        nnls(regressors[some][seen], np.log(relative[some][seen])) if seen.any() else (np.zeros(len(kinds)), 0)
+    )
     scale: np.ndarray = np.maximum(level * np.exp(regressors @ exponents), min_scale)
     return scale
 
