@@ -13,6 +13,9 @@ import numpy as np
 from markermend.numerics.kriging import Covariance
 from markermend.numerics.matched_filter import raised_cosine
 
+RELATIVE_PRECISION = 1e-15
+"""Part of its trace by which a covariance is larger on its diagonal: as much as numbers in double precision can tell."""
+
 INTERCEPT_STD = 100.0
 """Standard deviation of the constant, in the unit of the signal: it is as good as unknown."""
 
@@ -99,6 +102,8 @@ class PulseRegression:
         noise = by_lag[np.abs(known[:, None] - known)]
         noise[np.diag_indices(len(known))] += covariance.noise + JITTER * by_lag[0] + 1e-9
         total = noise * scale[known, None] * scale[known] + coefficient_std**2 * design @ design.T + INTERCEPT_STD**2
+        # Of trajectories without any noise, as of markers at rest, the matrix would be singular in floating point.
+        total[np.diag_indices(len(known))] += RELATIVE_PRECISION * np.trace(total)
         inverse = np.linalg.inv(total)
         precision[np.ix_(known, known)] = inverse
         weighted[known] = inverse @ (signal[known] - np.median(signal[known], axis=0))
