@@ -649,7 +649,7 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     Change it when steps whose jumps differ in clearness are missed (lower)."""
 
     joint_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.78
-    """Geometric mean of the two jumps as a part of the threshold that suffices where nothing else decides (0 to 1).
+    """Geometric mean of the two jumps as a part of the threshold, at least (0 to 1).
 
     Change it when weak steps are missed (lower)."""
 

@@ -177,7 +177,8 @@ class Explanations:
     def _log_ratio(self, first: int, last: int) -> float:
         """The likelihood of a level shift between two edges or ends."""
         known = self._displacements(first, last)
-        if not known:
+        # Where motion may have made the jumps, a level in between is motion as well.
+        if not known or self.rarity[first] + self.rarity[last] < 0:
             return -np.inf
         displacement = np.mean(known, axis=0)
         start, stop = int(self.frames[first]), int(self.frames[last])
