@@ -1,4 +1,8 @@
-"""Exchanged labels: from one frame to the next each of two or more markers stands where another one was."""
+"""Faults of labels: markers under each other's labels, and labels on something else.
+
+Exchanges from one frame to the next, where each of two or more markers stands where another one was, are found first; then, if the
+subject's usual shape is known, those that only the level shows.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +13,10 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.detection.foreign_labels import ForeignSearch
 from markermend.detection.label_cycles import find_cycle_exchanges
-from markermend.detection.label_evidence import LabelEvidence, find_borders, judged_rows
+from markermend.detection.label_evidence import LabelEvidence
 from markermend.detection.label_levels import relabel_by_level
 from markermend.detection.label_pairs import find_pair_exchanges, length
+from markermend.detection.label_sections import find_borders, judged_rows
 from markermend.detection.labelling import exchange_events, labelling
 from markermend.numerics import intervals, robust
 from markermend.options.detection import LabelsOptions
@@ -22,7 +27,7 @@ MIN_WINDOW = 5
 
 
 def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> list[Event]:
-    """Find the exchanges of labels of a recording.
+    """Find the exchanges of labels of a recording, and labels on something else.
 
     Parameters
     ----------
@@ -37,11 +42,50 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
     -------
     list[Event]
         One event for each marker, sorted, with that under whose label it is recorded as partner. Two markers are each
-        other's partners, three and more form a cycle of partners; all of these have the same interval. Of exchanges of a
-        marker that overlap, those of more markers come first, then the stronger ones.
+        other's partners, three and more form a cycle of partners; all of these have the same interval. Events of the class
+        `foreign` have no partner, and state labels as they are after the exchanges are undone.
     """
     window = max(MIN_WINDOW, intervals.samples(options.window_s, scene.rate, odd=True))
     sudden = sudden_steps(scene.positions, window=window, options=options)
+    found = sudden_exchanges(scene, sudden, window=window, markers=markers, options=options)
+    if scene.shape is None:
+        return found
+    under, score = labelling(found, scene.present.shape, markers)
+    border = find_borders(scene.present, sudden)
+    rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
+    spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
+    evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
+    evidence, score = relabel_by_level(evidence, score, markers=markers)
+    if not np.array_equal(under, evidence.under):
+        found = exchange_events(evidence.under, score, markers)
+    right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
+    found += ForeignSearch(right, scene.rate, evidence).find(markers)
+    return sorted(found, key=lambda event: event.order)
+
+
+def sudden_exchanges(
+    scene: Scene, sudden: np.ndarray, *, window: int, markers: Sequence[str], options: LabelsOptions
+) -> list[Event]:
+    """Find the exchanges of labels from one frame to the next.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    sudden : np.ndarray
+        Where the velocity of a marker breaks, bool (frames, markers).
+    window : int
+        Window of the usual motion, samples.
+    markers : Sequence[str]
+        Names of the markers.
+    options : LabelsOptions
+        Thresholds of a change of labels, and how clear the distances must be.
+
+    Returns
+    -------
+    list[Event]
+        Sorted. Of exchanges of a marker that overlap, those of more markers come first, then the stronger ones.
+    """
     candidates = find_cycle_exchanges(scene, sudden, options)
     candidates += find_pair_exchanges(scene, sudden, window=window, options=options)
     # A cycle is stronger evidence than a pair: two of its members may look like one.
@@ -56,19 +100,6 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
                 Event(markers[m], one.start, one.stop, max(1.0, one.score), "xyz", markers[label])
                 for m, label in zip(members, labels, strict=True)
             ]
-    found = sorted(found, key=lambda event: event.order)
-    if scene.shape is None:
-        return found
-    under, score = labelling(found, scene.present.shape, markers)
-    border = find_borders(scene.present, sudden)
-    rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
-    spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
-    evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
-    evidence, score = relabel_by_level(evidence, score, markers=markers)
-    if not np.array_equal(under, evidence.under):
-        found = exchange_events(evidence.under, score, markers)
-    right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
-    found += ForeignSearch(right, scene.rate, evidence).find(markers)
     return sorted(found, key=lambda event: event.order)
 
 
