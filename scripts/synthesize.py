@@ -1,8 +1,9 @@
 """Make a small data set of synthetic motion capture sessions, and write the truth.
 
-Writes: FOLDER/{subject}/{static,daily,gait}.c3d, the recordings: the static trials and the gait of every second subject
-are clean, the others have artifacts, swapped labels and gaps; TRUTH/{subject}/{recording}/: clean.parquet, the complete
-trajectories, and peaks, noise, steps, slow and gaps.parquet, the contamination as events.
+Writes: FOLDER/{subject}/{static,daily,gait,mishaps}.c3d, the recordings: the static trials, and gait and mishaps of every
+second subject are clean; the others have artifacts, exchanged labels and gaps, mishaps a label on a reflection, a knocked
+marker and faults of the cameras; TRUTH/{subject}/{recording}/: clean.parquet, the complete trajectories, and for each
+detector and the gaps a file of events, the contamination.
 """
 
 import argparse

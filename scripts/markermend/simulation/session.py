@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.events import Event
+from markermend.core.artifacts import BY_NAME, DETECTORS
+from markermend.core.events import Event, from_mask
 from markermend.core.recording import Recording
 from markermend.simulation.artifact_models import Recipe, integers, uniform
 from markermend.simulation.contamination import Contamination
+from markermend.simulation.fault_kinds import KINDS
+from markermend.simulation.fault_site import Site
+from markermend.simulation.faults import FaultyCopy
+from markermend.simulation.faults import contaminate as put_faults
 from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 
@@ -18,8 +23,12 @@ TRIALS = (
     ("static", ("stand",), "pc_int", ()),
     ("daily", ("exercise", "walk", "stand", "sit", "reach"), "pc_real", (0, 1)),
     ("gait", ("walk", "reach"), "dec_real", (1,)),
+    ("mishaps", ("walk", "reach", "sit"), "pc_real", ()),
 )
 """Name, activities, storage, and whether it is contaminated for subjects of even (0) and odd (1) number."""
+
+MISHAPS = ("exchange across gap", "on reflection", "knocked, rigid", "camera hit", "frames repeated")
+"""Kinds of faults, one each, in the trial of this name of subjects of odd number: what no artifact of a moment is."""
 
 STATIC_S, NOISE_MM, FIRST_FRAME = 4.0, 0.2, 251
 """Duration of a static trial, measurement noise, and the number of the first frame where the capture began earlier."""
@@ -87,8 +96,41 @@ def session(*, seed: int, subject: int, duration: float, rate: float) -> Iterato
         result = Contamination(clean.positions, clean.markers, margin=round(0.2 * rate), one_at_a_time=False, rng=rng)
         if subject % 2 in contaminated:
             contaminate(result, rate=rate, share=length / 15)
-        seen = replace(clean, positions=result.positions)
-        yield Take(name, storage, seen, clean, {**result.events, "gaps": result.gap_events})
+        seen, truth = replace(clean, positions=result.positions), {**result.events, "gaps": result.gap_events}
+        if name == "mishaps" and subject % 2:
+            site = Site(clean.positions, clean.markers, rate=rate, margin_s=0.5, rng=rng)
+            copy = put_faults(site, {kind: KINDS[kind].choosing for kind in MISHAPS}, count=1)
+            seen, truth = replace(clean, positions=copy.positions), truth_of(copy, clean.markers)
+        yield Take(name, storage, seen, clean, truth)
+
+
+def truth_of(copy: FaultyCopy, markers: Sequence[str]) -> dict[str, list[Event]]:
+    """State the faults of a copy as events.
+
+    Parameters
+    ----------
+    copy : FaultyCopy
+        The copy.
+    markers : sequence of str
+        Names of its markers.
+
+    Returns
+    -------
+    dict of str to list of Event
+        By detector what was damaged, and the gaps that were made.
+    """
+    found: dict[str, list[Event]] = {stage: [] for stage in DETECTORS}
+    none = np.zeros((*copy.positions.shape[:2], 3), bool)
+    for fault in copy.faults:
+        name = KINDS[fault.kind].classes[0]
+        partner = {markers[m]: markers[p] for m, p in zip(fault.markers, fault.partners, strict=False)}
+        damaged = from_mask(copy.damaged(fault), np.ones(none.shape[:2]), none, markers)
+        found[BY_NAME[name].stage if name in BY_NAME else name] += [
+            replace(event, partner=partner.get(event.marker)) for event in damaged
+        ]
+    lost = np.isnan(copy.positions).any(axis=2) & ~np.isnan(copy.clean).any(axis=2)
+    found["gaps"] = from_mask(lost, np.ones(lost.shape), none, markers)
+    return {kind: sorted(events, key=lambda event: event.order) for kind, events in found.items()}
 
 
 def contaminate(result: Contamination, *, rate: float, share: float) -> None:

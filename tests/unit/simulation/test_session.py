@@ -26,11 +26,11 @@ def made(tmp_path_factory):
 def test_equal_seeds_give_equal_bytes(made, tmp_path):
     synthesize.main(["--folder", str(tmp_path / "recordings"), "--truth", str(tmp_path / "truth"), *FLAGS])
     assert files(made) == files(tmp_path)
-    assert sum(name.endswith(".c3d") for name in files(made)) == 6
+    assert sum(name.endswith(".c3d") for name in files(made)) == 8
 
 
 @pytest.mark.parametrize("subject", ["S01", "S02"])
-@pytest.mark.parametrize("name", ["static", "daily", "gait"])
+@pytest.mark.parametrize("name", ["static", "daily", "gait", "mishaps"])
 def test_files_differ_from_the_truth_where_it_says(made, subject, name):
     truth = made / "truth" / subject / name
     clean = stage_files.read_recording(truth / "clean.parquet")
@@ -46,7 +46,7 @@ def test_files_differ_from_the_truth_where_it_says(made, subject, name):
     distance = np.linalg.norm(seen - clean.positions, axis=2)
     assert distance[damaged == 0].max() < 0.15
     assert (distance[(damaged == 1) & ~missing] < 0.15).sum() < 0.03 * max(1, damaged.sum())
-    assert damaged.any() == (name == "daily" or (name, subject) == ("gait", "S01"))
+    assert damaged.any() == (name == "daily" or (name in ("gait", "mishaps") and subject == "S01"))
 
 
 def test_a_subject_does_not_depend_on_the_others():
@@ -58,10 +58,20 @@ def test_a_subject_does_not_depend_on_the_others():
     assert not np.array_equal(one[1].clean.positions, other[1].clean.positions)
 
 
+def test_mishaps_are_of_every_kind():
+    mishaps = list(session(seed=3, subject=1, duration=15.0, rate=100.0))[3]
+    found = {stage: own for stage, own in mishaps.truth.items() if own}
+    assert set(found) == {"labels", "frames", "steps", "gaps"}
+    assert {event.partner is None for event in found["labels"]} == {True, False}
+    (knocked,) = found["steps"]
+    assert knocked.stop - knocked.start > 100
+    assert len({event.marker for event in found["frames"]}) == len(mishaps.clean.markers)
+
+
 def test_contamination_is_of_every_kind():
     daily = list(session(seed=3, subject=1, duration=15.0, rate=100.0))[1]
     assert {kind: len(found) for kind, found in daily.truth.items()} == {
-        "frozen": 3, "peaks": 15, "noise": 5, "labels": 4, "steps": 5, "slow": 5, "tails": 3, "gaps": 27,
+        "labels": 4, "frames": 0, "frozen": 3, "peaks": 15, "noise": 5, "steps": 5, "slow": 5, "tails": 3, "gaps": 27,
     }  # fmt: skip
     assert all(event.partner is not None for event in daily.truth["labels"])
     for kind, shortest, longest in (
