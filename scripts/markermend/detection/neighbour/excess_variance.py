@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from scipy import ndimage
+from scipy import ndimage, stats
 
 from markermend.detection.neighbour import residual_scale
 from markermend.detection.neighbour.residual_scale import moving_mean
@@ -29,6 +29,9 @@ MIN_WINDOW = 9
 MIN_SIZE = 1e-3
 """Smallest usual size, mm: markers computed from a model fit exactly."""
 
+MEDIAN_SQUARE = float(stats.chi2.median(1))
+"""Median of the squares of a normal variable of variance 1."""
+
 
 @dataclass(frozen=True)
 class Shaking:
@@ -39,7 +42,7 @@ class Shaking:
     start, stop : int
         The stretch, [start, stop).
     score : float
-        Size in units of the threshold, sustained over the shortest duration.
+        Size in units of the threshold, sustained over the shortest duration, without what single changes contribute.
     axes : np.ndarray
         Root mean square along each axis (3,), mm.
     """
@@ -91,8 +94,7 @@ class BandDetector:
         power[np.isnan(shaking[..., 0])] = np.nan
         size = np.minimum(common, power) / np.maximum(np.sqrt(power), MIN_SIZE)
         score = self._score(np.sqrt(power), size)
-        length = samples(self._options.min_duration_s, self._scene.rate)
-        return [self._stretches(size[:, m], score[:, m], shaking[:, m], length) for m in range(score.shape[1])]
+        return [self._stretches(size[:, m], score[:, m], shaking[:, m], residual[:, m]) for m in range(score.shape[1])]
 
     def _filtered(self, values: np.ndarray) -> np.ndarray:
         """Filter trajectories (frames, markers, 3)."""
@@ -122,18 +124,45 @@ class BandDetector:
             score = np.minimum(score, relative / (options.threshold_factor * max(often, 1e-9)))
         return np.nan_to_num(score)
 
-    def _stretches(self, size: np.ndarray, score: np.ndarray, shaking: np.ndarray, length: int) -> list[Shaking]:
-        """The stretches of one marker whose score stays above 1 for a number of samples."""
-        found = []
+    def _stretches(
+        self, size: np.ndarray, score: np.ndarray, shaking: np.ndarray, residual: np.ndarray
+    ) -> list[Shaking]:
+        """The stretches of one marker whose score stays above 1 for long enough, whatever single samples contribute."""
+        found, length = [], samples(self._options.min_duration_s, self._scene.rate)
         for start, stop in runs(score > 1):
             if stop - start >= length:
                 around = slice(max(0, start - self._window), stop + self._window)
                 enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
                 inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
-                lasting = ndimage.minimum_filter1d(score[start:stop], length).max()
+                lasting = ndimage.minimum_filter1d(score[start:stop], length).max() * evenness(residual[start:stop])
                 rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
-                found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
+                if lasting > 1:
+                    found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
         return found
+
+
+def evenness(residual: np.ndarray) -> float:
+    """Compare the median with the mean square of the changes from frame to frame.
+
+    A marker that shakes does so all along. Where a jump or a pulse is in the window, however large, a few changes make up
+    the mean square, and the median is what it would be without them.
+
+    Parameters
+    ----------
+    residual : np.ndarray
+        Residuals (frames, 3), mm.
+
+    Returns
+    -------
+    float
+        Root mean square as estimated from the median, in units of that from the mean: 1 for normal noise along one axis, and
+        at most 1.
+    """
+    squares = (np.diff(residual, axis=0) ** 2).sum(axis=1)
+    squares = squares[~np.isnan(squares)]
+    if not squares.any():
+        return 1.0
+    return float(min(1.0, np.sqrt(np.median(squares) / MEDIAN_SQUARE / np.mean(squares))))
 
 
 def jitter_detector(scene: Scene, options: JitterOptions) -> BandDetector:

@@ -60,6 +60,14 @@ def test_a_marker_that_shakes_with_a_neighbour_is_excused(still):
     assert not any(find(still, positions))
 
 
+@pytest.mark.parametrize(("size", "length"), [(20.0, 15), (400.0, 15), (60.0, 40), (400.0, 4)])
+def test_a_displacement_is_no_shaking_however_large(still, size, length):
+    """Two jumps have power in every band, but the frames between them are as quiet as any."""
+    still[400 : 400 + length, 2, 0] += size
+    wobble = excess_variance.wobble_detectors(Scene(still, RATE, NEAR), WobbleOptions())
+    assert not any(find(still)) and not any(any(one.find(still)) for one in wobble)
+
+
 def test_wobble_is_found_in_its_band(still):
     wave = 4 * np.sin(2 * np.pi * 8.0 * np.arange(120) / RATE)
     still[400:520, 1, 2] += wave
