@@ -127,7 +127,9 @@ def likeliest_groups(evidence: LabelEvidence, counterpart: Mapping[int, int]) ->
     Returns
     -------
     list[Permutation]
-        Exchanges of two pairs at least, each once, of the longest sections.
+        Exchanges of two pairs at least, each once, of the longest sections: all that are likeliest to be exchanged in a section, and
+        those of them that may have been exchanged at its start, and at its end. Limbs may be exchanged at the same time, and a
+        marker that is seen all along hangs together with a limb that is not.
     """
     options = evidence.options
     broken = evidence.border[:, sorted(counterpart)].sum(axis=1) >= 2 * options.min_group_pairs
@@ -138,6 +140,17 @@ def likeliest_groups(evidence: LabelEvidence, counterpart: Mapping[int, int]) ->
         rows = (evidence.rows >= start) & (evidence.rows < stop)
         recorded = np.tile(np.arange(evidence.under.shape[1]), (int(np.count_nonzero(rows)), 1))
         exchange = likeliest_exchange(evidence.fit(rows, recorded, group=True), counterpart) if rows.any() else None
-        if exchange and len(exchange.markers) >= 2 * options.min_group_pairs:
-            found[exchange] = None
+        if exchange:
+            ends = [evidence.border[cut] for cut in (start, stop) if 0 < cut < len(evidence.under)]
+            possible = (_passing(exchange, broken) for broken in ends)
+            found.update(
+                (own, None) for own in (exchange, *possible) if len(own.markers) >= 2 * options.min_group_pairs
+            )
     return list(found)
+
+
+def _passing(exchange: Permutation, broken: np.ndarray) -> Permutation:
+    """The pairs of an exchange of which a trajectory is broken, bool (markers,): no others pass to each other there."""
+    pairs = zip(exchange.markers, exchange.labels, strict=True)
+    passing = [(m, label) for m, label in pairs if broken[[m, label]].any()]
+    return Permutation(tuple(m for m, _ in passing), tuple(label for _, label in passing))

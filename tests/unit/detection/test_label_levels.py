@@ -110,6 +110,43 @@ def test_a_whole_limb_is_exchanged_or_nothing_of_it(walker, gap, lowest):
     assert intervals(found) == sorted(expected)
 
 
+def limbs_exchanged(recording, *limbs):
+    """Limbs (names, start, stop, gap) with their sides exchanged, their markers lost before and after; and the same unexchanged."""
+    positions, clean = recording.positions.copy(), recording.positions.copy()
+    for names, start, stop, gap in limbs:
+        for name in names:
+            own = [recording.markers.index(side + name) for side in "LR"]
+            positions[start:stop, own] = positions[start:stop, own[::-1]]
+            for lost in (slice(start - gap, start), slice(stop, stop + gap)):
+                positions[lost, own] = clean[lost, own] = np.nan
+    expected = [
+        (one, start, stop, other)
+        for names, start, stop, _ in limbs
+        for name in names
+        for one, other in ((f"L{name}", f"R{name}"), (f"R{name}", f"L{name}"))
+    ]
+    return replace(recording, positions=positions), clean, sorted(expected)
+
+
+@pytest.mark.parametrize("second", [(560, 620), (560, 720)])
+def test_two_limbs_that_are_exchanged_at_overlapping_times(walker, second):
+    recording, clean, expected = limbs_exchanged(
+        walker.recording, (SEGMENTS[3:], 500, 650, 12), (("THI", "ASI", "PSI"), *second, 9)
+    )
+    found = find(recording)
+    assert intervals(found) == expected
+    assert np.array_equal(undone(recording, found), clean, equal_nan=True)
+
+
+@pytest.mark.parametrize("seen", [("TOE",), ("HEE", "TOE")])
+def test_a_limb_whose_end_is_seen_all_along(walker, seen):
+    limb = [name for name in SEGMENTS[1:] if name not in seen]
+    recording, clean, expected = limbs_exchanged(walker.recording, (limb, 500, 650, 12))
+    found = find(recording)
+    assert intervals(found) == expected
+    assert np.array_equal(undone(recording, found), clean, equal_nan=True)
+
+
 def test_a_label_on_a_marker_without_a_label(walker):
     recording, positions = walker.recording, walker.recording.positions.copy()
     a, b = recording.markers.index("LTHI"), recording.markers.index("LKNE")
