@@ -24,7 +24,15 @@ def run_script(arguments):
 
 
 def flags(source, target, **more):
-    options = {"recording": "walk", "subject": "Anna", "kind": "auto", "rate": "none", "static-motion-mm": 15, **more}
+    options = {
+        "recording": "walk",
+        "subject": "Anna",
+        "kind": "auto",
+        "rate": "none",
+        "static-motion-mm": 15,
+        "min-placeholder-distance-mm": 1000,
+        **more,
+    }
     lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]
     named = [f"--{name}={value}" for name, value in options.items()]
     return ["--source", source, "--markers", target, *named, *lists]
