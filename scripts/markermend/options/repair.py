@@ -119,6 +119,10 @@ class ShapeGuardOptions:
 
     Change it when good samples are repaired (higher), or artifacts are left (lower)."""
 
+    clear_gain: NotNegative = 1
+    """The same, over all distances, from which a repair stands whatever single mates, or the usual distances, say: a mate may be
+    off itself, and a pose rare."""
+
     max_loss: NotNegative = 0.5
     """The same, by which it makes them less likely, at most: over the samples for each of the `steadiest_mates`, and over all
     distances for the usual ones of the subject alone."""

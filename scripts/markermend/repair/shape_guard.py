@@ -116,16 +116,16 @@ class ShapeGuard:
         Returns
         -------
         Reason or None
-            The reason, with the distance that speaks most clearly against it; None where the repair brings all of
-            them and the steadiest nearer to what is expected, none of the steadiest clearly away from it, and all not clearly
-            away from usual; and where too few of them are known to tell.
+            The reason, with the distance that speaks most clearly against it; None where the repair brings all of them together
+            clearly nearer to what is expected; where it brings all and the steadiest nearer, none of the steadiest clearly away
+            from it, and all not clearly away from usual; and where too few of them are known to tell.
         """
         local = self.expected(marker, start, start + len(measured))
         if local is None:
             return None
         seen, options = np.where(np.isnan(measured), np.nan, proposed), self.options
         gain = self._log_densities(local, seen) - self._log_densities(local, measured)
-        if np.isnan(gain).all():
+        if np.isnan(gain).all() or nan_mean(gain, axis=None) >= options.clear_gain:
             return None
         steadiest = gain[:, : options.steadiest_mates]
         lost = np.nanmin(nan_mean(steadiest), initial=0.0) < -options.max_loss

@@ -56,6 +56,31 @@ def test_a_mate_that_is_itself_off_does_not_decide(recording):
     assert guard.objection(m, START, true, true + 5.0) is not None
 
 
+def test_a_clear_gain_of_all_distances_outweighs_a_mate_that_moves_along(recording):
+    """A repair of a short artifact stands though one of the steadiest mates is displaced with the marker."""
+    guard, m = guard_of(recording)
+    first, stop = START, START + 4
+    positions, true = guard.scene.positions.copy(), recording.positions[first:stop, m]
+    moved = guard.expected(m, first, stop).mates[0]
+    positions[first:stop, moved] += 5.0
+    guard = replace(guard, scene=replace(guard.scene, positions=positions))
+    assert guard.objection(m, first, true + 5.0, true) is None
+    strict = replace(guard, options=replace(OPTIONS, clear_gain=1e9))
+    assert strict.objection(m, first, true + 5.0, true) is not None
+
+
+def test_a_rare_pose_is_no_objection(recording):
+    """The distances before and after say what is right, whatever is usual."""
+    guard, m = guard_of(recording)
+    true, shape = recording.positions[START : START + 4, m], guard.scene.shape
+    measured = true + np.array([12.0, 0.0, 0.0])
+    distance = shape.distance.copy()
+    mates = guard.expected(m, START, START + 4).mates
+    distance[m, mates] = np.linalg.norm(measured[0] - recording.positions[START, mates], axis=1)
+    guard = replace(guard, scene=replace(guard.scene, shape=replace(shape, distance=distance)))
+    assert guard.objection(m, START, measured, true) is None
+
+
 def test_without_mates_or_shape_nothing_is_objected_to(recording):
     true = recording.positions[START:STOP, recording.markers.index(MARKER)]
     for changes in ({"shape": None}, {"positions": np.full_like(recording.positions, np.nan)}):
