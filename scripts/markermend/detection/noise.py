@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from itertools import chain
 
 import numpy as np
 
@@ -55,7 +54,7 @@ def detect_noise(
 
 
 class NoiseDetector(IncrementDetector):
-    """Finds stretches of many sudden increments in the residuals, and of excess variance in some band of frequencies.
+    """Finds stretches of many sudden increments in the residuals, and of excess variance in a band of frequencies.
 
     Parameters
     ----------
@@ -96,8 +95,7 @@ class NoiseDetector(IncrementDetector):
         """The stretches of jitter, and those of wobble, of each marker."""
         if self._shaken is None or self._shaken[0] is not statistics:
             jitter = self._jitter.find(statistics.residual)
-            bands = [detector.find(statistics.residual) for detector in self._wobble]
-            wobble = [list(chain.from_iterable(own[m] for own in bands)) for m in range(len(jitter))]
+            wobble = self._wobble.find(statistics.residual) if self._wobble else [[] for _ in jitter]
             self._shaken = statistics, jitter, wobble
         return self._shaken[1:]
 
@@ -112,9 +110,9 @@ class NoiseDetector(IncrementDetector):
         return excess_variance.jitter_detector(self.scene, self.options.jitter)
 
     @cached_property
-    def _wobble(self) -> list[BandDetector]:
-        """The detectors of wobble, one of each band."""
-        return excess_variance.wobble_detectors(self.scene, self.options.wobble)
+    def _wobble(self) -> BandDetector | None:
+        """The detector of wobble, unless the sampling rate is too low for it."""
+        return excess_variance.wobble_detector(self.scene, self.options.wobble)
 
     def _stretches(self, sudden: np.ndarray) -> Iterator[np.ndarray]:
         """The clusters of frames with sudden increments that are long and dense enough."""

@@ -522,22 +522,22 @@ class JitterOptions(ExcessVarianceOptions):
 class WobbleOptions(ExcessVarianceOptions):
     """Options of the detection of wobble of several Hz."""
 
-    window_s: PositiveSeconds = 0.2
+    window_s: PositiveSeconds = 0.3
     """Window of the root mean square."""
 
     min_duration_s: PositiveSeconds = 0.6
     """Shortest time for which the threshold is exceeded."""
 
-    frequencies_hz: Annotated[tuple[Positive, ...], NotEmpty] = (5.6, 7.8, 11.2)
-    """Centres of the bands of frequencies.
+    threshold_factor: Annotated[float, AtLeast(1)] = 1.4
+    """Smallest root mean square, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours."""
+
+    band_hz: tuple[Positive, Positive] = (5, 13)
+    """The band of frequencies: one for all, since a wobble that varies has its power at several at a time.
 
     Change it when markers wobble more slowly or faster in your data."""
 
-    bandwidth_ratio: Annotated[float, Above(1)] = 1.25
-    """A band reaches from its centre divided by this to its centre multiplied by it."""
-
-    filter_s: PositiveSeconds = 0.4
-    """Length of the band-pass filters."""
+    filter_s: PositiveSeconds = 0.5
+    """Length of the band-pass filter."""
 
     border_power_fraction: Share = 0.15
     """The stretch extends to the last sample whose square exceeds this part of the median mean square (0 to 1).

@@ -183,29 +183,26 @@ def jitter_detector(scene: Scene, options: JitterOptions) -> BandDetector:
     return BandDetector(scene, filters.second_difference, options)
 
 
-def wobble_detectors(scene: Scene, options: WobbleOptions) -> list[BandDetector]:
-    """Make the detectors of wobble: one of each band below half of the sampling rate.
+def wobble_detector(scene: Scene, options: WobbleOptions) -> BandDetector | None:
+    """Make the detector of wobble.
 
     Parameters
     ----------
     scene : Scene
         What is observed.
     options : WobbleOptions
-        Window, duration and threshold; the bands.
+        Window, duration and threshold; the band.
 
     Returns
     -------
-    list[BandDetector]
-        The detectors.
+    BandDetector or None
+        The detector; None where the band is not below half of the sampling rate.
     """
+    if options.band_hz[1] >= scene.rate / 2:
+        return None
     half_length = samples(options.filter_s / 2, scene.rate)
-    ratio = options.bandwidth_ratio
-    bands = [(frequency / ratio, frequency * ratio) for frequency in options.frequencies_hz]
-    return [
-        BandDetector(scene, partial(filters.band_pass, band_hz=band, rate=scene.rate, half_length=half_length), options)
-        for band in bands
-        if band[1] < scene.rate / 2
-    ]
+    band = partial(filters.band_pass, band_hz=options.band_hz, rate=scene.rate, half_length=half_length)
+    return BandDetector(scene, band, options)
 
 
 def neighbour_maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
