@@ -1,7 +1,7 @@
 """Detect exchanged labels: markers that stand under each other's labels over a stretch.
 
 Reads: 01_markers.parquet, mesh.json.
-Writes: 02_labels.parquet.
+Writes: 02_labels.parquet, with warnings of exchanges of which nothing says which part is right among its facts.
 """
 
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from typing import Any
 
 from markermend.command import detector
 from markermend.detection.labels import detect_labels
+from markermend.detection.open_exchanges import open_exchanges
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
@@ -19,8 +20,10 @@ STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="exchanged labels
 def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
     mesh = mesh_file.read(call.mesh, recording.facts["recording"])
-    found = detect_labels(Scene.of(recording, mesh), markers=recording.markers, options=call.options)
-    stage_files.write_events(call.events, found, call.facts)
+    scene = Scene.of(recording, mesh)
+    found = detect_labels(scene, markers=recording.markers, options=call.options)
+    warnings = open_exchanges(scene, found, markers=recording.markers, options=call.options)
+    stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
     return detector.result(found)
 
 

@@ -35,6 +35,7 @@ from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
+from markermend.detection.open_exchanges import open_exchanges
 from markermend.detection.peaks import detect_peaks
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps
@@ -65,6 +66,7 @@ from markermend.planning import config as planning_config
 from markermend.planning import decision_cells
 from markermend.planning.contradictions import Line, find_contradictions
 from markermend.planning.decision_table import COLUMNS, in_order
+from markermend.prediction.scene import Scene
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, mesh_file, originals_file
 from markermend.storage.folder_names import printable
@@ -165,6 +167,8 @@ class Cleaned:
         The outcome of each finding and each gap, or why nothing was done.
     unjudged : mapping of str to str
         Why a marker could not be judged but for its labels, by marker.
+    open_exchanges : sequence of str
+        Which markers may be exchanged in about half of the recording, one sentence each.
     """
 
     measured: Recording
@@ -173,11 +177,13 @@ class Cleaned:
     findings: Mapping[str, list[Event]]
     changes: Sequence[Change]
     unjudged: Mapping[str, str] = field(default_factory=dict)
+    open_exchanges: Sequence[str] = ()
 
     @property
     def warnings(self) -> list[str]:
-        """What a person should know, one sentence each: of the file, of the mesh, and of markers that could not be judged."""
-        return [*self.measured.facts.get("warnings", ()), *self.mesh.warnings, *unjudged_warnings(self.unjudged)]
+        """What a person should know, one sentence each: of the file, the mesh, labels, and markers that could not be judged."""
+        of_file = self.measured.facts.get("warnings", ())
+        return [*of_file, *self.mesh.warnings, *self.open_exchanges, *unjudged_warnings(self.unjudged)]
 
 
 def read(
@@ -426,13 +432,18 @@ def clean(
     mesh = infer_mesh([recording], options=options) if mesh is None else mesh
     findings = detect(recording, mesh, options)
     filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
+    own_mesh = mesh_of(recording, mesh)
     unjudged = unjudged_markers(
         recording,
-        mesh_of(recording, mesh),
+        own_mesh,
         min_frames=options.mesh.min_frames,
         min_neighbours=options.mesh.min_predictors,
     )
-    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged)
+    exchanged: list[str] = []
+    if "labels" in findings:
+        scene = Scene.of(recording, own_mesh)
+        exchanged = open_exchanges(scene, findings["labels"], markers=recording.markers, options=options.labels)
+    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, exchanged)
 
 
 def write(

@@ -18,6 +18,7 @@ from markermend.detection.label_levels import relabel_by_level
 from markermend.detection.label_pairs import find_pair_exchanges, length
 from markermend.detection.label_sections import find_borders, judged_rows
 from markermend.detection.labelling import exchange_events, labelling
+from markermend.detection.open_exchanges import without_open
 from markermend.numerics import intervals, robust
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -57,7 +58,9 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
     evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
     evidence, score = relabel_by_level(evidence, score, markers=markers)
     if not np.array_equal(under, evidence.under):
-        found = exchange_events(evidence.under, score, markers)
+        every = exchange_events(evidence.under, score, markers)
+        limit = options.max_exchanged_share if scene.shape.recordings == 1 else 1.0
+        found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
     right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
     found += ForeignSearch(right, scene.rate, evidence).find(markers)
     return sorted(found, key=lambda event: event.order)

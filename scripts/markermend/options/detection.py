@@ -153,6 +153,23 @@ class LabelsOptions:
     max_onset_misfit: NotNegative = 1
     """A fall begins after the last sample whose loss of log likelihood is below this."""
 
+    max_exchanged_share: Share = 0.4
+    """Largest share of a recording over which labels may be exchanged back by the usual shape, if that is known from the same
+    recording alone (0 to 1). More is left and warned of.
+    Change it when labels are right in a smaller part of a recording than this (higher)."""
+
+    min_open_share: Share = 0.3
+    """Smallest share of a recording in which the distances of two counterparts are interchanged, to warn of it (0 to 1)."""
+
+    min_open_mm: Millimetres = 60
+    """Smallest difference between the distances of the two to a marker that may tell them apart, mean."""
+
+    max_open_spread: NotNegative = 0.25
+    """Largest standard deviation of this difference and of the sum of the distances, as a part of the difference."""
+
+    open_frames: Count = 60
+    """Frames in which such markers are looked for, about."""
+
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The subject's usual shape."""
 
