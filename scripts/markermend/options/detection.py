@@ -786,7 +786,8 @@ class SlowOptions(DetectorOptions):
     """Nearest neighbours whose motion and residuals set the local scale."""
 
     high_scale_mm: PositiveMillimetres = 3
-    """Local scale, as the height of a drift, above which a drift must exceed the threshold by `high_scale_factor`."""
+    """Local scale, as the height of a drift, above which a drift must exceed the threshold by `high_scale_factor`; the same holds
+    for the deviation of the steadiest distance, above which long drifts are not found."""
 
     high_scale_factor: Factor = 1.4
     """Factor by which the threshold rises there.
@@ -821,8 +822,9 @@ class SlowOptions(DetectorOptions):
     remaining_fraction: NotNegative = 1
     """Part of the threshold that the drift must still reach without them."""
 
-    min_distance_sigmas: Positive = 3
-    """Distances to the neighbours show a drift if it would change them, together, by this many of their deviations."""
+    min_distance_sigmas: Positive = 2
+    """Distances to the neighbours show a drift if it would change them, together, by this many of their deviations, times
+    `high_scale_factor` where even the steadiest of them deviates by more than `high_scale_mm`."""
 
     min_distance_fraction: NotNegative = 0.5
     """Such distances must change by this part of what the drift would change them: those on rigid segments decide."""

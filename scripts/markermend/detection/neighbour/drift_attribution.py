@@ -44,10 +44,10 @@ class DriftAttribution:
     def is_own(self, marker: int, event: Event) -> bool:
         """Check whether a drift is the marker's own.
 
-        The distances to the steadiest neighbours must show it. It must remain without all neighbours that are observed intermittently. Of each neighbour that deviates as well
-        and may have dragged the marker along: the drift remains without it; or, as on a rigid segment where the residual
-        of neither can be computed without the other, the marker's distances to the others change more than that
-        neighbour's.
+        The distances to its neighbours must show it. It must remain without all neighbours that are observed intermittently.
+        Of each neighbour that deviates as well and may have dragged the marker along: the drift remains without it; or, as on
+        a rigid segment where the residual of neither can be computed without the other, the marker's distances to the others
+        change more than that neighbour's.
 
         Parameters
         ----------
@@ -162,7 +162,8 @@ class DriftAttribution:
         A marker that keeps its distances to rigid segment mates cannot have drifted alone, and one whose distances stay in
         their usual range contradicts nothing: that may be, but only where the drift is estimated precisely. The part of the
         drift that the distances show is estimated by least squares, each weighed by how steady it usually is: those that
-        would show the drift by themselves, if there are any.
+        would show the drift by themselves, if there are any. Where even the steadiest varies much, the pose may be rare: more
+        is required of a short drift, and a long one is not told from the pose.
 
         Parameters
         ----------
@@ -176,11 +177,27 @@ class DriftAttribution:
         bool
             Whether they show enough of it.
         """
+        displaced, options = self.evidence.displacement(marker, event), self.options
+        if np.isnan(displaced).any():
+            return False
+        expected, change, deviation = self._distance_changes(marker, event, displaced)
+        least = float(deviation.min(initial=np.inf))
+        if least > self.evidence.max_distance_deviation_mm:
+            return False
+        required = options.min_distance_sigmas * (options.high_scale_factor if least > options.high_scale_mm else 1)
+        steady = np.abs(expected) >= required
+        some = steady if steady.any() else np.ones(len(expected), bool)
+        information = float(expected[some] @ expected[some])
+        shown = float(change[some] @ expected[some])
+        clear = information >= required**2 or self.evidence.is_precise(marker, event)
+        return clear and shown >= options.min_distance_fraction * information
+
+    def _distance_changes(
+        self, marker: int, event: Event, displaced: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Changes (k,) of distances that a displacement would make, and those observed, in deviations; the deviations, mm."""
         near = self.nearest(marker)
         near = near[self._observed(event, near).all(axis=0)]
-        displaced = self.evidence.displacement(marker, event)
-        if len(near) == 0 or np.isnan(displaced).any():
-            return False
         apart = self.scene.positions[:, [marker]] - self.scene.positions[:, near]
         distance = np.linalg.norm(apart, axis=2)
         third = (event.stop - event.start) // 3
@@ -189,15 +206,9 @@ class DriftAttribution:
         around = np.r_[max(event.start - margin, 0) : event.start, event.stop : min(event.stop + margin, len(distance))]
         before = np.linalg.norm(apart[middle] - displaced, axis=2)
         deviation = np.hypot(self._deviations(marker, near, distance), MIN_DEVIATION_MM)
-        expected = np.nanmedian(distance[middle] - before, axis=0) / deviation
-        change = (np.nanmedian(distance[middle], axis=0) - np.nanmedian(distance[around], axis=0)) / deviation
-        required = self.options.min_distance_sigmas
-        steady = np.abs(expected) >= required
-        some = steady if steady.any() else np.ones(len(near), bool)
-        information = float(expected[some] @ expected[some])
-        shown = float(change[some] @ expected[some])
-        clear = information >= required**2 or self.evidence.is_precise(marker, event)
-        return clear and shown >= self.options.min_distance_fraction * information
+        expected = np.nanmedian(distance[middle] - before, axis=0)
+        change = np.nanmedian(distance[middle], axis=0) - np.nanmedian(distance[around], axis=0)
+        return expected / deviation, change / deviation, deviation
 
     def _deviations(self, marker: int, others: np.ndarray, distance: np.ndarray) -> np.ndarray:
         """Usual standard deviations of a marker's distances to others (k,), mm, given these distances (frames, k)."""

@@ -20,6 +20,11 @@ from markermend.prediction.scene import Scene
 class DriftEvidence(Protocol):
     """How drifts of one kind stand out on each marker."""
 
+    @property
+    def max_distance_deviation_mm(self) -> float:
+        """Largest deviation of the steadiest distance with which a drift is told from a rare pose, mm."""
+        ...
+
     def displacement(self, marker: int, event: Event) -> np.ndarray:
         """Estimate how far a marker is displaced at the height of a drift.
 
@@ -109,6 +114,11 @@ class ShortDriftEvidence:
     scores: DriftScores
     predictor: ScaledResidualSource
 
+    @property
+    def max_distance_deviation_mm(self) -> float:
+        """Any: few poses are so brief. See `DriftEvidence.max_distance_deviation_mm`."""
+        return float("inf")
+
     def displacement(self, marker: int, event: Event) -> np.ndarray:
         """Measure the displacement in the residual. See `DriftEvidence.displacement`."""
         flank = self.scorer.options.flank_fraction
@@ -149,6 +159,11 @@ class LongDriftEvidence:
     drifts: LongDrifts
     scale: np.ndarray
     predictor: ScaledResidualSource
+
+    @property
+    def max_distance_deviation_mm(self) -> float:
+        """Local scale above which drifts are hardly found. See `DriftEvidence.max_distance_deviation_mm`."""
+        return self.drifts.options.high_scale_mm
 
     def displacement(self, marker: int, event: Event) -> np.ndarray:
         """Estimate the height together with the regression, the direction in the residual. See `DriftEvidence.displacement`."""

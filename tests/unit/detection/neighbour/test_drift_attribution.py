@@ -1,6 +1,6 @@
 """Attribution of drifts: by distances on a rigid segment, and which neighbours are observed intermittently."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -49,6 +49,7 @@ class Claim:
 
     displaced: np.ndarray
     precise: bool = False
+    max_distance_deviation_mm: float = np.inf
 
     def displacement(self, marker, event):
         return self.displaced
@@ -87,3 +88,19 @@ def test_within_the_usual_range_of_the_distances_only_a_precise_drift_counts(pre
     near = [np.delete(np.arange(5), m) for m in range(5)]
     attribution = DriftAttribution(Scene(positions, 100.0, near), Claim(displaced, precise), OPTIONS)
     assert attribution.shows_in_distances(0, event) == precise
+
+
+@pytest.mark.parametrize(("height", "limit_mm", "shown"), [(18, np.inf, False), (40, np.inf, True), (40, 3.0, False)])
+def test_where_all_distances_vary_more_is_required_and_a_long_drift_is_not_told_from_the_pose(height, limit_mm, shown):
+    positions, event = turning_body(spread=12.0), Event("a", 200, 260, 2.0, "xyz")
+    positions[170:290] = positions[170]
+    displaced = height * np.array([0.7, 0.6, 0.4])
+    positions[200:260, 0] += displaced
+    near = [np.delete(np.arange(5), m) for m in range(5)]
+    claim = Claim(displaced, max_distance_deviation_mm=limit_mm)
+    required = DriftAttribution(Scene(positions, 100.0, near), claim, OPTIONS).shows_in_distances(0, event)
+    assert required == shown
+    without = replace(OPTIONS, high_scale_factor=1.0, high_scale_mm=100.0)
+    assert DriftAttribution(Scene(positions, 100.0, near), claim, without).shows_in_distances(0, event) == (
+        limit_mm > 3
+    )
