@@ -65,7 +65,28 @@ class ForeignSearch:
                     Event(markers[m], start, stop, max(1.0, size / floor), kind="foreign")
                     for start, stop, size in stretches
                 ]
+        named = {event.marker for event in found}
+        lying = ((marker, self._lies_still(m)) for m, marker in enumerate(markers) if marker not in named)
+        found += [Event(marker, *span, 1.0, kind="foreign") for marker, span in lying if span]
         return sorted(found, key=lambda event: event.order)
+
+    def _lies_still(self, m: int) -> tuple[int, int] | None:
+        """The frames at the end over which a marker that moved before lies still although those by which it is judged move."""
+        options, seen = self.evidence.options, np.flatnonzero(self._seen(m, 0, len(self.positions)))
+        length = samples(options.min_still_s, self.rate)
+        if len(seen) <= length:
+            return None
+        away = np.linalg.norm(self.positions[seen, m] - np.median(self.positions[seen[-length:], m], axis=0), axis=1)
+        moved = np.flatnonzero(away > options.max_still_mm)
+        if not len(moved) or len(seen) - moved[-1] <= length or away[moved].max() < options.min_anchor_motion_mm:
+            return None
+        start, stop = int(seen[moved[-1] + 1]), int(seen[-1]) + 1
+        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
+        part = self.positions[start:stop, anchors]
+        part = part[:, ~np.isnan(part).all(axis=(0, 2))]
+        extent = np.linalg.norm(np.nanmax(part, axis=0) - np.nanmin(part, axis=0), axis=1)
+        moving = len(extent) >= options.shape.min_anchors and np.quantile(extent, 0.25) > options.min_anchor_motion_mm
+        return (start, stop) if moving else None
 
     def _stretches(self, m: int, misfit: np.ndarray) -> Iterator[tuple[int, int, float]]:
         """Start, stop and mean misfit of the stretches over which the label of a marker is on something else."""

@@ -144,6 +144,12 @@ class LabelsOptions:
     min_anchor_motion_mm: Millimetres = 30
     """Smallest extent of the samples of the markers by which it is judged in the meantime, median of them."""
 
+    max_still_mm: Millimetres = 3
+    """A fallen marker lies still to the end of its trajectory: its samples are not farther from the place than this."""
+
+    min_still_s: Seconds = 1
+    """Shortest time that it lies still, while three quarters of the markers by which it is judged move."""
+
     max_same_mm: Millimetres = 10
     """Labels nearer to each other than this are on the same marker."""
 

@@ -53,6 +53,14 @@ def test_a_marker_that_falls_and_lies_on_the_floor_to_the_end(walker, name):
     assert 770 <= start <= 815
 
 
+@pytest.mark.parametrize("name", ["LTHI", "RWRA", "CLAV"])
+def test_a_marker_that_lies_still_in_most_of_the_only_recording(walker, name):
+    positions, m = walker.recording.positions.copy(), walker.recording.markers.index(name)
+    noise = np.random.default_rng(1).normal(0, 0.2, (800, 3))
+    positions[400:, m] = noise + np.append(positions[400, m, :2] + 80, floor(positions))
+    assert find(walker.recording, positions) == [(name, 400, 1200, "foreign")]
+
+
 def test_two_labels_on_one_marker(walker):
     positions, index = walker.recording.positions.copy(), walker.recording.markers.index
     positions[500:530, index("LTHI")] = positions[500:530, index("LKNE")]
