@@ -438,6 +438,8 @@ def clean(
         own_mesh,
         min_frames=options.mesh.min_frames,
         min_neighbours=options.mesh.min_predictors,
+        steady_mates=options.noise.shape.steady_mates,
+        max_mate_spread_mm=options.noise.shape.max_mate_spread_mm,
     )
     exchanged: list[str] = []
     if "labels" in findings:

@@ -55,6 +55,27 @@ class Shape:
         order = np.argsort(deviation, kind="stable")
         return order[: min(count, int(np.count_nonzero(~np.isnan(deviation))))]
 
+    def unsteady(self, *, mates: int, max_spread_mm: float) -> np.ndarray:
+        """Find the markers that keep their distances to too few others, such as a ball in flight.
+
+        Parameters
+        ----------
+        mates : int
+            Number of distances that must be kept.
+        max_spread_mm : float
+            Largest spread of a distance that is kept, mm.
+
+        Returns
+        -------
+        ndarray of bool, shape (markers,)
+            Where they are; not those with fewer known distances.
+        """
+        if len(self.spread) <= mates:
+            return np.zeros(len(self.spread), bool)
+        others = np.where(np.eye(len(self.spread), dtype=bool), np.nan, self.spread)
+        unsteady: np.ndarray = np.sort(others, axis=1)[:, mates - 1] > max_spread_mm
+        return unsteady
+
 
 def shape_of(
     distances: dict[str, dict[str, tuple[float, float, float]]], markers: Sequence[str], recordings: int = 1

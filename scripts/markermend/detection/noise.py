@@ -50,7 +50,7 @@ def detect_noise(
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
     )
-    return events.disjoint(found)
+    return events.disjoint(inputs.of_steady_markers(found, scene, markers, options.shape))
 
 
 class NoiseDetector(IncrementDetector):

@@ -50,6 +50,7 @@ def detect_peaks(
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
     )
+    found = inputs.of_steady_markers(found, scene, markers, options.shape)
     return events.disjoint(without_common_motion(found, unclaimed, markers, predictor, options.common_motion))
 
 

@@ -446,6 +446,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     common_motion: CommonMotionOptions = field(default_factory=CommonMotionOptions)
     """Options by which common motion is distinguished from peaks."""
 
+    shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
+    """The subject's usual shape."""
+
     coordinates: PublishedPeaksOptions = field(default_factory=PublishedPeaksOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""
 
@@ -601,6 +604,9 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
 
     wobble: WobbleOptions = field(default_factory=WobbleOptions)
     """Options of the detection of wobble of several Hz."""
+
+    shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
+    """The subject's usual shape."""
 
     coordinates: PublishedNoiseOptions = field(default_factory=PublishedNoiseOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""

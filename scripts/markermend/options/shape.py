@@ -27,6 +27,14 @@ class ShapeOptions:
     floor_mm: Millimetres = 15
     """See `threshold_sigmas`."""
 
+    steady_mates: Count = 3
+    """A marker keeps its distances to this many others, or it is not judged for peaks and noise by its neighbours."""
+
+    max_mate_spread_mm: PositiveMillimetres = 100
+    """Largest spread of a distance that is kept, from the 5th to the 95th percentile as a standard deviation.
+
+    Change it when faults of loose props are missed (higher), or their flight is taken for faults (lower)."""
+
     min_contradicting_share: Share = 0.6
     """A sample contradicts the shape if this share of its distances does (0 to 1)."""
 

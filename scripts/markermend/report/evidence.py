@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
+
 from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
 from markermend.core.labels import follow
@@ -93,8 +95,15 @@ class Evidence:
         mesh = self.stages.get("mesh", {})
         if not set(self.found) - {"labels"}:
             return {}
+        detectors = [self.stages.get(name, {}) for name in ("peaks", "noise")]
+        shape: dict[str, Any] = next((options["shape"] for options in detectors if "shape" in options), {})
         return unjudged_markers(
-            self.before, self.mesh, min_frames=mesh["min_frames"], min_neighbours=mesh["min_predictors"]
+            self.before,
+            self.mesh,
+            min_frames=mesh["min_frames"],
+            min_neighbours=mesh["min_predictors"],
+            steady_mates=shape.get("steady_mates", 1),
+            max_mate_spread_mm=shape.get("max_mate_spread_mm", np.inf),
         )
 
     @property

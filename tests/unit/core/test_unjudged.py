@@ -22,7 +22,7 @@ def mesh():
 
 
 def found(recording, mesh):
-    return unjudged_markers(recording, mesh, min_frames=60, min_neighbours=3)
+    return unjudged_markers(recording, mesh, min_frames=60, min_neighbours=3, steady_mates=3, max_mate_spread_mm=100)
 
 
 def test_a_complete_recording_is_judged(recording, mesh):
@@ -31,12 +31,14 @@ def test_a_complete_recording_is_judged(recording, mesh):
 
 def test_markers_without_neighbours_are_not_judged(recording, mesh):
     mesh.neighbours["c"] = ("a", "b")
-    assert found(recording, mesh) == {"c": "seen on fewer than 60 frames with 3 neighbours"}
+    assert found(recording, mesh) == {
+        "c": "seen on fewer than 60 frames with 3 neighbours, so that only labels can be judged"
+    }
 
 
 def test_markers_that_are_seldom_seen_are_not_judged_nor_judge_others(recording, mesh):
     recording.positions[30:, 0] = np.nan
-    assert found(recording, mesh) == {"a": "seen on fewer than 60 frames"}
+    assert found(recording, mesh) == {"a": "seen on fewer than 60 frames, so that only labels can be judged"}
     recording.positions[:41, 1] = np.nan
     assert list(found(recording, mesh)) == list("abcde")
     assert unjudged_warnings(found(recording, mesh)) == [
@@ -58,4 +60,16 @@ def test_a_marker_that_was_never_seen_and_a_static_recording_are_not_named(recor
     recording.positions[:5, 1:] = 1.0
     assert list(found(recording, mesh)) == list("bcde")
     recording.facts["kind"] = "static"
+    assert found(recording, mesh) == {}
+
+
+def test_a_marker_that_keeps_no_distances_is_not_judged_for_peaks_and_noise(recording, mesh):
+    names, steady = NAMES, (300.0, 1.0, 5.0)
+    for m, first in enumerate(names):
+        flight = [(300.0, 90.0, 125.0) if "e" in (first, second) else steady for second in names[m + 1 :]]
+        mesh.distances[first] = dict(zip(names[m + 1 :], flight, strict=True))
+    assert found(recording, mesh) == {
+        "e": "at no steady distance from 3 others, so that peaks and noise cannot be judged"
+    }
+    mesh.distances["a"]["e"] = mesh.distances["b"]["e"] = mesh.distances["c"]["e"] = steady
     assert found(recording, mesh) == {}
