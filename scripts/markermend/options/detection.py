@@ -525,6 +525,9 @@ class ExcessVarianceOptions:
     scale_neighbours: Count = 6
     """Nearest neighbours whose residuals set what is usual at the time."""
 
+    min_seen_share: Share = 0.5
+    """Share of them that must be seen: without them the prediction of a marker is worse than usual (0 to 1)."""
+
     motion_neighbours: Count = 3
     """Nearest neighbours of which the one that moves most in the band sets how much the body shakes."""
 

@@ -122,6 +122,9 @@ class BandDetector:
             relative = size / reference
             often = float(np.quantile(relative[known], options.tail_quantile)) if known.any() else 1.0
             score = np.minimum(score, relative / (options.threshold_factor * max(often, 1e-9)))
+        score[
+            seen_share(self._scene.present, self._scene.neighbours, options.scale_neighbours) < options.min_seen_share
+        ] = 0
         return np.nan_to_num(score)
 
     def _stretches(
@@ -206,7 +209,7 @@ def wobble_detector(scene: Scene, options: WobbleOptions) -> BandDetector | None
 
 
 def neighbour_maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """Take the maximum over the nearest neighbours of each marker: with one that moves alike a marker does not shake alone.
+    """Take the maximum over the nearest neighbours that are seen: with one that moves alike a marker does not shake alone.
 
     Parameters
     ----------
@@ -215,15 +218,41 @@ def neighbour_maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count:
     neighbours : Sequence[np.ndarray]
         For each marker its neighbours, the nearest first.
     count : int
+        Number of nearest neighbours among those that are seen in a frame.
+
+    Returns
+    -------
+    np.ndarray
+        The maximum (frames, markers), 0 where no neighbour is seen.
+    """
+    largest, seen = np.zeros_like(size), ~np.isnan(size)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            ranked = np.asarray(around, int)
+            nearest = seen[:, ranked] & (np.cumsum(seen[:, ranked], axis=1) <= count)
+            largest[:, m] = np.where(nearest, size[:, ranked], 0.0).max(axis=1)
+    return largest
+
+
+def seen_share(present: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """Compute which share of the nearest neighbours of each marker is seen: without them its residual is larger than usual.
+
+    Parameters
+    ----------
+    present : np.ndarray
+        Which markers are seen, bool (frames, markers).
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    count : int
         Number of nearest neighbours.
 
     Returns
     -------
     np.ndarray
-        The maximum of what is known (frames, markers), 0 where nothing is.
+        Shares (frames, markers), 0 to 1; 0 for a marker without neighbours.
     """
-    largest, known = np.zeros_like(size), np.nan_to_num(size)
+    share = np.zeros(present.shape)
     for m, around in enumerate(neighbours):
         if len(around):
-            largest[:, m] = known[:, np.asarray(around, int)[:count]].max(axis=1)
-    return largest
+            share[:, m] = present[:, np.asarray(around, int)[:count]].mean(axis=1)
+    return share
