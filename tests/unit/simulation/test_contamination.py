@@ -22,7 +22,7 @@ def test_truth_is_exact(contaminated):
     assert np.array_equal(np.isnan(damaged).any(axis=2), missing)
     assert np.array_equal((damaged != clean).any(axis=2), (artifacts == 1) | missing)
     assert {kind: len(found) for kind, found in contaminated.events.items()} == {
-        "labels": 4, "frozen": 0, "peaks": 10, "noise": 4, "steps": 4, "slow": 4, "tails": 0,
+        "labels": 4, "frames": 0, "frozen": 0, "peaks": 10, "noise": 4, "steps": 4, "slow": 4, "tails": 0,
     }  # fmt: skip
 
 
