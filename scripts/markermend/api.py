@@ -33,9 +33,9 @@ from markermend.core.unjudged import unjudged_markers, unjudged_warnings
 from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
+from markermend.detection.labelling.open_exchanges import open_exchanges
 from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
-from markermend.detection.open_exchanges import open_exchanges
 from markermend.detection.peaks import detect_peaks
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps

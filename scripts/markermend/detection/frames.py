@@ -12,9 +12,9 @@ import numpy as np
 
 from markermend.core.events import Event, main_axes
 from markermend.detection import inputs
-from markermend.detection.repeated_frames import RepeatedFrames
-from markermend.detection.scene_jumps import DisplacedStretch, find_displaced_stretches
-from markermend.detection.segment_slips import SegmentSlip, find_segment_slips
+from markermend.detection.system.repeated_frames import RepeatedFrames
+from markermend.detection.system.scene_jumps import DisplacedStretch, find_displaced_stretches
+from markermend.detection.system.segment_slips import SegmentSlip, find_segment_slips
 from markermend.options.detection import FramesOptions
 from markermend.prediction.scene import Scene
 

@@ -11,14 +11,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.foreign_labels import ForeignSearch
-from markermend.detection.label_cycles import find_cycle_exchanges
-from markermend.detection.label_evidence import LabelEvidence
-from markermend.detection.label_levels import relabel_by_level
-from markermend.detection.label_pairs import find_pair_exchanges, length
-from markermend.detection.label_sections import find_borders, judged_rows
-from markermend.detection.labelling import exchange_events, labelling
-from markermend.detection.open_exchanges import without_open
+from markermend.detection.labelling.cycles import find_cycle_exchanges
+from markermend.detection.labelling.evidence import LabelEvidence
+from markermend.detection.labelling.foreign_labels import ForeignSearch
+from markermend.detection.labelling.levels import relabel_by_level
+from markermend.detection.labelling.open_exchanges import without_open
+from markermend.detection.labelling.pairs import find_pair_exchanges, length
+from markermend.detection.labelling.sections import find_borders, judged_rows
+from markermend.detection.labelling.states import exchange_events, labelling
 from markermend.numerics import intervals, robust
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene

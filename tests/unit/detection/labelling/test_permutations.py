@@ -5,7 +5,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from markermend.detection.label_permutations import Permutation, possible_permutations
+from markermend.detection.labelling.permutations import Permutation, possible_permutations
 from support.naive import labels as naive
 
 MARKERS = (1, 3, 4, 6)

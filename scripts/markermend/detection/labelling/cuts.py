@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
-from markermend.detection.label_permutations import Permutation
+from markermend.detection.labelling.permutations import Permutation
 from markermend.prediction.shape_evidence import ShapeEvidence
 
 RESOLUTION = 1000.0

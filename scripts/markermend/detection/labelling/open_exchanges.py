@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from markermend.core.events import Event
 from markermend.core.labels import undo_exchanges
-from markermend.detection.label_groups import counterparts_by_side, counterparts_by_subject
+from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject
 from markermend.numerics.intervals import runs
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene

@@ -14,7 +14,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
 from markermend.core.shape import Shape
-from markermend.detection.label_permutations import Permutation
+from markermend.detection.labelling.permutations import Permutation
 
 OTHER_SIDE = {"left": "right", "right": "left", "l": "r", "r": "l"}
 """What the name of a marker has in the place of the side, in lower case, and what its counterpart has there."""

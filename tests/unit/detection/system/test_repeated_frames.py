@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.repeated_frames import RepeatedFrames
+from markermend.detection.system.repeated_frames import RepeatedFrames
 from markermend.options.detection import RepeatedFramesOptions
 
 RATE = 100.0

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.label_evidence import LabelEvidence
-from markermend.detection.label_sections import better_states
+from markermend.detection.labelling.evidence import LabelEvidence
+from markermend.detection.labelling.sections import better_states
 from markermend.numerics.intervals import runs, samples
 from markermend.prediction.shape_evidence import ShapeEvidence
 

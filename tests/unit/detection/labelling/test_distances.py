@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.label_distances import markers_around, usual_distances
+from markermend.detection.labelling.distances import markers_around, usual_distances
 from markermend.prediction.scene import Scene
 
 

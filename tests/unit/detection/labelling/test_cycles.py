@@ -3,8 +3,13 @@
 import numpy as np
 import pytest
 
-from markermend.detection.label_cycles import exchange_clearness, find_cycle_changes, find_cycle_exchanges, map_cycles
-from markermend.detection.label_permutations import Permutation
+from markermend.detection.labelling.cycles import (
+    exchange_clearness,
+    find_cycle_changes,
+    find_cycle_exchanges,
+    map_cycles,
+)
+from markermend.detection.labelling.permutations import Permutation
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
 from support.naive import labels as naive

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from markermend.detection.scene_jumps import find_displaced_stretches
+from markermend.detection.system.scene_jumps import find_displaced_stretches
 from markermend.numerics.displaced_scene import move_back
 from markermend.options.detection import SceneJumpOptions
 

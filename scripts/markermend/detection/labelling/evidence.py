@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from markermend.core.shape import Shape
-from markermend.detection.label_permutations import Permutation
-from markermend.detection.label_sections import better_states
+from markermend.detection.labelling.permutations import Permutation
+from markermend.detection.labelling.sections import better_states
 from markermend.numerics.intervals import runs
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.shape_evidence import ShapeEvidence

@@ -12,10 +12,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from markermend.detection.label_cuts import likeliest_exchange
-from markermend.detection.label_evidence import LabelChange, LabelEvidence, Relabelling
-from markermend.detection.label_groups import counterparts_by_side, counterparts_by_subject, group_exchanges
-from markermend.detection.label_permutations import Permutation
+from markermend.detection.labelling.cuts import likeliest_exchange
+from markermend.detection.labelling.evidence import LabelChange, LabelEvidence, Relabelling
+from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject, group_exchanges
+from markermend.detection.labelling.permutations import Permutation
 
 
 def relabel_by_level(

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from markermend.core.shape import Shape
-from markermend.detection.label_cuts import likeliest_exchange, minimum_cut
-from markermend.detection.label_groups import counterparts_by_side, counterparts_by_subject
+from markermend.detection.labelling.cuts import likeliest_exchange, minimum_cut
+from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject
 from markermend.mesh.usual_distances import recording_distances
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.shape_evidence import ShapeEvidence

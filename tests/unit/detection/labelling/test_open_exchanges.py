@@ -7,8 +7,8 @@ import pytest
 
 from markermend import api
 from markermend.core.events import Event
+from markermend.detection.labelling.open_exchanges import open_exchanges, without_open
 from markermend.detection.labels import detect_labels
-from markermend.detection.open_exchanges import open_exchanges, without_open
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection import LabelsOptions
 from markermend.options.mesh import MeshOptions

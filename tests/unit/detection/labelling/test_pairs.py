@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.label_pairs import (
+from markermend.detection.labelling.pairs import (
     PairChange,
     exchanged_stretches,
     find_pair_changes,

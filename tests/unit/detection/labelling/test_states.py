@@ -3,7 +3,7 @@
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.labelling import cycles, exchange_events, labelling
+from markermend.detection.labelling.states import cycles, exchange_events, labelling
 
 NAMES = ("a", "b", "c", "d")
 

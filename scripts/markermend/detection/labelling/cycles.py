@@ -13,8 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from markermend.detection.label_distances import markers_around, usual_distances
-from markermend.detection.label_permutations import ExchangedStretch, Permutation, possible_permutations
+from markermend.detection.labelling.distances import markers_around, usual_distances
+from markermend.detection.labelling.permutations import ExchangedStretch, Permutation, possible_permutations
 from markermend.options.detection import LabelsOptions
 from markermend.prediction.scene import Scene
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend import api
-from markermend.detection.segment_slips import _best_pulse, find_segment_slips
+from markermend.detection.system.segment_slips import _best_pulse, find_segment_slips
 from markermend.options.detection import SegmentSlipOptions
 from markermend.prediction.scene import Scene
 

@@ -5,7 +5,7 @@ from itertools import pairwise, product
 import numpy as np
 import pytest
 
-from markermend.detection.label_sections import better_states, find_borders, judged_rows
+from markermend.detection.labelling.sections import better_states, find_borders, judged_rows
 from markermend.options.detection import LabelsOptions
 
 

@@ -1,0 +1,1 @@
+"""Faults of the camera system, which many markers have at once."""
