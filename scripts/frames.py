@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from markermend.command import detector
 from markermend.detection.frames import detect_frames
-from markermend.options.detection import FramesOptions
+from markermend.options.detection.frames import FramesOptions
 
 STAGE = detector.stage("frames", __doc__, FramesOptions, finds="faults of the capture system")
 

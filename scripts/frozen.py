@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from markermend.command import detector
 from markermend.detection.frozen import detect_frozen
-from markermend.options.detection import FrozenOptions
+from markermend.options.detection.frozen import FrozenOptions
 
 STAGE = detector.stage("frozen", __doc__, FrozenOptions, finds="frozen stretches")
 

@@ -10,7 +10,7 @@ from typing import Any
 from markermend.command import detector
 from markermend.detection.labelling.open_exchanges import open_exchanges
 from markermend.detection.labels import detect_labels
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from markermend.command import detector
 from markermend.detection.noise import detect_noise
-from markermend.options.detection import NoiseOptions
+from markermend.options.detection.noise import NoiseOptions
 
 STAGE = detector.stage("noise", __doc__, NoiseOptions, finds="heavy noise")
 

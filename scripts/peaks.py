@@ -9,7 +9,7 @@ from typing import Any
 
 from markermend.command import detector
 from markermend.detection.peaks import detect_peaks
-from markermend.options.detection import PeaksOptions
+from markermend.options.detection.peaks import PeaksOptions
 
 STAGE = detector.stage("peaks", __doc__, PeaksOptions, finds="isolated peaks")
 

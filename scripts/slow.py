@@ -9,7 +9,7 @@ from typing import Any
 
 from markermend.command import detector
 from markermend.detection.slow import detect_slow
-from markermend.options.detection import SlowOptions
+from markermend.options.detection.slow import SlowOptions
 
 STAGE = detector.stage("slow", __doc__, SlowOptions, finds="slow changes")
 

@@ -10,7 +10,7 @@ from typing import Any
 from markermend.command import detector
 from markermend.command.presets import preset_detector
 from markermend.detection.steps import detect_steps
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 
 STAGE = detector.stage("steps", __doc__, StepsOptions, finds="steps")
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from markermend.command import detector
 from markermend.detection.tails import detect_tails
-from markermend.options.detection import TailsOptions
+from markermend.options.detection.tails import TailsOptions
 
 STAGE = detector.stage("tails", __doc__, TailsOptions, finds="noisy tails")
 

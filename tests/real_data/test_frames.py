@@ -6,7 +6,7 @@ import pytest
 from markermend import api
 from markermend.core.events import count_findings
 from markermend.detection.frames import detect_frames
-from markermend.options.detection import FramesOptions
+from markermend.options.detection.frames import FramesOptions
 from markermend.prediction.scene import Scene
 
 INTACT = [

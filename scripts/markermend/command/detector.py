@@ -13,7 +13,8 @@ from markermend.core.artifacts import BY_NAME
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.options.detection import DetectorOptions, LabelsOptions
+from markermend.options.detection.detector import DetectorOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from markermend.options.detection import DetectorOptions
+from markermend.options.detection.detector import DetectorOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 
 Published = Callable[[Any], Callable[..., Any]]
@@ -45,7 +45,7 @@ def preset_options(options: DetectorOptions) -> Any:
 
     Returns
     -------
-    DetectorOptions or a class of `markermend.options.published`
+    DetectorOptions or a class of `markermend.options.detection.published`
         The section itself for the preset `default`, otherwise its field with the name of the preset.
     """
     preset = preset_of(options)

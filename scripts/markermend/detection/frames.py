@@ -15,7 +15,7 @@ from markermend.detection import inputs
 from markermend.detection.system.repeated_frames import RepeatedFrames
 from markermend.detection.system.scene_jumps import DisplacedStretch, find_displaced_stretches
 from markermend.detection.system.segment_slips import SegmentSlip, find_segment_slips
-from markermend.options.detection import FramesOptions
+from markermend.options.detection.frames import FramesOptions
 from markermend.prediction.scene import Scene
 
 ALL = "all markers"

@@ -10,7 +10,7 @@ from markermend.core.events import Event
 from markermend.detection import inputs, prediction_discrepancy
 from markermend.detection.prediction_discrepancy import Stretch
 from markermend.numerics.intervals import runs
-from markermend.options.detection import FrozenOptions
+from markermend.options.detection.frozen import FrozenOptions
 from markermend.prediction.interface import Predictor
 from markermend.prediction.scene import Scene
 

@@ -20,7 +20,7 @@ from markermend.detection.labelling.pairs import find_pair_exchanges, length
 from markermend.detection.labelling.sections import find_borders, judged_rows
 from markermend.detection.labelling.states import exchange_events, labelling
 from markermend.numerics import intervals, robust
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 
 MIN_WINDOW = 5

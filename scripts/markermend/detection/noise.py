@@ -16,7 +16,7 @@ from markermend.detection.neighbour.increments import IncrementDetector, Increme
 from markermend.detection.neighbour.neighbourhood import overlap
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.options.detection import NoiseOptions
+from markermend.options.detection.noise import NoiseOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 

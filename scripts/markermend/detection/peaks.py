@@ -15,7 +15,7 @@ from markermend.detection.neighbour.residual_windows import ResidualStatistics, 
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics import intervals
 from markermend.numerics.window_covariance import WindowCovariance
-from markermend.options.detection import PeaksOptions
+from markermend.options.detection.peaks import PeaksOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 

@@ -22,7 +22,7 @@ from markermend.detection.neighbour.drift_scores import DriftScorer
 from markermend.detection.neighbour.lasting_shifts import LastingFinder
 from markermend.detection.neighbour.long_drifts import LongDrifts
 from markermend.detection.neighbour.short_drifts import ShortDrifts
-from markermend.options.detection import SlowOptions
+from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene

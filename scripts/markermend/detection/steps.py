@@ -17,7 +17,7 @@ from markermend.detection.neighbour.level_shifts import DisplacedStretch
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics.window_covariance import WindowCovariance
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 

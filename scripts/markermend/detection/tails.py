@@ -12,7 +12,7 @@ from markermend.core.events import Event
 from markermend.detection import inputs, prediction_discrepancy
 from markermend.detection.prediction_discrepancy import Stretch
 from markermend.numerics.intervals import runs, samples
-from markermend.options.detection import TailsOptions
+from markermend.options.detection.tails import TailsOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 

@@ -9,17 +9,15 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from markermend.options.declaration import Option, describe
-from markermend.options.detection import (
-    FramesOptions,
-    FrozenOptions,
-    LabelsOptions,
-    NoiseOptions,
-    PeaksOptions,
-    SlowOptions,
-    StepsOptions,
-    TailsOptions,
-)
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
+from markermend.options.detection.frames import FramesOptions
+from markermend.options.detection.frozen import FrozenOptions
+from markermend.options.detection.labels import LabelsOptions
+from markermend.options.detection.noise import NoiseOptions
+from markermend.options.detection.peaks import PeaksOptions
+from markermend.options.detection.slow import SlowOptions
+from markermend.options.detection.steps import StepsOptions
+from markermend.options.detection.tails import TailsOptions
 from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions

@@ -25,7 +25,7 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 
 USUAL_METHODS: Mapping[str, tuple[str, ...]] = {

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from markermend.numerics.robust import MAD_TO_STD
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.prediction.local_ridge.inputs import InputSelection
 from markermend.prediction.local_ridge.model import TrainingSet, with_intercept

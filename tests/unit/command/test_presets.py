@@ -13,7 +13,7 @@ from markermend.detection.published import noise, peaks, slow, steps
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps
 from markermend.options.config import SECTIONS
-from markermend.options.detection import FrozenOptions
+from markermend.options.detection.frozen import FrozenOptions
 
 DEFAULT = {"peaks": detect_peaks, "noise": detect_noise, "steps": detect_steps, "slow": detect_slow}
 PUBLISHED = {

@@ -8,7 +8,7 @@ import pytest
 from markermend import api
 from markermend.core.events import count_findings
 from markermend.detection.frames import ALL, detect_frames
-from markermend.options.detection import FramesOptions
+from markermend.options.detection.frames import FramesOptions
 from markermend.prediction.scene import Scene
 
 SHIFT = np.array([6.0, -8.0, 3.0])

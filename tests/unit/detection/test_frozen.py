@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core import events
 from markermend.detection.frozen import detect_frozen
-from markermend.options.detection import FrozenOptions
+from markermend.options.detection.frozen import FrozenOptions
 from markermend.prediction.scene import Scene
 from support.signals import RIDGE, neighbours
 

@@ -8,7 +8,7 @@ import pytest
 from markermend.core.labels import undo_exchanges
 from markermend.detection import labels
 from markermend.formats import files
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.repair import RepairOptions
 from markermend.prediction.scene import Scene

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 from support.signals import detect, put
 
 PLACES = [("LWRA", 100, 150), ("C7", 400, 425), ("RKNE", 700, 860), ("RASI", 900, 908)]

@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core import events
 from markermend.detection.tails import detect_tails
-from markermend.options.detection import TailsOptions
+from markermend.options.detection.tails import TailsOptions
 from markermend.prediction.scene import Scene
 from support.signals import RIDGE, neighbours
 

@@ -12,7 +12,7 @@ from markermend.core.shape import Shape
 from markermend.detection.labelling.permutations import Permutation
 from markermend.detection.labelling.sections import better_states
 from markermend.numerics.intervals import runs
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.shape_evidence import ShapeEvidence
 
 

@@ -17,7 +17,7 @@ from markermend.core.events import Event
 from markermend.core.labels import undo_exchanges
 from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject
 from markermend.numerics.intervals import runs
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 
 

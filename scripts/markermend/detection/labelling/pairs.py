@@ -16,7 +16,7 @@ import numpy as np
 from markermend.detection.labelling.distances import markers_around, usual_distances
 from markermend.detection.labelling.permutations import ExchangedStretch, Permutation
 from markermend.numerics.intervals import runs
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from markermend.numerics.intervals import samples
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 
 
 def find_borders(present: np.ndarray, sudden: np.ndarray) -> np.ndarray:

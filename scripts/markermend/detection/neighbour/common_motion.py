@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.options.detection import CommonMotionOptions
+from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 

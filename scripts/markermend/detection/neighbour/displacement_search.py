@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.prediction import lasting_displacement
 from markermend.prediction.lasting_displacement import (
     MIN_INDEPENDENT_VARIANCE,

@@ -10,7 +10,7 @@ from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_evidence import DriftEvidence
 from markermend.numerics import intervals, robust
-from markermend.options.detection import SlowOptions
+from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.scene import Scene
 
 RIGID_MM = 0.1

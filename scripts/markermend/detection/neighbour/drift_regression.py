@@ -15,7 +15,7 @@ from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals, matched_filter
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.numerics.pulse_regression import PulseRegression, PulseResponses
-from markermend.options.long_drifts import LongDriftOptions
+from markermend.options.detection.long_drifts import LongDriftOptions
 from markermend.prediction.interface import LocalRegression
 from markermend.prediction.scene import Scene
 

@@ -13,7 +13,7 @@ import numpy as np
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import interpolation, intervals, matched_filter
 from markermend.numerics.intervals import runs
-from markermend.options.detection import SlowOptions
+from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.scene import Scene
 
 MIN_TEMPLATE = 5

@@ -11,7 +11,7 @@ from markermend.detection.neighbour import residual_windows
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 
 MIN_CONTEXT = 5
 """Samples of context on either side, at least: they estimate the noise scale."""

@@ -20,7 +20,7 @@ from markermend.detection.neighbour import residual_scale
 from markermend.detection.neighbour.residual_scale import moving_mean
 from markermend.numerics import filters
 from markermend.numerics.intervals import runs, samples
-from markermend.options.detection import ExcessVarianceOptions, JitterOptions, WobbleOptions
+from markermend.options.detection.noise import ExcessVarianceOptions, JitterOptions, WobbleOptions
 from markermend.prediction.scene import Scene
 
 MIN_WINDOW = 9

@@ -18,7 +18,7 @@ from markermend.core.events import Event
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.options.detection import IncrementOptions
+from markermend.options.detection.noise import IncrementOptions
 from markermend.prediction.scene import Scene
 
 

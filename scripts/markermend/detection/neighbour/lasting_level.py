@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.prediction.lasting_displacement import Displacement
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence

@@ -16,7 +16,7 @@ from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection.neighbour.displacement_search import DisplacementSearch
 from markermend.detection.neighbour.lasting_level import displaced_parts, locate
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
 from markermend.prediction import lasting_displacement

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from markermend.numerics import robust
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence

@@ -19,7 +19,7 @@ from markermend.core.events import Event
 from markermend.detection.neighbour.edges import Edge
 from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.numerics import intervals
-from markermend.options.detection import StepsOptions
+from markermend.options.detection.steps import StepsOptions
 
 MAX_EVIDENCE = 50.0
 """The level decides no more than this: the logarithm of a ratio of likelihoods that spares looking at it."""

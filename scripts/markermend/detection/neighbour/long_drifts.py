@@ -13,8 +13,8 @@ from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_regression import DriftModel, DriftRegression
 from markermend.detection.neighbour.drift_scores import required_score
 from markermend.numerics.intervals import runs
-from markermend.options.detection import SlowOptions
-from markermend.options.long_drifts import LongDriftOptions
+from markermend.options.detection.long_drifts import LongDriftOptions
+from markermend.options.detection.slow import SlowOptions
 
 MIN_BINS = 3
 """Bins of the shortest drift that is tried: what fits best with so few is no long drift."""

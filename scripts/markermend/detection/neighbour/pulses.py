@@ -13,7 +13,7 @@ from markermend.detection.neighbour.residual_windows import Exceedances, Residua
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance
-from markermend.options.detection import PeaksOptions
+from markermend.options.detection.peaks import PeaksOptions
 
 MIN_CONTEXT = 6
 """Samples of context on either side, at least: they estimate the noise scale."""

@@ -15,7 +15,7 @@ import numpy as np
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.numerics.window_covariance import WindowCovariance, sliding_windows
-from markermend.options.detection import ResidualWindowOptions
+from markermend.options.detection.residual_windows import ResidualWindowOptions
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.options.detection import SlowOptions
+from markermend.options.detection.slow import SlowOptions
 
 
 @dataclass(frozen=True)

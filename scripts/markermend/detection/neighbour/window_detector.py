@@ -12,7 +12,7 @@ from markermend.detection.neighbour import residual_scale, residual_windows
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.numerics import intervals
 from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance
-from markermend.options.detection import ResidualWindowOptions
+from markermend.options.detection.residual_windows import ResidualWindowOptions
 from markermend.prediction.scene import Scene
 
 

@@ -11,7 +11,7 @@ from markermend.detection.published import coordinatewise, increments
 from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
-from markermend.options.published import PublishedNoiseOptions
+from markermend.options.detection.published import PublishedNoiseOptions
 from markermend.prediction.scene import Scene
 
 

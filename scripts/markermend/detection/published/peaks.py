@@ -10,7 +10,7 @@ from markermend.core.events import Event
 from markermend.detection.published import coordinatewise, increments
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
-from markermend.options.published import PublishedPeaksOptions
+from markermend.options.detection.published import PublishedPeaksOptions
 from markermend.prediction.scene import Scene
 
 

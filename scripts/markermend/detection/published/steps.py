@@ -11,7 +11,7 @@ from markermend.core.events import Event, OpenStep
 from markermend.detection.published import coordinatewise, increments
 from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals
-from markermend.options.published import PublishedStepsOptions
+from markermend.options.detection.published import PublishedStepsOptions
 from markermend.prediction.scene import Scene
 
 

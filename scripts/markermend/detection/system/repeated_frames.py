@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.options.detection import RepeatedFramesOptions
+from markermend.options.detection.frames import RepeatedFramesOptions
 
 RESOLUTION_QUANTILE = 0.01
 """Smallest changes of coordinates that count as the resolution: fewer may be chance."""

@@ -11,7 +11,7 @@ from scipy import ndimage
 from markermend.numerics.displaced_scene import either_side, jumps, settle
 from markermend.numerics.intervals import samples
 from markermend.numerics.rigid_displacement import RigidDisplacement, fit_displacement
-from markermend.options.detection import SceneJumpOptions
+from markermend.options.detection.frames import SceneJumpOptions
 
 NEIGHBOUR_RATIO = 1.5
 """The frames beside a jump seem to jump by half as much: a frame beside one that jumps by this many times as much does not."""

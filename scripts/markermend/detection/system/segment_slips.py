@@ -11,7 +11,7 @@ from scipy import ndimage
 from markermend.numerics.intervals import samples
 from markermend.numerics.rigid_alignment import align, mean_shape
 from markermend.numerics.rigid_displacement import fit_displacement
-from markermend.options.detection import SegmentSlipOptions
+from markermend.options.detection.frames import SegmentSlipOptions
 from markermend.prediction.scene import Scene
 
 MIN_ANCHORS = 3

@@ -10,7 +10,7 @@ from markermend.detection.labelling.cycles import (
     map_cycles,
 )
 from markermend.detection.labelling.permutations import Permutation
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from support.naive import labels as naive
 

@@ -8,7 +8,7 @@ import pytest
 from markermend.core.labels import undo_exchanges
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
 from markermend.prediction.scene import Scene
 

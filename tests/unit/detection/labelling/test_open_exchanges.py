@@ -10,7 +10,7 @@ from markermend.core.events import Event
 from markermend.detection.labelling.open_exchanges import open_exchanges, without_open
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
 from markermend.prediction.scene import Scene
 

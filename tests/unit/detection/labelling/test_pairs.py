@@ -12,7 +12,7 @@ from markermend.detection.labelling.pairs import (
     length,
 )
 from markermend.detection.labels import sudden_steps
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 
 OPTIONS = LabelsOptions()

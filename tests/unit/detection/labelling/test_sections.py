@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.labelling.sections import better_states, find_borders, judged_rows
-from markermend.options.detection import LabelsOptions
+from markermend.options.detection.labels import LabelsOptions
 
 
 def worth(value, states, penalty):

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import common_motion
-from markermend.options.detection import CommonMotionOptions
+from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.scene import Scene
 
 MARKERS = [f"M{m}" for m in range(10)]

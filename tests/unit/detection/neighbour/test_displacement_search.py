@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour.displacement_search import DisplacementSearch
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.prediction.lasting_displacement import Course, estimate, rise
 from markermend.prediction.local_ridge.model import TrainingSet
 from support.naive import lasting

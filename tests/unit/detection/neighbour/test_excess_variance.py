@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour import excess_variance
-from markermend.options.detection import JitterOptions, WobbleOptions
+from markermend.options.detection.noise import JitterOptions, WobbleOptions
 from markermend.prediction.scene import Scene
 
 RATE = 100.0

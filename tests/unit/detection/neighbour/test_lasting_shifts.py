@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour.lasting_shifts import LastingFinder
-from markermend.options.displacement import DisplacementOptions
+from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
 from support.displaced_bodies import BODY, FRAMES, NAMES, displaced, onset, scene

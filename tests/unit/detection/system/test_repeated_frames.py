@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.system.repeated_frames import RepeatedFrames
-from markermend.options.detection import RepeatedFramesOptions
+from markermend.options.detection.frames import RepeatedFramesOptions
 
 RATE = 100.0
 

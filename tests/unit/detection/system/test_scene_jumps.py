@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from markermend.detection.system.scene_jumps import find_displaced_stretches
 from markermend.numerics.displaced_scene import move_back
-from markermend.options.detection import SceneJumpOptions
+from markermend.options.detection.frames import SceneJumpOptions
 
 SHIFT = np.array([6.0, -8.0, 3.0])
 

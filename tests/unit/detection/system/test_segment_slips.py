@@ -7,7 +7,7 @@ import pytest
 
 from markermend import api
 from markermend.detection.system.segment_slips import _best_pulse, find_segment_slips
-from markermend.options.detection import SegmentSlipOptions
+from markermend.options.detection.frames import SegmentSlipOptions
 from markermend.prediction.scene import Scene
 
 OPTIONS = SegmentSlipOptions()
