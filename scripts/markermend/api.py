@@ -29,7 +29,7 @@ from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.originals import find_originals
 from markermend.core.recording import ORIGINS, Recording, Restored
-from markermend.core.unjudged import unjudged_markers, unjudged_warnings
+from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
@@ -431,19 +431,28 @@ def clean(
     findings = detect(recording, mesh, options)
     filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
     own_mesh = mesh_of(recording, mesh)
-    unjudged = unjudged_markers(
-        recording,
-        own_mesh,
-        min_frames=options.mesh.min_frames,
-        min_neighbours=options.mesh.min_predictors,
-        steady_mates=options.noise.shape.steady_mates,
-        max_mate_spread_mm=options.noise.shape.max_mate_spread_mm,
-    )
+    unjudged = _unjudged(recording, own_mesh, findings, options)
     exchanged: list[str] = []
     if "labels" in findings:
         scene = Scene.of(recording, own_mesh)
         exchanged = open_exchanges(scene, findings["labels"], markers=recording.markers, options=options.labels)
     return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, exchanged)
+
+
+def _unjudged(recording: Recording, mesh: Mesh, findings: Mapping[str, Any], options: Options) -> dict[str, str]:
+    """Find the markers that none of the detectors which ran could judge by their neighbours."""
+    if not neighbours_judge(
+        getattr(getattr(options, stage), "preset", None) for stage in findings if stage != "labels"
+    ):
+        return {}
+    return unjudged_markers(
+        recording,
+        mesh,
+        min_frames=options.mesh.min_frames,
+        min_neighbours=options.mesh.min_predictors,
+        steady_mates=options.noise.shape.steady_mates,
+        max_mate_spread_mm=options.noise.shape.max_mate_spread_mm,
+    )
 
 
 def write(

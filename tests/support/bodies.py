@@ -68,4 +68,4 @@ def adjusted_rand_index(a, b):
 
 def labels(mesh, names):
     """The segment of each named marker, -1 for none."""
-    return [-1 if (s := mesh.segment_of(name)) is None else s for name in names]
+    return [next((s for s, segment in enumerate(mesh.segments) if name in segment.markers), -1) for name in names]

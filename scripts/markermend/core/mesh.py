@@ -88,21 +88,6 @@ class Mesh:
     absent: dict[str, tuple[str, ...]] = field(default_factory=dict)
     distances: dict[str, dict[str, tuple[float, float, float]]] = field(default_factory=dict)
 
-    def segment_of(self, marker: str) -> int | None:
-        """Find the segment of a marker.
-
-        Parameters
-        ----------
-        marker : str
-            Its name.
-
-        Returns
-        -------
-        int or None
-            Index of the segment; None where no segment holds the marker.
-        """
-        return next((s for s, segment in enumerate(self.segments) if marker in segment.markers), None)
-
     def neighbour_indices(self, markers: Sequence[str]) -> list[np.ndarray]:
         """Give the neighbours of each marker of a recording.
 

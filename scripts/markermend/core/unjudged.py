@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -11,6 +11,25 @@ from markermend.core.recording import Recording
 
 LABELS_ALONE = "only labels can be judged"
 """What is said of markers that cannot be predicted."""
+
+
+def neighbours_judge(presets: Iterable[str | None]) -> bool:
+    """Say whether any of the detectors that ran judges markers by their neighbours.
+
+    Parameters
+    ----------
+    presets : iterable of str or None
+        The preset of each detector but that of labels; None for a detector without presets.
+
+    Returns
+    -------
+    bool
+        Whether one has the preset `default`, or there are detectors and none has presets; the other presets judge each marker
+        by its own coordinates.
+    """
+    ran = list(presets)
+    chosen = [preset for preset in ran if preset is not None]
+    return "default" in chosen or bool(ran and not chosen)
 
 
 def unjudged_markers(

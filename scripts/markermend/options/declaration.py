@@ -11,6 +11,7 @@ import functools
 import inspect
 import itertools
 import textwrap
+from abc import ABC, abstractmethod
 from collections import ChainMap
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields
@@ -39,7 +40,7 @@ class Unit:
 
 
 @dataclass(frozen=True)
-class Bound:
+class Bound(ABC):
     """Bound of a number.
 
     Attributes
@@ -52,6 +53,7 @@ class Bound:
     words: ClassVar[str]
     keyword: ClassVar[str]
 
+    @abstractmethod
     def holds(self, value: float) -> bool:
         """Say whether a number is within the bound.
 
@@ -65,7 +67,6 @@ class Bound:
         bool
             Whether it is.
         """
-        raise NotImplementedError
 
 
 class Above(Bound):

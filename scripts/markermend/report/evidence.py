@@ -15,7 +15,7 @@ from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
-from markermend.core.unjudged import unjudged_markers, unjudged_warnings
+from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 from markermend.core.written import written_changes
 from markermend.report.decision_outcomes import DecisionOutcome, outcomes
 from markermend.report.open_findings import left_open, worst_first
@@ -91,11 +91,11 @@ class Evidence:
 
     @cached_property
     def unjudged(self) -> dict[str, str]:
-        """The markers that no detector could judge, and why; none where no detector ran."""
-        mesh = self.stages.get("mesh", {})
-        if not set(self.found) - {"labels"}:
+        """The markers that no detector could judge by their neighbours, and why; none where no detector was to do so."""
+        detectors = [self.stages.get(name, {}) for name in self.found if name != "labels"]
+        if not neighbours_judge(options.get("preset") for options in detectors):
             return {}
-        detectors = [self.stages.get(name, {}) for name in ("peaks", "noise")]
+        mesh = self.stages["mesh"]
         shape: dict[str, Any] = next((options["shape"] for options in detectors if "shape" in options), {})
         return unjudged_markers(
             self.before,

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
-from markermend.core.unjudged import unjudged_markers, unjudged_warnings
+from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 
 NAMES = ("a", "b", "c", "d", "e")
 
@@ -73,3 +73,17 @@ def test_a_marker_that_keeps_no_distances_is_not_judged_for_peaks_and_noise(reco
     }
     mesh.distances["a"]["e"] = mesh.distances["b"]["e"] = mesh.distances["c"]["e"] = steady
     assert found(recording, mesh) == {}
+
+
+@pytest.mark.parametrize(
+    ("presets", "judge"),
+    [
+        ([], False),
+        ([None], True),
+        (["paper"], False),
+        (["paper", None], False),
+        (["coordinates", "default", None], True),
+    ],
+)
+def test_only_the_default_detectors_judge_by_neighbours(presets, judge):
+    assert neighbours_judge(presets) is judge
