@@ -32,6 +32,8 @@ class Crop:
         The stretch, s.
     session : tuple of str
         Other recordings of the subject, relative to the data folder.
+    exchanged : tuple of str
+        Two markers whose labels are exchanged in the recording as it is, which is undone: none of it is the truth.
     """
 
     file: str
@@ -41,6 +43,7 @@ class Crop:
     start_s: float = 0.0
     length_s: float = 8.0
     session: tuple[str, ...] = ()
+    exchanged: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -51,6 +54,9 @@ class Crop:
 EXPERT1 = tuple(f"sessions/expert1/{name}1.trc" for name in ("static", "squats", "walking"))
 """What the session of STS1 and of expert1 is known by: of its twelve trials the static one, the longest and a walk."""
 
+THIGH = ("r_thigh3", "r_thigh5")
+"""In the drop jumps their distances to all other markers of the thigh are those of each other in the session."""
+
 CROPS = (
     Crop("clean/STS1.trc", "calm", "choosing", "expert1", 0, 8, EXPERT1),
     Crop("sessions/expert1/STSFast1.trc", "calm", "reporting", "expert1", 0, 10, EXPERT1),
@@ -60,8 +66,8 @@ CROPS = (
     Crop("clean/85_12.c3d", "moving", "reporting", "85", 10, 6, ("clean/85_02.c3d",)),
     Crop("clean/KneeltoProne01.c3d", "moving", "reporting", "kneel", 0, 4),
     Crop("sessions/expert1/squats1.trc", "sessions", "choosing", "expert1", 0, 8, ("clean/STS1.trc", *EXPERT1)),
-    Crop("sessions/expert1/DJ1.trc", "sessions", "choosing", "expert1", 0, 8, EXPERT1),
-    Crop("sessions/expert1/DJ2.trc", "sessions", "reporting", "expert1", 0, 8, EXPERT1),
+    Crop("sessions/expert1/DJ1.trc", "sessions", "choosing", "expert1", 0, 8, EXPERT1, THIGH),
+    Crop("sessions/expert1/DJ2.trc", "sessions", "reporting", "expert1", 0, 8, EXPERT1, THIGH),
     Crop("sessions/expert1/walking2.trc", "sessions", "reporting", "expert1", 0, 8, EXPERT1),
     Crop("raw/2022_01_0403.c3d", "raw", "choosing", "2022", 10),
     Crop("raw/nick_freeform_001.c3d", "raw", "choosing", "nick"),
@@ -101,7 +107,9 @@ def load(data: Path, crop: Crop) -> tuple[Recording, tuple[Recording, ...]]:
     """
     whole = api.read(data / crop.file, subject=crop.fold, kind="dynamic")
     start = round(crop.start_s * whole.rate)
-    positions = whole.positions[start : start + round(crop.length_s * whole.rate)]
+    positions = whole.positions[start : start + round(crop.length_s * whole.rate)].copy()
+    exchanged = [whole.markers.index(marker) for marker in crop.exchanged]
+    positions[:, exchanged] = positions[:, exchanged[::-1]]
     recording = replace(whole, positions=positions, first_frame=whole.first_frame + start)
     others = [api.read(data / name, subject=crop.fold) for name in crop.session if name != crop.file]
     return recording, tuple(others)

@@ -82,7 +82,8 @@ def _displaced(stretch: DisplacedStretch, scene: Scene, markers: Sequence[str]) 
 
 def _slipped(slip: SegmentSlip, markers: Sequence[str]) -> list[Event]:
     """The events of a slip."""
-    axes, amount = main_axes(slip.displacement[None]), round(float(np.linalg.norm(slip.displacement)), 3)
+    axes = main_axes(slip.displacements)
+    amount = round(float(np.median(np.linalg.norm(slip.displacements, axis=1))), 3)
     return [
         Event(markers[m], slip.start, slip.stop, slip.score, axes, None, "slip", slip.segment, amount)
         for m in slip.markers.tolist()

@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 from scipy import ndimage
 
+from markermend.detection.system.slip_pulses import (
+    FLANKS,
+    Pulse,
+    best_pulse,
+    impact_residual,
+    pulse_sizes,
+    residual_beside,
+)
 from markermend.numerics.intervals import samples
 from markermend.numerics.rigid_alignment import align, mean_shape
 from markermend.numerics.rigid_displacement import fit_displacement
@@ -17,14 +26,8 @@ from markermend.prediction.scene import Scene
 MIN_ANCHORS = 3
 """Markers around a segment that fix a frame of reference, at least."""
 
-FLANKS = (0, 1, 2)
-"""Frames over which a slip begins and ends."""
-
-ORDER = 2
-"""Order of the polynomial that the motion follows over the context of a candidate."""
-
-FIT_ORDER = 5
-"""Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
+NEAREST = 4
+"""Nearest displaced markers of which any two fix, with the marker that slips most clearly, how a segment is displaced."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,8 @@ class SegmentSlip:
         Indices of the markers that are displaced.
     start, stop : int
         The stretch, [start, stop).
-    displacement : np.ndarray
-        Median displacement (3,) in the laboratory, mm.
+    displacements : np.ndarray
+        Displacements (k, 3) of these markers in the laboratory, mm.
     score : float
         Its size in units of the threshold.
     """
@@ -49,7 +52,7 @@ class SegmentSlip:
     markers: np.ndarray
     start: int
     stop: int
-    displacement: np.ndarray
+    displacements: np.ndarray
     score: float
 
 
@@ -96,8 +99,7 @@ def _scores(scene: Scene, options: SegmentSlipOptions) -> np.ndarray:
     window = samples(options.scale_window_s, scene.rate, odd=True)
     best = np.zeros(scene.present.shape)
     for length in range(1, options.max_frames + 1):
-        pulse = ndimage.correlate1d(scene.positions, _pulse_kernel(length, options.context_frames), axis=0)
-        size = np.nan_to_num(np.sqrt((pulse**2).sum(axis=2)))
+        size = pulse_sizes(scene.positions, length, options.context_frames)
         score = size / (_usual(size, window) + options.noise_mm)
         np.maximum(best, np.where(size >= options.floor_mm, score, 0.0), out=best)
     return best / options.threshold_sigmas
@@ -136,51 +138,52 @@ class _SlipFinder:
         if len(rows) < margin + 2 * options.context_frames or not len(around) or around[0] != seed:
             return None
         courses = self.scene.positions[rows][:, around]
-        pulse = _best_pulse(courses[:, 0], options.max_frames, options.context_frames)
-        group = self._alike(np.tensordot(pulse.weights, courses, 1), 0)
-        for _ in range(2):
-            if group.sum() < options.min_markers:
-                return None
-            centre = courses[:, group].mean(axis=1)
-            pulse = _best_pulse(centre, options.max_frames, options.context_frames)
-            displaced = np.tensordot(pulse.weights, courses, 1)
-            group = self._alike(displaced, int(np.argmin(np.where(group, _off(displaced, displaced[group]), np.inf))))
-        typical = np.median(displaced[group], axis=0) if group.any() else np.zeros(3)
-        if group.sum() < options.min_markers or np.linalg.norm(typical) < options.floor_mm:
+        pulse = best_pulse(courses[:, 0], options.max_frames, options.context_frames)
+        group = self._together(courses, pulse)
+        if group is None:
             return None
-        if pulse.residual > options.max_impact_ratio * _impact_residual(centre, options.context_frames):
+        flat = courses[:, group].reshape(len(rows), -1)
+        pulse = best_pulse(flat, options.max_frames, options.context_frames)
+        if residual_beside(flat, pulse) > options.max_impact_ratio * impact_residual(flat, options.context_frames):
             return None
-        group = self._turned_along(courses[int(np.argmax(pulse.weights))], displaced, group)
-        if not self._against_anchors(courses, group, pulse.weights):
+        group = self._together(courses, pulse)
+        if group is None or not self._against_anchors(courses, group, pulse.weights):
             return None
         names = [self._segment_names.get(int(m), "") for m in around[group]]
         segment = max(sorted(set(names)), key=names.count)
         first, last = int(rows[pulse.start]), int(rows[pulse.stop - 1])
-        return SegmentSlip(segment, np.sort(around[group]), first, last + 1, typical, score)
+        order = group[np.argsort(around[group])]
+        displaced = np.tensordot(pulse.weights, courses[:, order], 1)
+        return SegmentSlip(segment, around[order], first, last + 1, displaced, score)
 
-    def _alike(self, displaced: np.ndarray, seed: int) -> np.ndarray:
-        """Which of some markers, displaced by (k, 3) mm, are displaced like one of them, bool (k,)."""
-        limit = self.options.max_disagreement * np.linalg.norm(displaced[seed])
-        alike: np.ndarray = np.linalg.norm(displaced - displaced[seed], axis=1) <= limit
-        return alike
-
-    def _turned_along(self, positions: np.ndarray, displaced: np.ndarray, group: np.ndarray) -> np.ndarray:
-        """A group with the other markers (k, 3) that are displaced as a rigid body together with it."""
-        expected = positions - displaced
-        rigid = fit_displacement(expected[group], positions[group])
-        if rigid is None:
-            return group
-        moved = rigid.displace(expected)
-        size = np.linalg.norm(moved - expected, axis=1)
-        near = np.linalg.norm(moved - positions, axis=1) <= self.options.max_disagreement * size
-        together: np.ndarray = group | (near & (np.linalg.norm(displaced, axis=1) >= self.options.floor_mm))
-        return together
+    def _together(self, courses: np.ndarray, pulse: Pulse) -> np.ndarray | None:
+        """Which of some markers (n, k, 3) are displaced as a rigid body together with the first one; None where too few are."""
+        options = self.options
+        displaced = np.tensordot(pulse.weights, courses, 1)
+        size = np.linalg.norm(displaced, axis=1)
+        moved = np.flatnonzero(size >= options.floor_mm)
+        if len(moved) < options.min_markers or moved[0] != 0:
+            return None
+        after = courses[int(np.argmax(pulse.weights))]
+        before, limit = after - displaced, options.max_disagreement * size
+        best = np.zeros(0, int)
+        for others in combinations(moved[1 : 1 + NEAREST].tolist(), 2):
+            group = np.array([0, *others])
+            for _ in range(2):
+                rigid = fit_displacement(before[group], after[group])
+                if rigid is None:
+                    break
+                off = np.linalg.norm(rigid.displace(before) - after, axis=1)
+                group = moved[off[moved] <= limit[moved]]
+            if 0 in group and len(group) > len(best):
+                best = group
+        return best if len(best) >= options.min_markers else None
 
     def _against_anchors(self, courses: np.ndarray, group: np.ndarray, weights: np.ndarray) -> bool:
         """Whether a group slips against the nearest other markers, too, and these do not."""
-        anchors = np.flatnonzero(~group)[: self.options.anchors]
-        typical = np.tensordot(weights, courses[:, group].mean(axis=1), 1)
-        limit = self.options.max_disagreement * np.linalg.norm(typical)
+        anchors = np.setdiff1d(np.arange(courses.shape[1]), group)[: self.options.anchors]
+        displaced = np.tensordot(weights, courses[:, group], 1)
+        limit = self.options.max_disagreement * np.median(np.linalg.norm(displaced, axis=1))
         still = np.linalg.norm(np.tensordot(weights, courses[:, anchors], 1), axis=1) <= limit
         if len(anchors) < MIN_ANCHORS or still.mean() < self.options.min_share:
             return False
@@ -188,70 +191,6 @@ class _SlipFinder:
         if len(anchors) < MIN_ANCHORS:
             return False
         frames = align(courses[:, anchors], mean_shape(courses[:, anchors]))
-        relative = np.tensordot(weights, frames.local(courses[:, group]).mean(axis=1), 1)
-        middle = int(np.argmax(weights))
-        return bool(np.linalg.norm(relative @ frames.axes[middle].T - typical) <= limit)
-
-
-def _off(displaced: np.ndarray, some: np.ndarray) -> np.ndarray:
-    """Distance (k,) of displacements (k, 3) from the median of some."""
-    off: np.ndarray = np.linalg.norm(displaced - np.median(some, axis=0), axis=1)
-    return off
-
-
-def _pulse_kernel(length: int, context: int) -> np.ndarray:
-    """Weights of the mean of `length` samples minus what a polynomial through `context` samples on either side predicts."""
-    time = np.arange(-context, length + context) - (length - 1) / 2
-    inside = (np.arange(len(time)) >= context) & (np.arange(len(time)) < context + length)
-    powers = np.vander(time / len(time), ORDER + 1)
-    kernel = np.where(inside, 1 / length, 0.0)
-    kernel[~inside] = -powers[inside].mean(axis=0) @ np.linalg.pinv(powers[~inside])
-    return kernel
-
-
-@dataclass(frozen=True)
-class _Pulse:
-    """A displacement over [start, stop), its regression weights (n,), and the square sum that it and a polynomial leave."""
-
-    start: int
-    stop: int
-    weights: np.ndarray
-    residual: float
-
-
-def _best_pulse(course: np.ndarray, longest: int, context: int) -> _Pulse:
-    """The pulse that, with a polynomial, explains a course (n, 3) best."""
-    pulses = _pulses(len(course), longest, context)
-    basis = np.linalg.qr(np.vander(np.linspace(-1, 1, len(course)), FIT_ORDER + 1))[0]
-    free = pulses - pulses @ basis @ basis.T
-    power = (free**2).sum(axis=1)
-    explained = ((free @ course) ** 2).sum(axis=1) / power
-    best = int(np.argmax(explained))
-    raised = np.flatnonzero(pulses[best])
-    around = course - basis @ (basis.T @ course)
-    residual = float((around**2).sum() - explained[best])
-    return _Pulse(int(raised[0]), int(raised[-1]) + 1, free[best] / power[best], residual)
-
-
-@cache
-def _pulses(frames: int, longest: int, context: int) -> np.ndarray:
-    """Pulses (n, frames) of height 1 and of all lengths and places, with flanks, at least `context` frames from both ends."""
-    shapes = []
-    for flank in FLANKS:
-        ramp = np.arange(1, flank + 1) / (flank + 1)
-        for length in range(1, longest + 1):
-            pulse = np.concatenate([ramp, np.ones(length), ramp[::-1]])
-            for start in range(context, frames - context - len(pulse) + 1):
-                shapes.append(np.pad(pulse, (start, frames - start - len(pulse))))
-    return np.array(shapes)
-
-
-def _impact_residual(course: np.ndarray, context: int) -> float:
-    """Smallest square sum that a polynomial leaves of a course (n, 3) whose velocity and acceleration break once."""
-    time = np.linspace(-1, 1, len(course))
-    left = []
-    for frame in range(context, len(course) - context):
-        after = np.maximum(0, time - time[frame])
-        basis = np.linalg.qr(np.column_stack([np.vander(time, FIT_ORDER + 1), after, after**2]))[0]
-        left.append(((course - basis @ (basis.T @ course)) ** 2).sum())
-    return float(min(left))
+        relative = np.tensordot(weights, frames.local(courses[:, group]), 1)
+        turned = relative @ frames.axes[int(np.argmax(weights))].T
+        return bool(np.median(np.linalg.norm(turned - displaced, axis=1)) <= limit)

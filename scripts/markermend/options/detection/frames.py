@@ -96,8 +96,9 @@ class SegmentSlipOptions:
     context_frames: Annotated[int, AtLeast(2)] = 3
     """Frames on either side with which a slip is compared."""
 
-    max_impact_ratio: Annotated[float, Above(0), AtMost(1)] = 0.5
-    """What a slip leaves unexplained of the motion, as a part of what an impact, a break of the velocity, would leave, at most."""
+    max_impact_ratio: Annotated[float, Above(0), AtMost(1)] = 0.1
+    """Departure of the motion beside a slip from a polynomial (mean square), as a part of that from an impact, a break of the
+    velocity, at most (0 to 1)."""
 
     max_disagreement: Annotated[float, Above(0), AtMost(1)] = 0.5
     """Distance of a marker's displacement from that of the others, as a part of it, at most (0 to 1)."""

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from markermend import api
-from markermend.detection.system.segment_slips import _best_pulse, find_segment_slips
+from markermend.detection.system.segment_slips import find_segment_slips
 from markermend.options.detection.frames import SegmentSlipOptions
 from markermend.prediction.scene import Scene
 
@@ -36,7 +37,19 @@ def test_found_to_the_frame_with_its_size(scene, segment, shape):
     (found,) = find_segment_slips(slipped(scene, members, 300, shape), OPTIONS)
     assert (found.segment, found.start, found.stop) == (segment, 300, 300 + len(shape))
     assert found.markers.tolist() == sorted(members.tolist()) and found.score >= 1
-    np.testing.assert_allclose(found.displacement, SHIFT, atol=2)
+    np.testing.assert_allclose(found.displacements, np.broadcast_to(SHIFT, (len(members), 3)), atol=2)
+
+
+@pytest.mark.parametrize("degrees", [0, 5])
+def test_rounded_and_turning_ones_are_found(scene, segment, degrees):
+    members, shape = scene.segments[segment], np.sin(np.pi * np.arange(1, 7) / 7)
+    true = scene.positions[300:306, members]
+    around = true - true.mean(axis=1, keepdims=True)
+    turn = Rotation.from_rotvec(np.radians([0, 0, degrees])).as_matrix()
+    positions = scene.positions.copy()
+    positions[300:306, members] += shape[:, None, None] * (2 * SHIFT + around @ turn.T - around)
+    (found,) = find_segment_slips(replace(scene, positions=positions), OPTIONS)
+    assert (found.start, found.stop, found.markers.tolist()) == (300, 306, sorted(members.tolist()))
 
 
 def test_motion_single_markers_and_impacts_are_none(scene, segment):
@@ -46,16 +59,3 @@ def test_motion_single_markers_and_impacts_are_none(scene, segment):
     impact = slipped(scene, members, 300, np.maximum(0, 8 - np.abs(np.arange(16) - 8)))
     assert find_segment_slips(impact, OPTIONS) == []
     assert find_segment_slips(replace(scene, segments=None), OPTIONS) == []
-
-
-def test_best_pulse_agrees_with_least_squares():
-    rng = np.random.default_rng(6)
-    time = np.linspace(-1, 1, 19)
-    course = rng.normal(0, 0.1, (19, 3)) + 20 * np.vander(time, 4) @ rng.normal(size=(4, 3))
-    course[7:11] += SHIFT
-    pulse = _best_pulse(course, 6, 3)
-    assert (pulse.start, pulse.stop) == (7, 11)
-    box = (np.arange(19) >= 7) & (np.arange(19) < 11)
-    naive, residual, _, _ = np.linalg.lstsq(np.column_stack([np.vander(time, 6), box]), course, rcond=None)
-    np.testing.assert_allclose(pulse.weights @ course, naive[-1])
-    assert pulse.residual == pytest.approx(residual.sum())

@@ -1,0 +1,163 @@
+"""Pulses of the positions of markers: displacements over a few frames, with flanks, beside motion that is a polynomial."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from scipy import ndimage
+
+SHORTEST = 2
+"""Shortest slip, frames, with the flanks: a single frame of several markers may be one of the motion."""
+
+FLANKS = (0, 1, 2, 3)
+"""Frames over which a slip begins and ends."""
+
+ORDER = 2
+"""Order of the polynomial that the motion follows over the context of a candidate."""
+
+FIT_ORDER = 5
+"""Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pulse:
+    """A displacement over a few frames, estimated together with a polynomial.
+
+    Attributes
+    ----------
+    start, stop : int
+        Its frames, [start, stop).
+    weights : np.ndarray
+        Regression weights (n,): their product with positions at the n frames is the height of the displacement.
+    """
+
+    start: int
+    stop: int
+    weights: np.ndarray
+
+
+def pulse_sizes(positions: np.ndarray, length: int, context: int) -> np.ndarray:
+    """Compute by how much the mean of a few samples departs from the motion on either side.
+
+    Parameters
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing.
+    length : int
+        Samples whose mean is taken, around each frame.
+    context : int
+        Samples on either side through which a polynomial is laid.
+
+    Returns
+    -------
+    np.ndarray
+        Distances (frames, markers), mm; 0 where a sample is missing.
+    """
+    time = np.arange(-context, length + context) - (length - 1) / 2
+    inside = (np.arange(len(time)) >= context) & (np.arange(len(time)) < context + length)
+    powers = np.vander(time / len(time), ORDER + 1)
+    kernel = np.where(inside, 1 / length, 0.0)
+    kernel[~inside] = -powers[inside].mean(axis=0) @ np.linalg.pinv(powers[~inside])
+    pulse = ndimage.correlate1d(positions, kernel, axis=0)
+    sizes: np.ndarray = np.nan_to_num(np.sqrt((pulse**2).sum(axis=2)))
+    return sizes
+
+
+def best_pulse(courses: np.ndarray, longest: int, context: int) -> Pulse:
+    """Find the pulse that, with a polynomial, explains some courses best.
+
+    Parameters
+    ----------
+    courses : np.ndarray
+        Coordinates (n, d) over n frames, mm, without NaN.
+    longest : int
+        Longest pulse, frames, without its flanks.
+    context : int
+        Frames between a pulse and either end, at least.
+
+    Returns
+    -------
+    Pulse
+        The pulse.
+    """
+    pulses, free, power = _pulses(len(courses), longest, context)
+    explained = ((free @ courses) ** 2).sum(axis=1) / power
+    best = int(np.argmax(explained))
+    raised = np.flatnonzero(pulses[best])
+    return Pulse(int(raised[0]), int(raised[-1]) + 1, free[best] / power[best])
+
+
+def residual_beside(courses: np.ndarray, pulse: Pulse) -> float:
+    """Fit the motion beside a pulse, whatever its shape: a polynomial through all frames but its own.
+
+    Parameters
+    ----------
+    courses : np.ndarray
+        Coordinates (n, d) over n frames, mm, without NaN.
+    pulse : Pulse
+        The pulse.
+
+    Returns
+    -------
+    float
+        Mean square that the polynomial leaves per degree of freedom, mm^2.
+    """
+    beside = np.ones(len(courses), bool)
+    beside[pulse.start : pulse.stop] = False
+    basis = np.linalg.qr(_polynomials(len(courses))[beside])[0]
+    return _mean_square(courses[beside], basis)
+
+
+def impact_residual(courses: np.ndarray, context: int) -> float:
+    """Fit an impact: a polynomial whose velocity and acceleration break at one frame.
+
+    Parameters
+    ----------
+    courses : np.ndarray
+        Coordinates (n, d) over n frames, mm, without NaN.
+    context : int
+        Frames between the break and either end, at least.
+
+    Returns
+    -------
+    float
+        Smallest mean square that it leaves per degree of freedom, mm^2.
+    """
+    return min(_mean_square(courses, basis) for basis in _breaks(len(courses), context))
+
+
+def _mean_square(courses: np.ndarray, basis: np.ndarray) -> float:
+    """Mean square per degree of freedom that an orthonormal basis (n, p) leaves of courses (n, d), mm^2."""
+    left = courses - basis @ (basis.T @ courses)
+    return float((left**2).sum() / max(1, basis.shape[0] - basis.shape[1]))
+
+
+@cache
+def _polynomials(frames: int) -> np.ndarray:
+    """An orthonormal basis (frames, FIT_ORDER + 1) of polynomials."""
+    return np.linalg.qr(np.vander(np.linspace(-1, 1, frames), FIT_ORDER + 1))[0]
+
+
+@cache
+def _breaks(frames: int, context: int) -> list[np.ndarray]:
+    """Orthonormal bases (frames, FIT_ORDER + 3) of polynomials that break at each frame."""
+    time = np.linspace(-1, 1, frames)
+    after = [np.maximum(0, time - time[frame]) for frame in range(context, frames - context)]
+    return [np.linalg.qr(np.column_stack([np.vander(time, FIT_ORDER + 1), own, own**2]))[0] for own in after]
+
+
+@cache
+def _pulses(frames: int, longest: int, context: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pulses (k, frames) of height 1 of all lengths, flanks and places, their parts free of polynomials, and the power of these."""
+    shapes = []
+    for flank in FLANKS:
+        ramp = np.arange(1, flank + 1) / (flank + 1)
+        for length in range(max(1, SHORTEST - 2 * flank), longest + 1):
+            pulse = np.concatenate([ramp, np.ones(length), ramp[::-1]])
+            for start in range(context, frames - context - len(pulse) + 1):
+                shapes.append(np.pad(pulse, (start, frames - start - len(pulse))))
+    pulses, basis = np.array(shapes), _polynomials(frames)
+    free = pulses - pulses @ basis @ basis.T
+    return pulses, free, (free**2).sum(axis=1)
