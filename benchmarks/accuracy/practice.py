@@ -153,7 +153,8 @@ def report(copies: Iterable[Judged], *, each: bool = False) -> list[dict[str, An
     totals: dict[tuple[str, str], list[FaultOutcome]] = {}
     outside: dict[str, int] = {}
     for task, outcomes, altered in copies:
-        print(f"{task.crop.name}, {', '.join(task.kinds)}, seed {task.seed}: {len(outcomes)} faults", file=sys.stderr)
+        done = f"{task.crop.name}, {', '.join(task.kinds)}, seed {task.seed}"
+        print(f"{done}: {len(outcomes)} faults, {altered} samples altered outside", file=sys.stderr)
         if each:
             print_each(task, outcomes)
         for outcome in outcomes:
