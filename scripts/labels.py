@@ -1,7 +1,8 @@
 """Detect exchanged labels: markers that stand under each other's labels over a stretch.
 
 Reads: 01_markers.parquet, mesh.json.
-Writes: 02_labels.parquet, with warnings of exchanges of which nothing says which part is right among its facts.
+Writes: 02_labels.parquet, with warnings of exchanges of which nothing says which part is right, and of samples that may
+lie under unlabelled trajectories, among its facts.
 """
 
 from collections.abc import Sequence
@@ -9,6 +10,7 @@ from typing import Any
 
 from markermend.command import detector
 from markermend.detection.labelling.open_exchanges import open_exchanges
+from markermend.detection.labelling.unlabelled import unlabelled_samples
 from markermend.detection.labels import detect_labels
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -23,6 +25,7 @@ def work(call: Any) -> str:
     scene = Scene.of(recording, mesh)
     found = detect_labels(scene, markers=recording.markers, options=call.options)
     warnings = open_exchanges(scene, found, markers=recording.markers, options=call.options)
+    warnings += unlabelled_samples(found, first_frame=recording.first_frame)
     stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
     return detector.result(found)
 

@@ -110,7 +110,8 @@ def load(data: Path, crop: Crop) -> tuple[Recording, tuple[Recording, ...]]:
     positions = whole.positions[start : start + round(crop.length_s * whole.rate)].copy()
     exchanged = [whole.markers.index(marker) for marker in crop.exchanged]
     positions[:, exchanged] = positions[:, exchanged[::-1]]
-    recording = replace(whole, positions=positions, first_frame=whole.first_frame + start)
+    tracks = {name: own[start : start + len(positions)] for name, own in whole.unlabelled.items()}
+    recording = replace(whole, positions=positions, first_frame=whole.first_frame + start, unlabelled=tracks)
     others = [api.read(data / name, subject=crop.fold) for name in crop.session if name != crop.file]
     return recording, tuple(others)
 

@@ -34,6 +34,7 @@ from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
 from markermend.detection.labelling.open_exchanges import open_exchanges
+from markermend.detection.labelling.unlabelled import unlabelled_samples
 from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
@@ -165,8 +166,8 @@ class Cleaned:
         The outcome of each finding and each gap, or why nothing was done.
     unjudged : mapping of str to str
         Why a marker could not be judged but for its labels, by marker.
-    open_exchanges : sequence of str
-        Which markers may be exchanged in about half of the recording, one sentence each.
+    label_warnings : sequence of str
+        Which markers may be exchanged in about half of the recording, and which may lie under unlabelled trajectories, one sentence each.
     """
 
     measured: Recording
@@ -175,13 +176,13 @@ class Cleaned:
     findings: Mapping[str, list[Event]]
     changes: Sequence[Change]
     unjudged: Mapping[str, str] = field(default_factory=dict)
-    open_exchanges: Sequence[str] = ()
+    label_warnings: Sequence[str] = ()
 
     @property
     def warnings(self) -> list[str]:
         """What a person should know, one sentence each: of the file, the mesh, labels, and markers that could not be judged."""
         of_file = self.measured.facts.get("warnings", ())
-        return [*of_file, *self.mesh.warnings, *self.open_exchanges, *unjudged_warnings(self.unjudged)]
+        return [*of_file, *self.mesh.warnings, *self.label_warnings, *unjudged_warnings(self.unjudged)]
 
 
 def read(
@@ -432,11 +433,13 @@ def clean(
     filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
     own_mesh = mesh_of(recording, mesh)
     unjudged = _unjudged(recording, own_mesh, findings, options)
-    exchanged: list[str] = []
+    label_warnings: list[str] = []
     if "labels" in findings:
         scene = Scene.of(recording, own_mesh)
-        exchanged = open_exchanges(scene, findings["labels"], markers=recording.markers, options=options.labels)
-    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, exchanged)
+        own = findings["labels"]
+        label_warnings = open_exchanges(scene, own, markers=recording.markers, options=options.labels)
+        label_warnings += unlabelled_samples(own, first_frame=recording.first_frame)
+    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, label_warnings)
 
 
 def _unjudged(recording: Recording, mesh: Mesh, findings: Mapping[str, Any], options: Options) -> dict[str, str]:

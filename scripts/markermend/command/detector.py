@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from markermend.command.presets import Published, preset_detector, preset_of, preset_options, preset_predictor
 from markermend.command.stage import Stage
 from markermend.core import events, labels
+from markermend.core.adoption import adopt, is_adopted, without_adopted
 from markermend.core.artifacts import BY_NAME
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
@@ -105,7 +106,7 @@ def detector_arguments(
     """Make the arguments of a detector.
 
     The published detectors (preset `paper`) look at the trajectories as recorded, all others at trajectories on which
-    exchanged labels are undone.
+    exchanged labels are undone and markers have their samples that lie under unlabelled trajectories, as far as these are adopted.
 
     Parameters
     ----------
@@ -127,12 +128,15 @@ def detector_arguments(
     """
     as_recorded = preset_of(options) == "paper"
     exchanges = [event for event in earlier if event.partner is not None]
+    adopted = [] if as_recorded else list(filter(is_adopted, earlier))
     artifacts = [event for event in earlier if event.partner is None and not _only_reported(event)]
+    artifacts = [event for event in without_adopted(artifacts, adopted) if not is_adopted(event)]
     positions = recording.positions
     if as_recorded:
         artifacts = labels.follow(artifacts, found_under=exchanges, stated_under=())
     else:
         positions = labels.undo_exchanges(positions, exchanges, recording.markers)
+        positions = adopt(positions, adopted, recording.unlabelled, recording.markers)
     given = {
         "scene": Scene.of(recording, mesh, positions),
         "markers": recording.markers,

@@ -36,7 +36,7 @@ def applied_changes(measured: Recording, restored: Restored, changes: Sequence[C
     differs, filled = changed(measured, restored), restored.origin == FILLED
     taken = [change for gone in (Outcome.BLANKED, Outcome.EXCHANGED) for change in changes if change.outcome is gone]
     applied = []
-    for outcomes in ((Outcome.REPAIRED, Outcome.EXCHANGED), (Outcome.BLANKED,)):
+    for outcomes in ((Outcome.REPAIRED, Outcome.EXCHANGED, Outcome.ADOPTED), (Outcome.BLANKED,)):
         for change in (change for change in changes if change.outcome in outcomes):
             m = restored.markers.index(change.marker)
             own = _within(change, differs[:, m] & ~filled[:, m])

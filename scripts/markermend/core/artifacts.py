@@ -36,6 +36,8 @@ class ArtifactClass:
     scope : str
         What one finding is about: a `marker`, the markers of a `segment`, or all markers of the `recording`. Beyond a marker
         it has one event for each of its markers, with a common `group`.
+    repaired_as : str
+        The class whose origin samples have after its repair; empty where that is its own.
     """
 
     stage: str
@@ -46,6 +48,7 @@ class ArtifactClass:
     unmeasured: str = ""
     reported: str = ""
     scope: Literal["marker", "segment", "recording"] = "marker"
+    repaired_as: str = ""
 
     @property
     def events_file(self) -> str:
@@ -55,7 +58,7 @@ class ArtifactClass:
     @property
     def origin(self) -> str:
         """The origin of samples after their repair, one of `markermend.core.recording.ORIGINS`."""
-        return MISSING if self.unmeasured else self.name
+        return MISSING if self.unmeasured else self.repaired_as or self.name
 
 
 ARTIFACTS = (
@@ -67,6 +70,22 @@ ARTIFACTS = (
         "the label is not on its marker but on a reflection, on another marker, or on a marker that fell off",
         2,
         unmeasured="the label is not on its marker",
+    ),
+    ArtifactClass(
+        "labels",
+        "unlabelled",
+        "samples under unlabelled trajectories",
+        "the marker is missing while its samples lie under an unlabelled trajectory",
+        2,
+        reported="adopt them on request, if they are the marker's",
+        repaired_as="adopted",
+    ),
+    ArtifactClass(
+        "labels",
+        "adopted",
+        "adopted samples",
+        "the marker is given its samples that lie under an unlabelled trajectory",
+        2,
     ),
     ArtifactClass(
         "frames",

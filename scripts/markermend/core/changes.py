@@ -28,6 +28,8 @@ class Outcome(StrEnum):
     """Measured samples were replaced, starting from what was measured."""
     EXCHANGED = "exchanged"
     """The marker was given the samples of its partner."""
+    ADOPTED = "adopted"
+    """The marker was given samples that are recorded under an unlabelled trajectory."""
     FILLED = "filled"
     """A gap was filled."""
     BLANKED = "blanked"
@@ -88,7 +90,7 @@ class Change:
     axes : str
         The axes on which the detector fired, such as "xz"; empty where there is no evidence.
     partner : str, optional
-        The other marker of exchanged labels.
+        The other marker of exchanged labels, or the unlabelled trajectory under which samples are recorded.
     method : str, optional
         What replaced the samples; None where nothing did.
     alternatives : tuple of Alternative

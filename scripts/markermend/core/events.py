@@ -39,6 +39,8 @@ class Event:
         How far the samples are displaced, mm, where the detector states it.
     reference : str, optional
         What decided that the other level of the marker counts as right, one of REFERENCES, where there are two levels.
+    source : str, optional
+        The unlabelled trajectory under which the samples of the marker are recorded.
     """
 
     marker: str
@@ -51,6 +53,7 @@ class Event:
     group: str | None = None
     amount_mm: float | None = None
     reference: str | None = None
+    source: str | None = None
 
     @property
     def markers(self) -> tuple[str, ...]:

@@ -67,8 +67,8 @@ def find_originals(measured: Recording, restored: Restored, applied: Sequence[Ch
     """
     differs = changed(measured, restored)
     classes = np.full(differs.shape, "", object)
-    # A sample that was exchanged and then repaired or taken away has the class of what was done last.
-    for change in sorted(applied, key=lambda change: change.outcome is not Outcome.EXCHANGED):
+    # A sample that was exchanged or adopted, and then repaired or taken away, has the class of what was done last.
+    for change in sorted(applied, key=lambda change: change.outcome not in (Outcome.EXCHANGED, Outcome.ADOPTED)):
         classes[change.start : change.stop, measured.markers.index(change.marker)] = change.kind
     marker, frame = np.nonzero(differs.T)
     return Originals(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,10 +24,12 @@ ORIGINS = (
     "jump",
     "shift",
     "slip",
+    "adopted",
 )
 """What a written sample is: as measured, repaired by class, filled, or missing; stored by name, in memory its place here."""
 
 MEASURED, FILLED, MISSING = ORIGINS.index("measured"), ORIGINS.index("filled"), ORIGINS.index("missing")
+ADOPTED = ORIGINS.index("adopted")
 
 
 class BadRecording(Exception):
@@ -66,6 +69,8 @@ class Recording:
         The capture program's number of row 0.
     facts : dict
         How the recording came to be, JSON values only.
+    unlabelled : mapping of str to ndarray of float, shape (frames, 3)
+        Positions of the trajectories that the file holds without the label of a marker, mm, by their names; NaN = missing.
     """
 
     markers: tuple[str, ...]
@@ -73,12 +78,15 @@ class Recording:
     rate: float
     first_frame: int = 1
     facts: dict[str, Any] = field(default_factory=dict)
+    unlabelled: Mapping[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.positions.ndim != 3 or self.positions.shape[1:] != (len(self.markers), 3):
             raise ValueError(f"positions {self.positions.shape} do not fit {len(self.markers)} markers")
         if len(set(self.markers)) != len(self.markers):
             raise ValueError("marker names are not unique")
+        if any(own.shape != (len(self.positions), 3) for own in self.unlabelled.values()):
+            raise ValueError(f"unlabelled trajectories do not have {len(self.positions)} frames: cut or drop them, too")
 
     @property
     def frames(self) -> int:

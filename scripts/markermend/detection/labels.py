@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from markermend.core.events import Event
+from markermend.core.events import Event, mask
 from markermend.detection.labelling.cycles import find_cycle_exchanges
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
@@ -19,6 +19,7 @@ from markermend.detection.labelling.open_exchanges import without_open
 from markermend.detection.labelling.pairs import find_pair_exchanges, length
 from markermend.detection.labelling.sections import find_borders, judged_rows
 from markermend.detection.labelling.states import exchange_events, labelling
+from markermend.detection.labelling.unlabelled import UnlabelledSearch
 from markermend.numerics import intervals, robust
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -28,7 +29,7 @@ MIN_WINDOW = 5
 
 
 def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> list[Event]:
-    """Find the exchanges of labels of a recording, and labels on something else.
+    """Find the exchanges of labels of a recording, labels on something else, and markers without their labels.
 
     Parameters
     ----------
@@ -44,7 +45,8 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
     list[Event]
         One event for each marker, sorted, with that under whose label it is recorded as partner. Two markers are each
         other's partners, three and more form a cycle of partners; all of these have the same interval. Events of the class
-        `foreign` have no partner, and state labels as they are after the exchanges are undone.
+        `foreign`, and of samples under unlabelled trajectories, have no partner, and state labels as they are after the exchanges
+        are undone.
     """
     window = max(MIN_WINDOW, intervals.samples(options.window_s, scene.rate, odd=True))
     sudden = sudden_steps(scene.positions, window=window, options=options)
@@ -62,7 +64,13 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
         limit = options.max_exchanged_share if scene.shape.recordings == 1 else 1.0
         found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
     right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
-    found += ForeignSearch(right, scene.rate, evidence).find(markers)
+    single = ForeignSearch(right, scene.rate, evidence).find(markers)
+    if scene.unlabelled:
+        measured = np.where(mask(single, len(right), markers)[..., None], np.nan, right)
+        single += UnlabelledSearch(measured, scene.unlabelled, scene.rate, evidence).find(markers)
+    # Where it is left open which labels are right, nothing can be said of a marker alone.
+    undecided = evidence.under != labelling(found, scene.present.shape, markers)[0]
+    found += [event for event in single if not undecided[event.start : event.stop, markers.index(event.marker)].any()]
     return sorted(found, key=lambda event: event.order)
 
 

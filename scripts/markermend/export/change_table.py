@@ -54,7 +54,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
 
 def _row(change: Change, recording: Recording) -> dict[str, Any]:
     """One row of the table. Axes and partner are stated of repairs alone: what was taken away concerns all axes."""
-    repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED, Outcome.LEFT)
+    repaired = change.outcome in (Outcome.REPAIRED, Outcome.EXCHANGED, Outcome.ADOPTED, Outcome.LEFT)
     alternatives = sorted(change.alternatives, key=lambda other: other.method)
     return {
         "recording": recording.facts.get("recording", ""),

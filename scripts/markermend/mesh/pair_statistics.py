@@ -87,12 +87,13 @@ def thin(recording: Recording, *, frames: int) -> Recording:
     Returns
     -------
     Recording
-        At most `frames` frames at a rate that falls accordingly, so that the duration stays.
+        At most `frames` frames of the markers at a rate that falls accordingly, so that the duration stays.
     """
     if recording.frames <= frames:
-        return recording
+        return replace(recording, unlabelled={})
     rows = (np.arange(frames) * recording.frames) // frames
-    return replace(recording, positions=recording.positions[rows], rate=recording.rate * frames / recording.frames)
+    rate = recording.rate * frames / recording.frames
+    return replace(recording, positions=recording.positions[rows], rate=rate, unlabelled={})
 
 
 def distance_statistics(positions: np.ndarray, *, valid_frames: int) -> tuple[np.ndarray, np.ndarray]:

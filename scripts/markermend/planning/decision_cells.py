@@ -94,8 +94,9 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
             raise Problem(
                 "value", f"{value!r}: a swap is between two markers, write one as the marker and swap:OTHER here"
             )
-        if kind not in BY_NAME or (partner and kind != "swap"):
-            raise Problem("value", _unknown(value, [kind for kind in BY_NAME if kind != "swap"] + ["swap:OTHER"]))
+        stated = [name for name, own in BY_NAME.items() if name != "swap" and own.origin != "adopted"]
+        if kind not in (*stated, "swap") or (partner and kind != "swap"):
+            raise Problem("value", _unknown(value, [*stated, "swap:OTHER"]))
         if partner == row["marker"]:
             raise Problem("value", f"{value!r}: the other marker is the same")
     return value

@@ -42,6 +42,8 @@ class Scene:
         The usual distances of the markers over all of the subject's recordings; None without a mesh.
     segments : Mapping[str, np.ndarray] | None
         For each segment the indices of its markers; None without a mesh.
+    unlabelled : Mapping[str, np.ndarray] | None
+        Positions of the unlabelled trajectories (frames, 3), mm, NaN = missing, by name; None without a mesh.
     """
 
     positions: np.ndarray
@@ -52,6 +54,7 @@ class Scene:
     segment_mates: Sequence[np.ndarray] | None = None
     shape: Shape | None = None
     segments: Mapping[str, np.ndarray] | None = None
+    unlabelled: Mapping[str, np.ndarray] | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:
@@ -76,7 +79,15 @@ class Scene:
         mates = mesh.segment_mate_indices(markers)
         neighbours, shape = mesh.neighbour_indices(markers), mesh.shape(markers)
         segments = mesh.segment_indices(markers)
-        return cls(shown, recording.rate, neighbours, segment_mates=mates, shape=shape, segments=segments)
+        return cls(
+            shown,
+            recording.rate,
+            neighbours,
+            segment_mates=mates,
+            shape=shape,
+            segments=segments,
+            unlabelled=recording.unlabelled,
+        )
 
     @cached_property
     def present(self) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Labels are exchanged first, then stretches over which all markers are displaced are moved back, then, on request, markers that
+Markers are given their samples that lie under unlabelled trajectories, then labels are exchanged, then stretches over which all markers are displaced are moved back, then, on request, markers that
 were displaced for good. All other findings were made on trajectories with the exchanges undone; where an exchange is not
 carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
 proposal with the least expected error is taken if it changes more than it may err by, and if a method that leaves the
@@ -26,6 +26,7 @@ from markermend.core.recording import Recording
 from markermend.options.repair import RepairOptions
 from markermend.prediction.interface import Predictor
 from markermend.prediction.scene import Scene
+from markermend.repair.adoptions import adopt_samples
 from markermend.repair.apply_decisions import DecidedFindings, apply_decisions
 from markermend.repair.candidates import CandidateMaker
 from markermend.repair.exchange_plan import PlannedExchange, not_planned, plan_exchanges
@@ -108,6 +109,8 @@ def repair_scene(
     exchanges = [event for event in found.get("labels", ()) if event.partner]
     by_options = [*protecting(options.protect), *(accepting(KINDS) if options.move_back_lasting else ())]
     rulings = Rulings([] if static else [*by_options, *decisions], linked_events(found))
+    adoption = adopt_samples(recording, found, rulings)
+    recording, found = adoption.recording, adoption.found
     decided = apply_decisions(recording, found, rulings.decisions)
     refusal = (
         Reason(Cause.STATIC, "static recording: never repaired") if static else _too_much(decided, rulings, options)
@@ -118,7 +121,7 @@ def repair_scene(
     carried = [event for exchange in planned if exchange.reason is None for event in exchange.cycle]
     if set(carried) != set(exchanges):
         decided = apply_decisions(recording, _follow_samples(found, exchanges, carried), rulings.decisions)
-    result = Restoration(decided.recording, decided.left, options.radius)
+    result = Restoration(decided.recording, [*decided.left, *adoption.left], options.radius, adopted=adoption.adopted)
     _exchange_labels(result, planned)
     methods = options.methods.get("frames", ())
     settled = move_back(decided.found, rulings, methods=methods, refusal=refusal, result=result)
@@ -129,7 +132,8 @@ def repair_scene(
     maker = _candidate_maker(exchanged, remaining, scene, predictors, options)
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)
-    return TreatedRecording(*result.finished())
+    restored, changes = result.finished()
+    return TreatedRecording(restored, (*adoption.carried, *changes))
 
 
 def _candidate_maker(

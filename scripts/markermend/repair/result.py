@@ -11,7 +11,7 @@ from markermend.core.artifacts import class_of
 from markermend.core.changes import DECIMALS, Alternative, Change, Outcome, largest
 from markermend.core.events import Event
 from markermend.core.reasons import Reason
-from markermend.core.recording import MEASURED, MISSING, ORIGINS, Recording, Restored
+from markermend.core.recording import ADOPTED, MEASURED, MISSING, ORIGINS, Recording, Restored
 from markermend.core.rulings import Ruling
 from markermend.options.repair import RepairRadiusOptions
 from markermend.repair.candidates import Candidate
@@ -28,6 +28,8 @@ class Restoration:
         What is already known about stretches that are not repaired.
     radius : mapping of str to float
         Radii of the balls in standard deviations, see `RepairOptions`.
+    adopted : ndarray of bool, shape (frames, markers), optional
+        The samples of the recording that were taken over from unlabelled trajectories; by default none.
 
     Attributes
     ----------
@@ -35,10 +37,19 @@ class Restoration:
         Positions as repaired so far, mm, NaN = missing.
     """
 
-    def __init__(self, recording: Recording, left: Iterable[Change], radius: RepairRadiusOptions) -> None:
+    def __init__(
+        self,
+        recording: Recording,
+        left: Iterable[Change],
+        radius: RepairRadiusOptions,
+        *,
+        adopted: np.ndarray | None = None,
+    ) -> None:
         self._recording, self._radius = recording, radius
         self.positions = recording.positions.copy()
         self._origin = np.where(recording.missing, MISSING, MEASURED).astype(np.uint8)
+        if adopted is not None:
+            self._origin[adopted & ~recording.missing] = ADOPTED
         self._error = np.where(recording.missing, np.nan, 0.0)
         self._repairs: list[Change] = []
         self._left = list(left)
@@ -91,7 +102,8 @@ class Restoration:
         own, partners = [index(event.marker) for event in cycle], [index(str(event.partner)) for event in cycle]
         self.positions[span, own] = self._recording.positions[span, partners]
         missing = np.isnan(self.positions[span, own]).any(axis=2)
-        self._origin[span, own] = np.where(missing, MISSING, ORIGINS.index("swap"))
+        taken = self._origin[span, partners] == ADOPTED
+        self._origin[span, own] = np.where(missing, MISSING, np.where(taken, ADOPTED, ORIGINS.index("swap")))
         self._error[span, own] = np.where(missing, np.nan, 0.0)
         for event in cycle:
             change = _change(event, ("swap",), Outcome.EXCHANGED, ruling)

@@ -140,7 +140,11 @@ def _mesh(stages: Stages, citations: Citations) -> Iterator[str]:
 
 def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     """Which artifacts were detected, where, and how they were repaired."""
-    sought = [own for own in ARTIFACTS if own.stage in stages and not own.unmeasured and not own.reported]
+    sought = [
+        own
+        for own in ARTIFACTS
+        if own.stage in stages and not own.unmeasured and not own.reported and own.origin != "adopted"
+    ]
     if not sought:
         return
     classes = ", ".join(artifact.plural for artifact in sought)
@@ -157,7 +161,9 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     left = [
         own
         for own in ARTIFACTS
-        if own.reported and stages.get(own.stage, {"preset": ""}).get("preset", "default") == "default"
+        if own.reported
+        and not (own.origin == "adopted" and _adopts(stages))
+        and stages.get(own.stage, {"preset": ""}).get("preset", "default") == "default"
     ]
     if left:
         text = " and ".join(artifact.plural for artifact in left)
@@ -170,6 +176,16 @@ def _unmeasured(stages: Stages) -> Iterator[str]:
     if found:
         text = " and ".join(found)
         yield f"{text[0].upper()}{text[1:]} were treated as missing."
+    if _adopts(stages):
+        yield (
+            "Markers that were missing while their samples lay under an unlabelled trajectory were given these samples, where the "
+            "distances to other markers left no doubt."
+        )
+
+
+def _adopts(stages: Stages) -> bool:
+    """Whether markers were given their samples that lay under unlabelled trajectories."""
+    return bool(stages.get("labels", {}).get("adopt_unlabelled"))
 
 
 def _filling(stages: Stages, citations: Citations) -> Iterator[str]:

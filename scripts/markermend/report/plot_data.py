@@ -38,7 +38,7 @@ def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: f
         JSON values: `first` and `step` (capture program's numbers), `frames`, `span` (the finding, half-open, same
         numbers), `rate`, `origin` (number of row 0), `before`, `after` (runs of changed samples with one unchanged
         neighbour on either side; after x, y, z come the radii that hold the truth with probability 0.68 and 0.95), and
-        `partner` (the other marker of an exchange of labels).
+        `partner` (the other marker of an exchange of labels, or the unlabelled trajectory).
     """
     context = round(context_s * before.rate)
     first, stop = max(0, finding.start - context), min(before.frames, finding.stop + context)
@@ -59,6 +59,9 @@ def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: f
     if finding.partner in before.markers:
         p = before.markers.index(finding.partner)
         cut["partner"] = series(before.positions[window, p], ~before.missing[window, p])
+    elif finding.partner is not None and finding.partner in before.unlabelled:
+        track = before.unlabelled[finding.partner][window]
+        cut["partner"] = series(track, ~np.isnan(track).any(axis=1))
     return cut
 
 

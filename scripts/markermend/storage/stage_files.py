@@ -27,6 +27,7 @@ EVENT_SCHEMA = pa.schema(
         ("group", pa.string()),
         ("amount_mm", pa.float64()),
         ("reference", pa.string()),
+        ("source", pa.string()),
     ]
 )
 """The columns of a file of events."""
@@ -107,20 +108,23 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
     path : Path
         The Parquet file.
     recording : Recording
-        Its positions become the columns `{marker}.x`, `.y`, `.z`; for a Restored one origin and errors are stored, too. Its
-        markers, rate, first frame and number of frames join the facts in the footer.
+        Its positions become the columns `{marker}.x`, `.y`, `.z`; for a Restored one origin and errors are stored, too, else
+        the columns of unlabelled trajectories, by the fact `unlabelled`. Its markers, rate, first frame and number of frames join the facts in the footer.
     facts : dict
         What the stage says of itself, JSON values.
     """
     columns: dict[str, pa.Array] = {}
     for m, marker in enumerate(recording.markers):
-        for a, axis in enumerate("xyz"):
-            columns[f"{marker}.{axis}"] = column(recording.positions[:, m, a], np.float64)
+        columns |= _axes(marker, recording.positions[:, m])
         if isinstance(recording, Restored):
             codes = column(recording.origin[:, m], np.int8)
             columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, pa.array(ORIGINS))
             columns[f"{marker}.error"] = column(recording.error[:, m], np.float64)
             columns[f"{marker}.error95"] = column(recording.error95[:, m], np.float64)
+    # What is done to markers never touches other trajectories: they are stored with the recording as ingested alone.
+    unlabelled = {} if isinstance(recording, Restored) else recording.unlabelled
+    for name, positions in unlabelled.items():
+        columns |= _axes(name, positions)
     own = {
         "markers": list(recording.markers),
         "rate": recording.rate,
@@ -154,11 +158,11 @@ def read_recording(path: Path) -> Recording:
     markers, frames = tuple(facts["markers"]), facts["frames"]
     positions = np.full((frames, len(markers), 3), np.nan)
     for m, marker in enumerate(markers):
-        for a, axis in enumerate("xyz"):
-            positions[:, m, a] = vector(table[f"{marker}.{axis}"])
+        positions[:, m] = _vectors(table, marker)
     common = (markers, positions, facts["rate"], facts["first_frame"], facts)
     if not any(name.endswith(".origin") for name in table.column_names):
-        return Recording(*common)
+        named = [name for name in facts.get("unlabelled", ()) if f"{name}.x" in table.column_names]
+        return Recording(*common, unlabelled={name: _vectors(table, name) for name in named})
     origin = np.zeros((frames, len(markers)), np.uint8)
     error, error95 = np.zeros((2, frames, len(markers)))
     for m, marker in enumerate(markers):
@@ -166,6 +170,16 @@ def read_recording(path: Path) -> Recording:
         error[:, m] = vector(table[f"{marker}.error"])
         error95[:, m] = vector(table[f"{marker}.error95"])
     return Restored(*common, origin, error, error95)
+
+
+def _axes(name: str, positions: np.ndarray) -> dict[str, pa.Array]:
+    """The columns of a trajectory (frames, 3)."""
+    return {f"{name}.{axis}": column(positions[:, a], np.float64) for a, axis in enumerate("xyz")}
+
+
+def _vectors(table: pa.Table, name: str) -> np.ndarray:
+    """The positions of a trajectory (frames, 3)."""
+    return np.stack([vector(table[f"{name}.{axis}"]) for axis in "xyz"], axis=1)
 
 
 def _origins(stored: pa.ChunkedArray) -> np.ndarray:

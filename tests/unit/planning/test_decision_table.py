@@ -81,7 +81,7 @@ def test_places_can_be_copied_from_the_table_of_changes():
         ("run|LANK|7.5|9|accept", "line 2, column first_frame: '7.5' is not a frame number"),
         (
             "run|LANK|7|9|accept|peek",
-            "line 2, column value: 'peek' is none of swap, foreign, repeat, jump, shift, slip, frozen, tail,",
+            "line 2, column value: 'peek' is none of swap, foreign, unlabelled, adopted, repeat, jump, shift, slip, frozen, tail,",
         ),
         ("run|LANK|7|9|protect|peak", "line 2, column value: 'peak': protect takes no value"),
         ("run|LANK|7|9|missing|peak", "line 2, column value: 'peak': missing takes no value"),

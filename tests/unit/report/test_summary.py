@@ -46,7 +46,9 @@ def test_attention_adds_up(before, after, changes):
 
 def test_nothing_done_is_unchanged_and_wants_no_attention(before):
     whole = replace(before, positions=np.nan_to_num(before.positions))
-    still = Restored(*vars(whole).values(), np.zeros((10, 3), np.uint8), np.zeros((10, 3)), np.zeros((10, 3)))
+    still = Restored(
+        **vars(whole), origin=np.zeros((10, 3), np.uint8), error=np.zeros((10, 3)), error95=np.zeros((10, 3))
+    )
     parts = {"found": {"peaks": []}, "changes": [], "left": [], "warnings": []}
     summary = report_summary.with_attention(report_summary.summarize(before=whole, after=still, **parts), WEIGHTS)
     assert (summary["status"], summary["attention"], summary["changed_samples"]) == ("unchanged", 0.0, 0)

@@ -51,8 +51,16 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
     columns = [c for c, name in enumerate(names) if name not in outputs and name not in set(nameless)]
     positions, missing, residual_warnings = _positions(path, section, layout, columns)
     unit, factors, unit_warnings = _units(section, columns, positions)
+    others = [c for c, name in enumerate(names) if name in set(nameless)]
+    tracks = _positions(path, section, layout, others)[0] * _units(section, others, positions)[1][:, None]
     positions *= factors[:, None]
-    recording = Recording(tuple(names[c] for c in columns), positions, layout.rate, layout.first_frame)
+    recording = Recording(
+        tuple(names[c] for c in columns),
+        positions,
+        layout.rate,
+        layout.first_frame,
+        unlabelled=dict(zip(nameless, np.moveaxis(tracks, 1, 0), strict=True)),
+    )
     return Reading(
         recording,
         "c3d",

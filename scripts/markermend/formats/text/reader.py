@@ -100,6 +100,7 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
     positions, missing = _positions(numbers, why, unit)
     if not np.isfinite(positions).any():
         raise BadRecording(f"{path.name} has no 3-D data: every sample of every marker is missing")
+    others = [i for i, skipped in enumerate(nameless) if skipped]
     timing = clock(content, layout, rate)
     warnings = [
         *layout.warnings,
@@ -109,7 +110,13 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
         *timing.warnings,
     ]
     return Reading(
-        recording=Recording(tuple(names[i] for i in labelled), positions, timing.rate, timing.first_frame),
+        recording=Recording(
+            tuple(names[i] for i in labelled),
+            positions,
+            timing.rate,
+            timing.first_frame,
+            unlabelled=dict(zip((names[i] for i in others), _tracks(content, layout, others, unit), strict=True)),
+        ),
         format=layout.format,
         unit=unit,
         columns=tuple(labelled),
@@ -189,6 +196,14 @@ def _positions(numbers: np.ndarray, why: np.ndarray, unit: str) -> tuple[np.ndar
             missing[name] = int((seen & caught).sum())
         seen &= ~caught
     return np.where(seen[..., None], samples, np.nan) * units.MILLIMETRES[unit], missing
+
+
+def _tracks(content: Sheet, layout: Layout, trajectories: Sequence[int], unit: str) -> np.ndarray:
+    """Positions of trajectories in mm (trajectories, rows, 3), NaN where missing."""
+    if not trajectories:
+        return np.empty((0, len(layout.rows), 3))
+    numbers, why, _ = cells.parse(content, layout, layout.cells_of(trajectories))
+    return np.moveaxis(_positions(numbers, why, unit)[0], 1, 0)
 
 
 def _unit_warnings(named: str | None, small: bool) -> list[str]:

@@ -23,6 +23,34 @@ from markermend.options.shape import ShapeOptions
 
 
 @dataclass(frozen=True)
+class UnlabelledOptions:
+    """Find the samples of markers that lie under unlabelled trajectories."""
+
+    min_duration_s: PositiveSeconds = 0.05
+    """Shorter pieces of such trajectories are not looked at."""
+
+    max_overlap_s: Seconds = 0.03
+    """The marker is missing as long as the piece lasts, but for this time at either end of it."""
+
+    max_frames: Count = 50
+    """Frames of a piece in which its distances are judged, at most."""
+
+    max_change_misfit: Positive = 2.5
+    """Largest loss of log likelihood of the changes of distances between the piece and the next sample of the marker.
+
+    Change it when samples of markers are not found (higher), or those of something else are (lower)."""
+
+    min_change_mm: PositiveMillimetres = 1
+    """No change of a distance counts as more certain than this."""
+
+    min_changes: Count = 20
+    """Changes of a distance over as long a time from which its usual ones are known, at least."""
+
+    min_lead: Share = 0.5
+    """Another assignment of pieces to markers, or none, must be worse by this part of what is accepted."""
+
+
+@dataclass(frozen=True)
 class LabelsOptions:
     """Detect exchanged labels.
 
@@ -157,6 +185,15 @@ class LabelsOptions:
 
     open_frames: Count = 60
     """Frames in which such markers are looked for, about."""
+
+    adopt_unlabelled: Annotated[bool, Laboratory] = False
+    """Whether markers are given their samples that lie under unlabelled trajectories, such as `*12`, while they are missing; else these
+    samples are reported.
+
+    Change it when your markers are often left unlabelled for a stretch (`true`)."""
+
+    unlabelled: UnlabelledOptions = field(default_factory=UnlabelledOptions)
+    """Samples under unlabelled trajectories."""
 
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The subject's usual shape."""

@@ -68,8 +68,8 @@ function traces(finding) {
           fillcolor: "rgba(" + colour("band") + "," + alpha + ")" });
       }
     }
-    if (partner) add(axis, "partner of the swap, original", true, { x: partner.frames, y: partner.values[axis],
-      line: { color: colour("partner"), width: 1.5, dash: "dot" }, ...hover("partner of the swap, original", axis) });
+    if (partner) add(axis, "partner of the swap or unlabelled, original", true, { x: partner.frames, y: partner.values[axis],
+      line: { color: colour("partner"), width: 1.5, dash: "dot" }, ...hover("partner of the swap or unlabelled, original", axis) });
     add(axis, "original", true, { x: before.frames, y: before.values[axis], mode: before.frames.length < 400 ? "lines+markers" : "lines",
       line: { color: colour("original"), width: 1.4 }, marker: { size: 3 }, ...hover("original", axis) });
     if (finding.after.length) add(axis, "repaired or filled", true, { x: after.frames, y: after.values[axis],

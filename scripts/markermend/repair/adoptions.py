@@ -1,0 +1,124 @@
+"""Samples that markers are given from unlabelled trajectories, before anything else is repaired."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from markermend.core.adoption import FOREIGN, adopt, is_adopted, without_adopted
+from markermend.core.artifacts import class_of
+from markermend.core.changes import Change, Outcome
+from markermend.core.events import Event, mask
+from markermend.core.labels import follow
+from markermend.core.reasons import Cause, Reason
+from markermend.core.recording import Recording
+from markermend.core.rulings import Ruling
+from markermend.repair.findings import Rulings
+
+METHOD = "adopt"
+"""What the record names as the method."""
+
+
+@dataclass(frozen=True)
+class Adoption:
+    """A recording with the samples that its markers are given.
+
+    Attributes
+    ----------
+    recording : Recording
+        The recording, under the labels as recorded.
+    adopted : np.ndarray
+        Which of its samples these are, bool (frames, markers).
+    found : dict of str to sequence of Event
+        The findings by detector, without those that are settled here.
+    carried, left : list of Change
+        The findings of samples under unlabelled trajectories that were carried out, and the others, with the reason.
+    """
+
+    recording: Recording
+    adopted: np.ndarray
+    found: dict[str, Sequence[Event]]
+    carried: list[Change]
+    left: list[Change]
+
+
+def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], rulings: Rulings) -> Adoption:
+    """Give markers their samples that are recorded under unlabelled trajectories.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as ingested; it is not modified.
+    found : mapping of str to sequence of Event
+        The findings by detector.
+    rulings : Rulings
+        The decisions.
+
+    Returns
+    -------
+    Adoption
+        The recording with them. Findings that are only reported are left unless a person accepts them; no measured sample is
+        replaced that is not found to be on something else.
+    """
+    labels = found.get("labels", ())
+    exchanges = [event for event in labels if event.partner]
+    carried: list[Event] = []
+    changes = []
+    for event in (event for event in labels if event.source is not None):
+        ruling = rulings.on([("labels", event)])
+        reason = _reason_against(event, ruling, recording)
+        if reason is None:
+            carried.append(event)
+        changes.append(_change(event, ruling, reason))
+    foreign = [event for event in labels if event.kind == FOREIGN and rulings.on([("labels", event)]).left is None]
+    as_recorded = {
+        name: follow(events, found_under=exchanges, stated_under=())
+        for name, events in (("adopted", carried), ("foreign", foreign))
+    }
+    free = recording.missing | mask(as_recorded["foreign"], recording.frames, recording.markers)
+    positions = adopt(recording.positions, as_recorded["adopted"], recording.unlabelled, recording.markers)
+    given = free & mask(as_recorded["adopted"], recording.frames, recording.markers) & ~np.isnan(positions).any(axis=2)
+    positions = np.where(given[..., None], positions, recording.positions)
+    remaining = [event for event in labels if event.source is None]
+    others = {stage: events for stage, events in found.items() if stage != "labels"}
+    return Adoption(
+        replace(recording, positions=positions),
+        given,
+        {"labels": without_adopted(remaining, carried), **others} if "labels" in found else others,
+        [change for change in changes if change.reason is None],
+        [change for change in changes if change.reason is not None],
+    )
+
+
+def _reason_against(event: Event, ruling: Ruling, recording: Recording) -> Reason | None:
+    """Why samples are not adopted; None where they are."""
+    if recording.facts.get("kind") == "static":
+        return Reason(Cause.STATIC, "static recording: never repaired")
+    if ruling.left is not None:
+        return ruling.left
+    if is_adopted(event) or ruling.confirmed:
+        return None
+    reported = class_of("labels", event).reported
+    return Reason(Cause.REPORTED, f"{event.stop - event.start} samples may lie under {event.source}: {reported}")
+
+
+def _change(event: Event, ruling: Ruling, reason: Reason | None) -> Change:
+    """The record of a finding."""
+    return Change(
+        event.marker,
+        event.start,
+        event.stop,
+        (class_of("labels", event).name,),
+        Outcome.LEFT if reason else Outcome.ADOPTED,
+        event.score,
+        event.axes,
+        event.source,
+        method=None if reason else METHOD,
+        samples=event.stop - event.start,
+        expected_error_mm=None if reason else 0.0,
+        expected_error95_mm=None if reason else 0.0,
+        decisions=ruling.texts,
+        reason=reason,
+    )
