@@ -65,9 +65,9 @@ class SlowChanges:
     Attributes
     ----------
     short : ShortDrifts
-        Those that templates find in the residuals.
+        Those of up to a second that templates find in the residuals.
     long : LongDrifts
-        Those that are estimated together with the regression.
+        Those that are estimated together with the regression, from a few tenths of a second on.
     short_attribution, long_attribution : DriftAttribution
         Whose they are.
     """

@@ -159,11 +159,11 @@ class DriftAttribution:
     def shows_in_distances(self, marker: int, event: Event) -> bool:
         """Check whether the distances of a marker change as a drift would change them, beyond their usual range.
 
-        A marker that keeps its distances to rigid segment mates cannot have drifted alone, and one whose distances stay in
-        their usual range contradicts nothing: that may be, but only where the drift is estimated precisely. The part of the
-        drift that the distances show is estimated by least squares, each weighed by how steady it usually is: those that
-        would show the drift by themselves, if there are any. Where even the steadiest varies much, the pose may be rare: more
-        is required of a short drift, and a long one is not told from the pose.
+        A marker that keeps its distances to rigid segment mates cannot have drifted alone. A drift that is estimated precisely
+        may otherwise leave the distances in their usual range. Any other must show in them: the part of it that they show is
+        estimated by least squares, each weighed by how steady it usually is: those that would show the drift by themselves, if
+        there are any. Where even the steadiest varies much, the pose may be rare: more is required of a short drift, and a
+        long one is not told from the pose.
 
         Parameters
         ----------
@@ -181,16 +181,21 @@ class DriftAttribution:
         if np.isnan(displaced).any():
             return False
         expected, change, deviation = self._distance_changes(marker, event, displaced)
+        if self.evidence.is_precise(marker, event):
+            rigid = np.abs(expected) >= options.long_drifts.contradicting_distance_sigmas
+            return not rigid.any() or self._shown(expected[rigid], change[rigid])
         least = float(deviation.min(initial=np.inf))
         if least > self.evidence.max_distance_deviation_mm:
             return False
         required = options.min_distance_sigmas * (options.high_scale_factor if least > options.high_scale_mm else 1)
         steady = np.abs(expected) >= required
         some = steady if steady.any() else np.ones(len(expected), bool)
-        information = float(expected[some] @ expected[some])
-        shown = float(change[some] @ expected[some])
-        clear = information >= required**2 or self.evidence.is_precise(marker, event)
-        return clear and shown >= options.min_distance_fraction * information
+        clear = float(expected[some] @ expected[some]) >= required**2
+        return clear and self._shown(expected[some], change[some])
+
+    def _shown(self, expected: np.ndarray, change: np.ndarray) -> bool:
+        """Whether distances change by enough of what they would be expected to, by least squares."""
+        return float(change @ expected) >= self.options.min_distance_fraction * float(expected @ expected)
 
     def _distance_changes(
         self, marker: int, event: Event, displaced: np.ndarray

@@ -1,4 +1,4 @@
-"""Drifts of a second and more: scored at all places by generalised least squares, and found, the clearest first."""
+"""Drifts of a few tenths of a second to many seconds: scored at all places by generalised least squares, and found, the clearest first."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from markermend.core.events import Event
 from markermend.detection.neighbour import drift_shape
 from markermend.detection.neighbour.drift_regression import DriftModel, DriftRegression
 from markermend.detection.neighbour.drift_scores import required_score
+from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection.long_drifts import LongDriftOptions
 from markermend.options.detection.slow import SlowOptions
 
-MIN_BINS = 3
+MIN_BINS = 2
 """Bins of the shortest drift that is tried: what fits best with so few is no long drift."""
 
 
@@ -26,7 +27,7 @@ LONGEST = 1.2
 
 @dataclass(frozen=True, eq=False)
 class LongDrifts:
-    """Finds the long drifts of each marker.
+    """Finds the drifts of each marker that are estimated together with its regression.
 
     Attributes
     ----------
@@ -49,6 +50,11 @@ class LongDrifts:
     def own(self) -> LongDriftOptions:
         """The options of long drifts."""
         return self.options.long_drifts
+
+    @property
+    def longest(self) -> int:
+        """Bins of the longest drift that is tried: what fits best with so many may last longer, as another pose does."""
+        return int(LONGEST * self.regression.bins(max(self.own.durations_s)))
 
     def find(self, marker: int, *, name: str) -> list[Event]:
         """Find the long drifts of one marker, the clearest first; none overlaps a clearer one.
@@ -77,11 +83,31 @@ class LongDrifts:
             if taken[start:stop].any():
                 continue
             taken[start:stop] = True
-            if stop - start >= shortest and self.is_drift(model, score, start, stop):
-                first, last = start * step, min(stop * step, len(self.residual))
+            if shortest <= stop - start < self.longest and self.is_drift(model, score, start, stop):
+                first, last = self.frames(marker, start * step, min(stop * step, len(self.residual)))
                 axes = events.main_axes(self.direction(marker, first, last)[None])
                 found.append(Event(name, first, last, float(score[peak]), axes))
         return found
+
+    def frames(self, marker: int, start: int, stop: int) -> tuple[int, int]:
+        """Fit where a drift begins and ends to the frame, if it is as short as templates are: bins are coarse for it.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        start, stop : int
+            The drift, frames [start, stop), to a bin.
+
+        Returns
+        -------
+        tuple[int, int]
+            The drift, frames [start, stop).
+        """
+        if stop - start > intervals.samples(max(self.options.durations_s), self.regression.rate):
+            return start, stop
+        flank = self.options.flank_fraction
+        return drift_shape.fit_extent(self.residual[:, marker], (start + stop) // 2, stop - start, flank=flank)
 
     def scores(self, model: DriftModel) -> tuple[np.ndarray, np.ndarray]:
         """Score drifts of all lengths.
@@ -125,8 +151,8 @@ class LongDrifts:
             The drift, bins [start, stop).
         """
         best = (0.0, peak - length // 2, peak - length // 2 + length)
-        longest = int(LONGEST * self.regression.bins(max(self.own.durations_s)))
-        for own in sorted({min(max(MIN_BINS, int(factor * length)), longest) for factor in drift_shape.LENGTH_FACTORS}):
+        lengths = {min(max(MIN_BINS, int(factor * length)), self.longest) for factor in drift_shape.LENGTH_FACTORS}
+        for own in sorted(lengths):
             first = max(0, peak - own // 2 - length // 4)
             statistic = model.responses(own, min_known_share=self.own.min_known_share).statistic
             near = statistic[first : peak - own // 2 + length // 4 + 1]
@@ -169,10 +195,10 @@ class LongDrifts:
             stop,
             reach=(stop - start) // 2,
             factor=self.options.distinct_factor,
-            limit=self.options.obvious_factor,
+            limit=np.inf,  # what recurs is motion, however large: its covariance is estimated from few repetitions
         )
         return bool(
-            np.linalg.norm(estimated.height[0]) >= self.options.floor_mm
+            np.linalg.norm(estimated.height[0]) >= self.own.floor_mm
             and statistic >= self.own.threshold_sigmas * required
             and statistic > max(shifts, default=0.0)
         )

@@ -1,4 +1,4 @@
-"""Options of the detector of long drifts."""
+"""Options of the detector of drifts that are estimated together with the regression."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from markermend.options.declaration import (
     Above,
     Count,
     Laboratory,
+    Millimetres,
     NotEmpty,
     Positive,
     PositiveMillimetres,
@@ -20,20 +21,34 @@ from markermend.options.declaration import (
 
 @dataclass(frozen=True)
 class LongDriftOptions:
-    """Detect drifts of a second and more."""
+    """Detect drifts together with the regression."""
 
-    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (1, 1.4, 2, 2.8, 4, 5.6)
+    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (
+        0.3,
+        0.4,
+        0.55,
+        0.75,
+        1,
+        1.4,
+        2,
+        2.8,
+        4,
+        5.6,
+    )
     """Durations of the drifts that are looked for, together with the regression on the neighbours.
 
     Change it when slow changes of other durations are real in your data."""
 
-    threshold_sigmas: Annotated[Positive, Laboratory] = 7
+    threshold_sigmas: Annotated[Positive, Laboratory] = 6.3
     """Smallest drift, in standard deviations of its estimated height.
 
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
+    floor_mm: Millimetres = 3.5
+    """Smallest height of a drift: soft tissue shifts by less in the course of seconds."""
+
     bin_rate_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] = 10
-    """Rate of the means on which long drifts are estimated."""
+    """Rate of the means on which drifts are estimated."""
 
     coefficient_std: Positive = 1
     """Standard deviation, about 0, of the coefficients of the regression."""
@@ -61,3 +76,6 @@ class LongDriftOptions:
 
     precise_mm: PositiveMillimetres = 2
     """Standard deviation of the height up to which a drift may leave the distances in their usual range."""
+
+    contradicting_distance_sigmas: Positive = 3
+    """A distance speaks against such a drift if the drift would change it by this many of its deviations and it stays."""

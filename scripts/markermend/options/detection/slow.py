@@ -101,7 +101,7 @@ class SlowOptions(DetectorOptions):
 
     high_scale_mm: PositiveMillimetres = 3
     """Local scale, as the height of a drift, above which a drift must exceed the threshold by `high_scale_factor`; the same holds
-    for the deviation of the steadiest distance, above which long drifts are not found."""
+    for the deviation of the steadiest distance, above which drifts that are not estimated precisely are not found, but for short ones."""
 
     high_scale_factor: Factor = 1.4
     """Factor by which the threshold rises there.
@@ -144,7 +144,7 @@ class SlowOptions(DetectorOptions):
     """Such distances must change by this part of what the drift would change them: those on rigid segments decide."""
 
     long_drifts: LongDriftOptions = field(default_factory=LongDriftOptions)
-    """Options of the drifts of a second and more."""
+    """Options of the drifts that are estimated together with the regression."""
 
     paper: PublishedSlowOptions = field(default_factory=PublishedSlowOptions)
     """Options of the preset `paper`: as published (skurowski2022)."""

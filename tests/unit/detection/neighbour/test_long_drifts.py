@@ -49,8 +49,15 @@ def test_nothing_where_all_is_well_or_something_does_not_come_back():
     assert drifts(shift).find(0, name="a") == []
 
 
-def test_a_short_change_is_no_long_drift():
-    assert drifts(bump(700, 750)).find(0, name="a") == []
+@pytest.mark.parametrize(("start", "stop"), [(700, 750), (702, 745), (955, 1030)])
+def test_one_as_short_as_templates_is_found_to_the_frame(start, stop):
+    [event] = drifts(bump(start, stop)).find(0, name="a")
+    assert abs(event.start - start) <= 6
+    assert abs(event.stop - stop) <= 6
+
+
+def test_what_fits_best_with_the_longest_drift_is_no_drift():
+    assert drifts(bump(200, 1300)).find(0, name="a") == []
 
 
 def test_samples_may_be_missing_but_not_most_of_the_drift():
