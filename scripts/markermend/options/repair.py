@@ -105,7 +105,7 @@ class ShapeGuardOptions:
     """Markers to which the distances of a marker are judged: those to which it keeps them best."""
 
     min_mates: Count = 3
-    """Fewer of them that are seen judge nothing."""
+    """Fewer of them that are seen judge nothing; nor do fewer whose distances vary by less than a repair changes the marker."""
 
     min_deviation_mm: PositiveMillimetres = 0.1
     """No expected distance counts as more certain than this."""
@@ -114,21 +114,20 @@ class ShapeGuardOptions:
     """Degrees of freedom of the Student's t distribution of distances: the fewer, the less a distance that is far off counts."""
 
     min_gain: NotNegative = 0.1
-    """Mean logarithm of the factor, over samples and distances, by which a repair makes the distances more likely, at least: all
-    of them, and those to the `steadiest_mates`.
+    """Mean logarithm of the factor, over samples and distances by their precision, by which a repair makes the distances more
+    likely, at least.
 
     Change it when good samples are repaired (higher), or artifacts are left (lower)."""
+
+    min_gain_share: Share = 0.4
+    """The same, over samples and distances, as a part of what a right repair would bring, at least (0 to 1)."""
 
     clear_gain: NotNegative = 1
     """The same, over all distances, from which a repair stands whatever single mates, or the usual distances, say: a mate may be
     off itself, and a pose rare."""
 
     max_loss: NotNegative = 0.5
-    """The same, by which it makes them less likely, at most: over the samples for each of the `steadiest_mates`, and over all
-    distances for the usual ones of the subject alone."""
-
-    steadiest_mates: Count = 2
-    """Mates to which a repair must bring the distances nearer to what they should be, and to none of them clearly away from it."""
+    """The same, by which it makes the usual distances of the subject alone less likely, at most."""
 
     max_misfit: NotNegative = 1
     """Mean logarithm of the factor by which distances are less likely than the expected ones: measured samples that no repair is

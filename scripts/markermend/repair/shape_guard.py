@@ -75,9 +75,25 @@ class ExpectedDistances:
         ndarray of float, shape (n, k)
             Log densities relative to those of the expected distances, at most 0; NaN where a point or a mate is missing.
         """
-        misfit = ((self.lengths(points) - self.distance) / self.deviation) ** 2
-        densities: np.ndarray = -(degrees_of_freedom + 1) / 2 * np.log1p(misfit / degrees_of_freedom)
-        return densities
+        return log_density((self.lengths(points) - self.distance) / self.deviation, degrees_of_freedom)
+
+    def by_precision(self, values: np.ndarray) -> float:
+        """Take the mean over the mates, each by the precision with which its distance is expected over the interval.
+
+        Parameters
+        ----------
+        values : ndarray of float, shape (n, k)
+            Values of the distances; NaN = unknown.
+
+        Returns
+        -------
+        float
+            The mean; NaN where no value is known.
+        """
+        each = nan_mean(values)
+        known = ~np.isnan(each)
+        precision = 1 / np.mean(self.deviation**2, axis=0)[known]
+        return float(each[known] @ precision / precision.sum()) if known.any() else np.nan
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +133,8 @@ class ShapeGuard:
         -------
         Reason or None
             The reason, with the distance that speaks most clearly against it; None where the repair brings all of them together
-            clearly nearer to what is expected; where it brings all and the steadiest nearer, none of the steadiest clearly away
-            from it, and all not clearly away from usual; and where too few of them are known to tell.
+            clearly nearer to what is expected; where it brings them nearer as a right one would, by their precision, too, and
+            not clearly away from usual; and where too few of them are known, and steadier than the repair is large, to tell.
         """
         local = self.expected(marker, start, start + len(measured))
         if local is None:
@@ -127,13 +143,29 @@ class ShapeGuard:
         gain = self._log_densities(local, seen) - self._log_densities(local, measured)
         if np.isnan(gain).all() or nan_mean(gain, axis=None) >= options.clear_gain:
             return None
-        steadiest = gain[:, : options.steadiest_mates]
-        lost = np.nanmin(nan_mean(steadiest), initial=0.0) < -options.max_loss
-        if lost or any(nan_mean(part, axis=None) < options.min_gain for part in (gain, steadiest)):
+        if self._decide(local, seen - measured) and not self._nearer(local, gain, measured, seen):
             return self._against(local, gain, measured, seen)
         usual = self._usual(marker, local)
         gain = self._log_densities(usual, seen) - self._log_densities(usual, measured)
         return self._against(usual, gain, measured, seen) if nan_mean(gain, axis=None) < -options.max_loss else None
+
+    def _decide(self, expected: ExpectedDistances, change: np.ndarray) -> bool:
+        """Whether enough distances are steadier than a repair changes (n, 3) the positions, mm, to fix where the marker is."""
+        size = np.sqrt(nan_mean((change**2).sum(axis=1), axis=None))
+        steadier = np.sqrt(np.mean(expected.deviation**2, axis=0)) < size
+        return bool(size == 0 or np.count_nonzero(steadier) >= self.options.min_mates)
+
+    def _nearer(
+        self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray
+    ) -> bool:
+        """Whether distances come nearer to what is expected; gain: (n, k) as `objection`.
+
+        If a repair is right, its change of a distance shows how unlikely the measured one is.
+        """
+        change = (expected.lengths(proposed) - expected.lengths(measured)) / expected.deviation
+        right = -nan_mean(log_density(change, self.options.degrees_of_freedom), axis=None)
+        enough = nan_mean(gain, axis=None) >= self.options.min_gain_share * right
+        return bool(enough and expected.by_precision(gain) >= self.options.min_gain)
 
     def _against(
         self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray
@@ -246,6 +278,25 @@ class ShapeGuard:
     def _departures(self) -> dict[tuple[int, int], tuple[np.ndarray, Covariance]]:
         """Departures and covariances that were computed before, by marker and mate."""
         return {}
+
+
+def log_density(deviation: np.ndarray, degrees_of_freedom: float) -> np.ndarray:
+    """Compute the log density of Student's t distribution relative to its mode.
+
+    Parameters
+    ----------
+    deviation : ndarray of float
+        Deviations in units of the scale.
+    degrees_of_freedom : float
+        Of the distribution.
+
+    Returns
+    -------
+    ndarray of float
+        Log densities, at most 0; NaN where the deviation is unknown.
+    """
+    density: np.ndarray = -(degrees_of_freedom + 1) / 2 * np.log1p(deviation**2 / degrees_of_freedom)
+    return density
 
 
 def nan_mean(values: np.ndarray, axis: int | None = 0) -> np.ndarray:

@@ -56,7 +56,7 @@ def test_a_mate_that_is_itself_off_does_not_decide(recording):
     assert guard.objection(m, START, true, true + 5.0) is not None
 
 
-def test_a_clear_gain_of_all_distances_outweighs_a_mate_that_moves_along(recording):
+def test_a_mate_that_moves_along_does_not_decide(recording):
     """A repair of a short artifact stands though one of the steadiest mates is displaced with the marker."""
     guard, m = guard_of(recording)
     first, stop = START, START + 4
@@ -66,7 +66,29 @@ def test_a_clear_gain_of_all_distances_outweighs_a_mate_that_moves_along(recordi
     guard = replace(guard, scene=replace(guard.scene, positions=positions))
     assert guard.objection(m, first, true + 5.0, true) is None
     strict = replace(guard, options=replace(OPTIONS, clear_gain=1e9))
-    assert strict.objection(m, first, true + 5.0, true) is not None
+    assert strict.objection(m, first, true + 5.0, true) is None
+
+
+def test_a_repair_beside_the_distances_is_objected_to(recording):
+    """It brings most distances nearer, but by less than it changes them."""
+    guard, m = guard_of(recording)
+    strict = replace(guard, options=replace(OPTIONS, clear_gain=1e9))
+    true = recording.positions[START:STOP, m]
+    across = np.array([0.0, 3.0, 0.0])
+    assert strict.objection(m, START, true + [3.0, 0.0, 0.0], true + 0.97 * across) is not None
+    assert strict.objection(m, START, true + [3.0, 0.0, 0.0], true + 0.02 * across) is None
+
+
+def test_where_too_few_distances_are_steadier_than_the_repair_is_large_it_stands(recording):
+    guard, m = guard_of(recording)
+    far = [i for i, name in enumerate(recording.markers) if name[0] in "04"]
+    shape = guard.scene.shape
+    unknown = np.full_like(shape.deviation, np.nan)
+    unknown[m, far] = shape.deviation[m, far]
+    soft = replace(guard, scene=replace(guard.scene, shape=replace(shape, deviation=unknown)))
+    true, first = recording.positions[START:STOP, m], 15
+    assert soft.objection(m, START + first, true[first:25], true[first:25] + 4.0) is None
+    assert guard.objection(m, START + first, true[first:25], true[first:25] + 4.0) is not None
 
 
 def test_a_rare_pose_is_no_objection(recording):
