@@ -74,9 +74,9 @@ def test_a_repair_beside_the_distances_is_objected_to(recording):
     guard, m = guard_of(recording)
     strict = replace(guard, options=replace(OPTIONS, clear_gain=1e9))
     true = recording.positions[START:STOP, m]
-    across = np.array([0.0, 3.0, 0.0])
-    assert strict.objection(m, START, true + [3.0, 0.0, 0.0], true + 0.97 * across) is not None
-    assert strict.objection(m, START, true + [3.0, 0.0, 0.0], true + 0.02 * across) is None
+    along, across = np.array([3.0, 0.0, 0.0]), np.array([0.0, 3.0, 0.0])
+    assert strict.objection(m, START, true + along, true + 0.97 * across) is not None
+    assert strict.objection(m, START, true + along, true + 0.02 * across) is None
 
 
 def test_where_too_few_distances_are_steadier_than_the_repair_is_large_it_stands(recording):
