@@ -19,7 +19,7 @@ from markermend.detection.neighbour.drift_attribution import DriftAttribution
 from markermend.detection.neighbour.drift_evidence import LongDriftEvidence, ShortDriftEvidence
 from markermend.detection.neighbour.drift_regression import DriftRegression
 from markermend.detection.neighbour.drift_scores import DriftScorer
-from markermend.detection.neighbour.lasting_shifts import LastingFinder
+from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
 from markermend.detection.neighbour.long_drifts import LongDrifts
 from markermend.detection.neighbour.short_drifts import ShortDrifts
 from markermend.options.detection.slow import SlowOptions
@@ -54,8 +54,10 @@ def detect_slow(
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
     found = SlowChanges.fit(rest, options, source).find(markers)
-    lasting = LastingFinder(predictor.options, options.displacement, options.shape)
-    return lasting.added_to(found, rest, markers, sudden=False)
+    lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers)
+    drifts = not_explained(found, lasting, frames=len(earlier), moments=True)
+    creeps = [event for event in lasting if event.kind == "creep"]
+    return sorted([*drifts, *creeps], key=lambda event: event.order)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, edges, level_shifts, residual_windows
 from markermend.detection.neighbour.edges import Edge
-from markermend.detection.neighbour.lasting_shifts import LastingFinder
+from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
 from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.level_shifts import DisplacedStretch
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
@@ -54,9 +54,13 @@ def detect_steps(
     found = events.disjoint(found)
     # A gap may hide a jump, and so may what was claimed earlier: noise on a step often reaches to its end.
     unseen = ~scene.present | earlier.any(axis=2)
-    found = events.disjoint([*found, *_truncated(detector, statistics, found, unseen)])
-    lasting = LastingFinder(options.predictors.local_ridge, options.displacement, options.shape)
-    found = lasting.added_to(found, detector.scene, markers, sudden=True)
+    truncated = list(_truncated(detector, statistics, found, unseen))
+    finder = LastingFinder(options.predictors.local_ridge, options.displacement, options.shape)
+    frames, lasting = len(unseen), finder.find(detector.scene, markers)
+    lasting = not_explained(lasting, found, frames=frames, moments=False)
+    truncated = not_explained(truncated, lasting, frames=frames, moments=True)
+    displaced = [event for event in lasting if event.kind == "displaced"]
+    found = sorted([*events.disjoint([*found, *truncated]), *displaced], key=lambda event: event.order)
     return found, _open_steps([detector.edges(statistics, m) for m in range(len(markers))], found, markers)
 
 

@@ -79,6 +79,28 @@ def rise(time_s: np.ndarray, middle_s: np.ndarray, rise_s: float) -> np.ndarray:
     return values
 
 
+def bump(time_s: np.ndarray, first_s: float, last_s: float, width: float = 1.0) -> np.ndarray:
+    """Evaluate a drift that comes back: a raised cosine.
+
+    Parameters
+    ----------
+    time_s : np.ndarray
+        Times (n,), s.
+    first_s, last_s : float
+        Times between which it exceeds one half, s.
+    width : float, optional
+        Makes it wider about the middle of these by this factor.
+
+    Returns
+    -------
+    np.ndarray
+        Values (n,) from 0 to 1.
+    """
+    part = np.abs(time_s - (first_s + last_s) / 2) / (width * (last_s - first_s))
+    values: np.ndarray = np.where(part < 1, 0.5 + 0.5 * np.cos(np.pi * np.minimum(part, 1)), 0.0)
+    return values
+
+
 @dataclass(frozen=True, eq=False)
 class PoseRegression:
     """A weighted ridge regression on the pose, whose share in the marker's position and in courses is removed.

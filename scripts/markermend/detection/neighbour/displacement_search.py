@@ -13,12 +13,16 @@ from markermend.prediction.lasting_displacement import (
     Course,
     Displacement,
     PoseRegression,
+    bump,
     rise,
 )
 from markermend.prediction.local_ridge.model import TrainingSet
 
 SCREENING_FRACTION = 0.5
 """A marker is searched closely where a sudden displacement explains this part of the share that is wanted."""
+
+DRIFT_WIDTHS = (0.8, 1.0, 1.25)
+"""Widths of drifts that are compared with a displacement that ends, in units of its duration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +32,35 @@ class _Explained:
     rises: np.ndarray
     returns: np.ndarray
     total: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Grid:
+    """The moments that are tried on a marker, from `border_s` to that before its end, besides known displacements (n, j).
+
+    The marker is at each place for `side_s` at least.
+    """
+
+    data: TrainingSet
+    known: np.ndarray
+    middles: np.ndarray
+    border_s: float
+    side_s: float
+
+    @property
+    def lasts_to_end(self) -> np.ndarray:
+        """Whether both places last long enough if the displacement begins at a moment and does not end, bool (moments,)."""
+        since = self.middles - (self.middles[0] - self.border_s)
+        long: np.ndarray = np.minimum(since, since[::-1]) >= self.side_s
+        return long
+
+    @property
+    def returns(self) -> np.ndarray:
+        """Whether both places last long enough if it begins and ends at two moments, bool (moments, moments)."""
+        apart = np.abs(self.middles[:, None] - self.middles)
+        whole = self.middles[-1] - self.middles[0] + 2 * self.border_s
+        long: np.ndarray = (apart >= self.side_s) & (whole - apart >= self.side_s)
+        return long
 
 
 @dataclass(frozen=True)
@@ -69,13 +102,16 @@ class DisplacementSearch:
         side = max(self.options.min_duration_s, self.options.min_duration_share * span)
         if span <= 2 * side:
             return None
-        middles = np.linspace(time_s[0] + side, time_s[-1] - side, self.options.moments)
+        end = min(self.options.min_duration_s, side)
+        grid = _Grid(data, known, np.linspace(time_s[0] + end, time_s[-1] - end, self.options.moments), end, side)
         weights = np.ones(len(time_s))
-        first = self._estimate(data, self._best_course(data, known, weights, middles, (0.0,), side), known)
-        if first.explained < SCREENING_FRACTION * self.options.min_explained_share:
+        course = self._best_course(grid, weights, (0.0,))
+        first = None if course is None else self._estimate(data, course, known)
+        if first is None or first.explained < SCREENING_FRACTION * self.options.min_explained_share:
             return None
         rises = (0.0, *(duration for duration in self.options.rise_durations_s if duration < span / 3))
-        return self._estimate(data, self._best_course(data, known, first.weights, middles, rises, side), known)
+        course = self._best_course(grid, first.weights, rises)
+        return None if course is None else self._estimate(data, course, known)
 
     def _estimate(self, data: TrainingSet, course: Course, known: np.ndarray) -> Displacement:
         """The displacement of a course."""
@@ -83,35 +119,49 @@ class DisplacementSearch:
             data, course, rate=self.rate, ridge=self.ridge, options=self.options, known=known
         )
 
-    def _best_course(
-        self,
-        data: TrainingSet,
-        known: np.ndarray,
-        weights: np.ndarray,
-        middles: np.ndarray,
-        rises: tuple[float, ...],
-        side: float,
-    ) -> Course:
+    def _best_course(self, grid: _Grid, weights: np.ndarray, rises: tuple[float, ...]) -> Course | None:
         """The course that explains most, given the weights of the frames; a creep or a return must explain clearly more."""
-        time_s = data.training / self.rate
-        explained = self._explained(data, known, weights, [rise(time_s, middles, duration) for duration in rises])
+        time_s, middles = grid.data.training / self.rate, grid.middles
+        explained = self._explained(grid, weights, [rise(time_s, middles, duration) for duration in rises])
         count = len(middles)
-        sudden, any_rise = int(explained.rises[:count].argmax()), int(explained.rises.argmax())
-        course, left = Course(float(middles[sudden])), explained.total - explained.rises[sudden]
-        if explained.total - explained.rises[any_rise] < self.options.creep_gain * left:
-            left = explained.total - explained.rises[any_rise]
+        to_end = np.where(np.tile(grid.lasts_to_end, len(rises)), explained.rises, 0.0)
+        sudden, any_rise = int(to_end[:count].argmax()), int(to_end.argmax())
+        course, left = Course(float(middles[sudden])), explained.total - to_end[sudden]
+        if explained.total - to_end[any_rise] < self.options.creep_gain * left:
+            left = explained.total - to_end[any_rise]
             course = Course(float(middles[any_rise % count]), rises[any_rise // count])
-        apart = np.abs(middles[:, None] - middles) >= side
-        returns = np.where(apart, explained.returns, 0.0)
+        returns = np.where(grid.returns, explained.returns, 0.0)
         first, last = sorted(int(i) for i in np.unravel_index(int(returns.argmax()), returns.shape))
         if explained.total - returns[first, last] < self.options.return_gain * left:
-            course = Course(float(middles[first]), stop_s=float(middles[last]))
+            return self._returning(grid, weights, first, last, rises[1:])
         return course
 
-    def _explained(
-        self, data: TrainingSet, known: np.ndarray, weights: np.ndarray, courses: list[np.ndarray]
-    ) -> _Explained:
+    def _returning(
+        self, grid: _Grid, weights: np.ndarray, first: int, last: int, rises: tuple[float, ...]
+    ) -> Course | None:
+        """The best course that ends at a moment: sudden at another, or a creep that explains clearly more.
+
+        A creep stays for as long as it rises, at least, and for a while. None where a drift explains more.
+        """
+        stop_s, time_s = float(grid.middles[last]), grid.data.training / self.rate
+        sudden = Course(float(grid.middles[first]), stop_s=stop_s)
+        own = [sudden]
+        for duration in rises:
+            stay = max(duration, self.options.min_stay_s)
+            near = grid.middles[np.abs(grid.middles - sudden.middle_s) <= duration / 2]
+            own += [Course(float(m), duration, stop_s) for m in near if m + duration / 2 + stay <= stop_s]
+        values = [course.at(time_s) for course in own]
+        values += [bump(time_s, sudden.middle_s, stop_s, width) for width in DRIFT_WIDTHS]
+        explained = self._explained(grid, weights, [np.stack(values, axis=1)])
+        left = explained.total - explained.rises
+        best = int(left[: len(own)].argmin())
+        if rises and left[len(own) :].min() < left[best]:
+            return None
+        return own[best] if left[best] < self.options.creep_gain * left[0] else sudden
+
+    def _explained(self, grid: _Grid, weights: np.ndarray, courses: list[np.ndarray]) -> _Explained:
         """Variance that courses (n, moments) of each rise duration explain; the first are sudden."""
+        data, known = grid.data, grid.known
         regression = PoseRegression.fit(data.local[:, :-3], known, weights, ridge=self.ridge)
         local, every = data.target, np.concatenate(courses, axis=1)
         left, weighted = regression.residual(local), every * weights[:, None]

@@ -26,7 +26,44 @@ from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence
 
 SAME_SHARE = 0.5
-"""What was found over this share of a displacement explains it already."""
+"""Findings that overlap by this share of the longer one are the same."""
+
+NEAR_FRAMES = 5
+"""What was found this near to where a displacement begins or ends shows that moment."""
+
+
+def not_explained(found: Sequence[Event], explained_by: Sequence[Event], *, frames: int, moments: bool) -> list[Event]:
+    """Leave out what other findings of the same markers explain.
+
+    Parameters
+    ----------
+    found : Sequence[Event]
+        Findings.
+    explained_by : Sequence[Event]
+        Findings that explain those which overlap with one of them by half of the longer of the two, or more.
+    frames : int
+        Frames of the recording.
+    moments : bool
+        Whether those are left out, too, in which or beside which one of the others begins or ends.
+
+    Returns
+    -------
+    list[Event]
+        The rest of `found`.
+    """
+
+    def explains(other: Event, event: Event) -> bool:
+        overlap = min(other.stop, event.stop) - max(other.start, event.start)
+        longer = max(other.stop - other.start, event.stop - event.start)
+        ends = [frame for frame in (other.start, other.stop) if 0 < frame < frames]
+        spanned = any(event.start - NEAR_FRAMES <= frame <= event.stop + NEAR_FRAMES for frame in ends)
+        return overlap >= SAME_SHARE * longer or (moments and spanned)
+
+    return [
+        event
+        for event in found
+        if not any(other.marker == event.marker and explains(other, event) for other in explained_by)
+    ]
 
 
 @dataclass(frozen=True)
@@ -47,34 +84,7 @@ class LastingFinder:
     options: DisplacementOptions
     shape: ShapeOptions
 
-    def added_to(self, found: Sequence[Event], scene: Scene, markers: Sequence[str], *, sudden: bool) -> list[Event]:
-        """Add the lasting displacements to what a detector found, as far as that does not explain them already.
-
-        Parameters
-        ----------
-        found : Sequence[Event]
-            What the detector found.
-        scene : Scene
-            What is observed, without what earlier detectors claimed.
-        markers : Sequence[str]
-            Names of the markers.
-        sudden : bool
-            See `find`.
-
-        Returns
-        -------
-        list[Event]
-            Both, sorted.
-        """
-        covered = events.mask(found, len(scene.positions), markers)
-        lasting = [
-            event
-            for event in self.find(scene, markers, sudden=sudden)
-            if covered[event.start : event.stop, markers.index(event.marker)].mean() < SAME_SHARE
-        ]
-        return sorted([*found, *lasting], key=lambda event: event.order)
-
-    def find(self, scene: Scene, markers: Sequence[str], *, sudden: bool) -> list[Event]:
+    def find(self, scene: Scene, markers: Sequence[str]) -> list[Event]:
         """Find lasting displacements.
 
         Parameters
@@ -83,18 +93,16 @@ class LastingFinder:
             What is observed, without what earlier detectors claimed.
         markers : Sequence[str]
             Names of the markers.
-        sudden : bool
-            Whether to give sudden displacements (kind `displaced`), or creeps (kind `creep`).
 
         Returns
         -------
         list[Event]
-            Events of the parts in which a marker is displaced, sorted.
+            Events of the parts in which a marker is displaced, of kind `displaced` or `creep`.
         """
         return [
             event
             for marker, displacement in _Attribution(scene, self.local_ridge, self.options).displacements()
-            if (displacement.course.rise_s == 0) == sudden and displacement.amount_mm <= self.options.ceiling_mm
+            if displacement.amount_mm <= self.options.ceiling_mm
             for event in self._events(scene, markers[marker], marker, displacement)
         ]
 

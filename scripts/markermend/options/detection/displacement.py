@@ -42,10 +42,13 @@ class DisplacementOptions:
     """Durations over which a marker may creep to its new place."""
 
     min_duration_s: PositiveSeconds = 0.3
-    """Shortest time before, and shortest time after a displacement."""
+    """Shortest time at either of the two places, and before and after a displacement that ends."""
 
     min_duration_share: Share = 0.1
-    """The same as a share of the recording (0 to 1)."""
+    """The shortest time at either of the two places as a share of the recording (0 to 1)."""
+
+    min_stay_s: PositiveSeconds = 1
+    """A creep that ends stays at the second place for this long, at least, and for as long as it rose: else it is a drift."""
 
     min_explained_share: Annotated[float, Above(0), Below(1)] = 0.7
     """Share of the variance that the pose leaves unexplained which a sudden displacement must explain, at least (0 to 1)."""
@@ -53,7 +56,7 @@ class DisplacementOptions:
     min_creep_explained_share: Annotated[float, Above(0), Below(1)] = 0.8
     """The same of a creep, which a slow change of pose resembles (0 to 1)."""
 
-    min_independent_variance: NotNegative = 0.01
+    min_independent_variance: NotNegative = 0.015
     """Variance of the course of the displacement (0 before, 1 after) that the pose does not explain, at least: where poses
     before and after are unlike, there is nothing to compare."""
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour.displacement_search import DisplacementSearch
+from markermend.detection.neighbour.displacement_search import DisplacementSearch, _Grid
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.prediction.lasting_displacement import Course, estimate, rise
 from markermend.prediction.local_ridge.model import TrainingSet
@@ -61,7 +61,7 @@ def test_all_courses_are_compared_as_whole_regressions_would():
     own, search = data(Course(4.0)), DisplacementSearch(RATE, RIDGE, DisplacementOptions(moments=5))
     time_s, middles, weights = own.training / RATE, np.linspace(1, 9, 5), np.random.default_rng(1).uniform(0.2, 1, 500)
     courses = [rise(time_s, middles, duration) for duration in (0.0, 2.0)]
-    fast = search._explained(own, np.zeros((500, 0)), weights, courses)
+    fast = search._explained(_Grid(own, np.zeros((500, 0)), middles, 1.0, 1.0), weights, courses)
 
     def slow(column):
         return lasting.explained(own.target, own.local[:, :-3], column, weights, ridge=RIDGE)[:2]
