@@ -148,6 +148,28 @@ class ShapeEvidence:
                 likelihood[:, :, marker] = self._mean(self._log_density(deviation, self.scale(marker, anchors)))
         return likelihood
 
+    def own_log_likelihoods_without_other(self) -> np.ndarray:
+        """Compute the likelihood of every point if it is that of its own label, leaving out one other marker at a time.
+
+        Returns
+        -------
+        np.ndarray
+            Log likelihoods (frames, markers, others), see `log_likelihood`, without the distance to each other marker: where two are
+            exchanged, the distance between them stays the same. NaN where unknown.
+        """
+        count = self.positions.shape[1]
+        likelihood = np.full((len(self.positions), count, count), np.nan)
+        for marker in range(count):
+            anchors = self.anchors(marker)
+            density = self._log_density(self.deviations(marker, anchors), self.scale(marker, anchors))
+            likelihood[:, marker] = self._mean(density)[:, None]
+            known = ~np.isnan(density)
+            left = known.sum(axis=1)[:, None] - known
+            total = np.where(known, density, 0.0)
+            rest = (total.sum(axis=1)[:, None] - total) / np.maximum(left, 1)
+            likelihood[:, marker, anchors] = np.where(left >= self.options.min_anchors, rest, np.nan)
+        return likelihood
+
     def mean_misfits(self, marker: int, label: int, anchors: np.ndarray, labels: np.ndarray) -> np.ndarray:
         """Compute how badly the distances fit if a marker and its anchors are recorded under other labels.
 

@@ -49,7 +49,8 @@ class MarkerGeometry:
         for m in range(len(self.markers)):
             apart = np.linalg.norm(some - some[:, m : m + 1], axis=2)
             seen = ~np.isnan(apart).all(axis=0)
-            low[m, seen], middle[m, seen], high[m, seen] = np.nanpercentile(apart[:, seen], [5, 50, 95], axis=0)
+            if seen.any():
+                low[m, seen], middle[m, seen], high[m, seen] = np.nanpercentile(apart[:, seen], [5, 50, 95], axis=0)
         return middle, (high - low) / NORMAL_RANGE
 
     @property

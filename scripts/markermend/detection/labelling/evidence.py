@@ -149,6 +149,11 @@ class LabelEvidence:
         """Log likelihoods (rows, labels, markers), see ShapeEvidence.label_log_likelihoods."""
         return self.fit(self.everywhere).label_log_likelihoods()
 
+    @cached_property
+    def likelihood_without_other(self) -> np.ndarray:
+        """Log likelihoods (rows, labels, others) under own labels, see ShapeEvidence.own_log_likelihoods_without_other."""
+        return self.fit(self.everywhere).own_log_likelihoods_without_other()
+
     @property
     def own_likelihood(self) -> np.ndarray:
         """Log likelihoods (rows, markers) of each marker under its own label."""
@@ -180,9 +185,13 @@ class LabelEvidence:
         Returns
         -------
         np.ndarray
-            Gains of log likelihood (rows, markers, markers), both samples together; 0 where neither is observed.
+            Gains of log likelihood (rows, markers, markers), both samples together; 0 where neither is observed. The distance between
+            the two does not count, since it stays the same. A sample that fits a marker worse than `max_misfit` may be no marker's:
+            it says nothing of which label is right.
         """
-        gain = np.nan_to_num(self.likelihood - self.own_likelihood[:, :, None])
+        floor = np.nan_to_num(self.usual_likelihood - self.options.max_misfit, nan=-np.inf)
+        own = np.maximum(self.likelihood_without_other, floor[:, None])
+        gain = np.nan_to_num(np.maximum(self.likelihood, floor) - own)
         both: np.ndarray = gain + gain.transpose(0, 2, 1)
         return both
 
@@ -317,7 +326,12 @@ class LabelEvidence:
         under = self.under.copy()
         under[span] = change.relabelling.of(under[span])
         after = replace(self, under=under)
-        likelihood = self.likelihood.copy()
-        likelihood[inside] = after.fit(inside).label_log_likelihoods()
-        after.__dict__["likelihood"] = likelihood  # what did not change is not computed again
+        fit = after.fit(inside)
+        for name, anew in (
+            ("likelihood", fit.label_log_likelihoods),
+            ("likelihood_without_other", fit.own_log_likelihoods_without_other),
+        ):
+            likelihood = getattr(self, name).copy()
+            likelihood[inside] = anew()
+            after.__dict__[name] = likelihood  # what did not change is not computed again
         return after, inside

@@ -15,6 +15,7 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.sections import better_states
+from markermend.numerics import robust
 from markermend.numerics.intervals import runs, samples
 from markermend.prediction.shape_evidence import ShapeEvidence
 
@@ -66,14 +67,24 @@ class ForeignSearch:
                     for start, stop, size in stretches
                 ]
         named = {event.marker for event in found}
-        lying = ((marker, self._lies_still(m)) for m, marker in enumerate(markers) if marker not in named)
+        lying = ((marker, self._fallen(m, misfit[:, m])) for m, marker in enumerate(markers) if marker not in named)
         found += [Event(marker, *span, 1.0, kind="foreign") for marker, span in lying if span]
         return sorted(found, key=lambda event: event.order)
 
-    def _lies_still(self, m: int) -> tuple[int, int] | None:
+    def _fallen(self, m: int, misfit: np.ndarray) -> tuple[int, int] | None:
+        """The frames over which a marker that fell off lies still, for long, or for a shorter time in which its samples do not fit."""
+        options, rows = self.evidence.options, self.evidence.rows
+        for shortest_s, floor in ((options.min_still_s, -np.inf), (options.min_foreign_s, options.min_foreign_misfit)):
+            span = self._lies_still(m, samples(shortest_s, self.rate))
+            if span:
+                off = misfit[(rows >= span[0]) & (rows < span[1])]
+                if floor == -np.inf or np.nansum(off) >= floor * max(1, np.count_nonzero(~np.isnan(off))):
+                    return self._onset(m, span[0]), span[1]
+        return None
+
+    def _lies_still(self, m: int, length: int) -> tuple[int, int] | None:
         """The frames at the end over which a marker that moved before lies still although those by which it is judged move."""
         options, seen = self.evidence.options, np.flatnonzero(self._seen(m, 0, len(self.positions)))
-        length = samples(options.min_still_s, self.rate)
         if len(seen) <= length:
             return None
         away = np.linalg.norm(self.positions[seen, m] - np.median(self.positions[seen[-length:], m], axis=0), axis=1)
@@ -127,12 +138,31 @@ class ForeignSearch:
     def _onset(self, m: int, first: int) -> int:
         """The frame from which on the samples of a marker depart, before one where they do not fit."""
         options = self.evidence.options
-        start = max(0, first - samples(options.fall_s, self.rate))
+        broken = self.evidence.section_starts([m])
+        start = max(int(broken[broken <= first][-1]), first - samples(options.fall_s, self.rate))
         part = ShapeEvidence(self.positions[start : first + 1], self.evidence.shape, options.shape)
         likelihood = part.own_log_likelihoods(np.array([m]))[:, 0]
         off = np.nan_to_num(self.evidence.usual_likelihood[m] - likelihood, nan=np.inf)
         fitting = np.flatnonzero(off < options.max_onset_misfit)
-        return start + int(fitting[-1]) + 1 if len(fitting) else start
+        departed = int(fitting[-1]) + 1 if len(fitting) else 0
+        moving = self._speed_misfit(m, start, start + departed + 1) >= options.max_onset_misfit
+        # It may have come to rest by now.
+        return next((start + first for first, _ in reversed(list(runs(moving)))), start + departed)
+
+    def _speed_misfit(self, m: int, start: int, stop: int) -> np.ndarray:
+        """Loss of log likelihood of the speeds at which the distances of a marker change, against their usual ones (stop - start,)."""
+        options = self.evidence.options
+        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
+        distance = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)
+        speed = np.abs(np.diff(distance, axis=0, prepend=np.nan)) * self.rate
+        known = ~np.isnan(speed).all(axis=0)
+        scale = robust.MAD_TO_STD * np.nanmedian(speed[:, known], axis=0)
+        square = (speed[start:stop, known] / np.maximum(scale, options.min_onset_speed)) ** 2
+        freedom = options.shape.degrees_of_freedom
+        seen = ~np.isnan(square).all(axis=1)
+        misfit = np.full(stop - start, np.inf)
+        misfit[seen] = np.nanmean((freedom + 1) / 2 * np.log1p(square[seen] / freedom), axis=1)
+        return misfit
 
     def _is_jump(self, m: int, start: int, stop: int) -> bool:
         """Whether a stretch is so short, without gaps on either side, that it is a step or a peak."""

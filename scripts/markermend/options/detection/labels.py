@@ -7,6 +7,7 @@ from typing import Annotated
 
 from markermend.options.declaration import (
     Above,
+    AtLeast,
     AtMost,
     Count,
     Laboratory,
@@ -18,6 +19,7 @@ from markermend.options.declaration import (
     Seconds,
     Share,
     Shared,
+    Unit,
 )
 from markermend.options.shape import ShapeOptions
 
@@ -163,11 +165,15 @@ class LabelsOptions:
     max_same_mm: Millimetres = 10
     """Labels nearer to each other than this are on the same marker."""
 
-    fall_s: Seconds = 0.5
+    fall_s: Seconds = 0.7
     """Longest time in which a marker falls off."""
 
     max_onset_misfit: NotNegative = 1
-    """A fall begins after the last sample whose loss of log likelihood is below this."""
+    """A fall begins after the last sample whose loss of log likelihood is below this, and before it as long as that of the speed at
+    which its distances change is above."""
+
+    min_onset_speed: Annotated[float, AtLeast(0), Unit("mm/s", "millimetres per second")] = 30
+    """No speed of a distance counts as more certain than this."""
 
     max_exchanged_share: Share = 0.4
     """Largest share of a recording over which labels may be exchanged back by the usual shape, if that is known from the same
