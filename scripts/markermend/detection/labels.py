@@ -10,11 +10,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from markermend.core.events import Event, mask
+from markermend.core.events import Event, disjoint, mask
 from markermend.detection.labelling.cycles import find_cycle_exchanges
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
+from markermend.detection.labelling.one_spot import OneSpotSearch
 from markermend.detection.labelling.open_exchanges import without_open
 from markermend.detection.labelling.pairs import find_pair_exchanges, length
 from markermend.detection.labelling.sections import find_borders, judged_rows
@@ -64,7 +65,9 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
         limit = options.max_exchanged_share if scene.shape.recordings == 1 else 1.0
         found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
     right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
-    single = ForeignSearch(right, scene.rate, evidence).find(markers)
+    single = disjoint(
+        ForeignSearch(right, scene.rate, evidence).find(markers) + OneSpotSearch(right, evidence).find(markers)
+    )
     if scene.unlabelled:
         measured = np.where(mask(single, len(right), markers)[..., None], np.nan, right)
         single += UnlabelledSearch(measured, scene.unlabelled, scene.rate, evidence).find(markers)

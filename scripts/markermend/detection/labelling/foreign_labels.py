@@ -74,13 +74,12 @@ class ForeignSearch:
     def _fallen(self, m: int, misfit: np.ndarray) -> tuple[int, int] | None:
         """The frames over which a marker that fell off lies still, for long, or for a shorter time in which its samples do not fit."""
         options, rows = self.evidence.options, self.evidence.rows
-        for shortest_s, floor in ((options.min_still_s, -np.inf), (options.min_foreign_s, options.min_foreign_misfit)):
-            span = self._lies_still(m, samples(shortest_s, self.rate))
-            if span:
-                off = misfit[(rows >= span[0]) & (rows < span[1])]
-                if floor == -np.inf or np.nansum(off) >= floor * max(1, np.count_nonzero(~np.isnan(off))):
-                    return self._onset(m, span[0]), span[1]
-        return None
+        span = self._lies_still(m, samples(options.min_still_s, self.rate))
+        if span is None and (span := self._lies_still(m, samples(options.min_foreign_s, self.rate))):
+            off = misfit[(rows >= span[0]) & (rows < span[1])]
+            off = off[~np.isnan(off)]
+            span = span if len(off) and off.mean() >= options.min_foreign_misfit else None
+        return (self._onset(m, span[0]), span[1]) if span else None
 
     def _lies_still(self, m: int, length: int) -> tuple[int, int] | None:
         """The frames at the end over which a marker that moved before lies still although those by which it is judged move."""

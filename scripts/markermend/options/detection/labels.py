@@ -165,6 +165,17 @@ class LabelsOptions:
     max_same_mm: Millimetres = 10
     """Labels nearer to each other than this are on the same marker."""
 
+    max_one_spot_mm: PositiveMillimetres = 3
+    """No two markers are nearer to each other than this: their labels are on one marker.
+
+    Change it when markers are smaller than this (lower)."""
+
+    min_usual_mm: PositiveMillimetres = 15
+    """They are farther apart than this usually."""
+
+    min_one_spot_frames: Count = 3
+    """Frames in a row in which two labels are on one marker, at least."""
+
     fall_s: Seconds = 0.7
     """Longest time in which a marker falls off."""
 

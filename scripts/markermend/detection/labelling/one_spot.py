@@ -1,0 +1,91 @@
+"""Two labels on one marker: points nearer to each other than two markers can be.
+
+The label whose trajectory is broken where this begins and ends was on its own marker before and after; the other one is right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.core.events import Event
+from markermend.detection.labelling.evidence import LabelEvidence
+from markermend.numerics.intervals import runs
+from markermend.prediction.shape_evidence import ShapeEvidence
+
+
+@dataclass(frozen=True)
+class OneSpotSearch:
+    """The samples under their right labels.
+
+    Attributes
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing, exchanged labels undone.
+    evidence : LabelEvidence
+        The same in the frames that are looked at.
+    """
+
+    positions: np.ndarray
+    evidence: LabelEvidence
+
+    def find(self, markers: Sequence[str]) -> list[Event]:
+        """Find the stretches over which a label is on the marker of another one.
+
+        Parameters
+        ----------
+        markers : Sequence[str]
+            Names of the markers.
+
+        Returns
+        -------
+        list[Event]
+            Events of the class `foreign`, sorted.
+        """
+        found = [
+            Event(markers[self._off(a, b, start, stop)], start, stop, 1.0, kind="foreign")
+            for a, b in self._close_pairs()
+            for start, stop in self._stretches(a, b)
+            if self._is_broken(a, start, stop) or self._is_broken(b, start, stop)
+        ]
+        return sorted(found, key=lambda event: event.order)
+
+    def _close_pairs(self) -> Iterator[tuple[int, int]]:
+        """Pairs of markers that are apart, and so close now and then that only one marker can be there."""
+        options = self.evidence.options
+        apart = self.evidence.shape.distance >= options.min_usual_mm
+        for a in range(self.positions.shape[1] - 1):
+            # Along one axis first: hardly any points are that close.
+            near = np.abs(self.positions[:, a + 1 :, 0] - self.positions[:, a, None, 0]) < options.max_one_spot_mm
+            possible = (np.count_nonzero(near, axis=0) >= options.min_one_spot_frames) & apart[a, a + 1 :]
+            for b in np.flatnonzero(possible).tolist():
+                yield a, a + 1 + b
+
+    def _stretches(self, a: int, b: int) -> Iterator[tuple[int, int]]:
+        """The stretches over which two labels are on one marker; not where that is most of the recording."""
+        options = self.evidence.options
+        distance = np.linalg.norm(self.positions[:, a] - self.positions[:, b], axis=1)
+        together = np.nan_to_num(distance, nan=np.inf) < options.max_one_spot_mm
+        if np.count_nonzero(together) <= options.max_foreign_share * np.count_nonzero(~np.isnan(distance)):
+            yield from ((start, stop) for start, stop in runs(together) if stop - start >= options.min_one_spot_frames)
+
+    def _is_broken(self, m: int, start: int, stop: int) -> bool:
+        """Whether the trajectory of a marker is broken at both ends of a stretch, within the recording."""
+        labels = self.evidence.under[[start, min(stop, len(self.positions) - 1)], m]
+        first = start == 0 or bool(self.evidence.border[start, labels[0]])
+        last = stop == len(self.positions) or bool(self.evidence.border[stop, labels[1]])
+        return first and last and (start > 0 or stop < len(self.positions))
+
+    def _off(self, a: int, b: int, start: int, stop: int) -> int:
+        """Which of two markers is not at the place of both: the one that is broken, or whose distances contradict it more."""
+        broken = [self._is_broken(m, start, stop) for m in (a, b)]
+        if broken[0] != broken[1]:
+            return a if broken[0] else b
+        step = max(1, (stop - start) // self.evidence.options.open_frames)
+        fit = ShapeEvidence(self.positions[start:stop:step], self.evidence.shape, self.evidence.options.shape)
+        with_other = fit.own_log_likelihoods_without_other()
+        usual = self.evidence.usual_likelihood
+        misfit = [usual[m] - np.nanmean(with_other[:, m, other]) for m, other in ((a, b), (b, a))]
+        return a if misfit[0] > misfit[1] else b

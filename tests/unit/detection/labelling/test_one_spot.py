@@ -1,0 +1,48 @@
+"""Two labels on one marker, which is found however the body moves; which one is right is said by where the other came from."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend.detection.labels import detect_labels
+from markermend.mesh.inference import infer_mesh
+from markermend.options.detection.labels import LabelsOptions
+from markermend.options.mesh import MeshOptions
+from markermend.prediction.scene import Scene
+
+
+def find(recording, positions):
+    named = replace(recording, positions=positions, facts={"recording": "r"})
+    scene = Scene.of(named, infer_mesh([named], options=MeshOptions()))
+    found = detect_labels(scene, markers=recording.markers, options=LabelsOptions())
+    return [(event.marker, event.start, event.stop, event.kind) for event in found]
+
+
+@pytest.mark.parametrize("noise_mm", [0.0, 0.3])
+@pytest.mark.parametrize(
+    ("marker", "other", "start", "stop"),
+    [("LTHI", "LKNE", 500, 512), ("LTOE", "RTOE", 300, 400), ("RWRA", "RWRB", 0, 60), ("LKNE", "LTIB", 1150, 1200)],
+)
+def test_a_label_on_the_marker_of_another_one(walker, marker, other, start, stop, noise_mm):
+    positions, index = walker.recording.positions.copy(), walker.recording.markers.index
+    noise = np.random.default_rng(0).normal(0, noise_mm, (stop - start, 3))
+    positions[start:stop, index(marker)] = positions[start:stop, index(other)] + noise
+    assert find(walker.recording, positions) == [(marker, start, stop, "foreign")]
+
+
+def test_a_label_that_comes_from_a_gap(walker):
+    positions, index = walker.recording.positions.copy(), walker.recording.markers.index
+    positions[490:500, index("LTHI")] = positions[560:570, index("LTHI")] = np.nan
+    positions[500:560, index("LTHI")] = positions[500:560, index("LKNE")]
+    assert find(walker.recording, positions) == [("LTHI", 500, 560, "foreign")]
+
+
+def test_points_that_are_always_on_one_spot_are_no_fault(walker):
+    positions = walker.recording.positions
+    doubled = replace(
+        walker.recording,
+        markers=(*walker.recording.markers, "LTHI#2"),
+        positions=np.concatenate([positions, positions[:, [walker.recording.markers.index("LTHI")]]], axis=1),
+    )
+    assert find(doubled, doubled.positions) == []
