@@ -1,13 +1,14 @@
 """Detect slow changes.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
-Writes: 05_slow.parquet.
+Writes: 05_slow.parquet, with the smallest drift of each marker that would have been found among its facts.
 """
 
 from collections.abc import Sequence
 from typing import Any
 
 from markermend.command import detector
+from markermend.command.presets import preset_detector
 from markermend.detection.slow import detect_slow
 from markermend.options.detection.slow import SlowOptions
 
@@ -20,8 +21,17 @@ def published(options: SlowOptions) -> Any:
     return make_detector(options)
 
 
-def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_slow, published)
+def work(call: Any) -> str:
+    given, recorded_under = detector.arguments(call)
+    found = preset_detector(detect_slow, call.options, published)(**given)
+    facts: dict[str, Any] = {}
+    if isinstance(found, tuple):  # published detectors find slow changes, and state nothing else
+        found, smallest = found
+        facts = {
+            "smallest_drifts": {"duration_s": call.options.long_drifts.stated_duration_s, "height_mm": dict(smallest)}
+        }
+    detector.write(call, found, recorded_under, facts)
+    return detector.result(found)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

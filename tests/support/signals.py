@@ -72,7 +72,8 @@ def detect(recording, preset="default", only=tuple(DETECTORS), options=None):
             result = DETECTORS[stage](scene, **given, predictor=RIDGE)
         else:
             result = PUBLISHED[stage](scene, **given)
-        found[stage], left = result if stage == "steps" else (result, left)
+        found[stage], stated = result if isinstance(result, tuple) else (result, None)
+        left = stated if stage == "steps" else left
         hiding = [event for event in found[stage] if not class_of(stage, event).reported]
         claimed = claimed | events.coordinates(hiding, recording.frames, recording.markers)
     return found, left

@@ -22,16 +22,20 @@ from markermend.detection.neighbour.drift_scores import DriftScorer
 from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
 from markermend.detection.neighbour.long_drifts import LongDrifts
 from markermend.detection.neighbour.short_drifts import ShortDrifts
+from markermend.detection.neighbour.smallest_drifts import SmallestDrifts
 from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
+STATED_DIGITS = 1
+"""Decimals of the heights of the smallest drifts, mm."""
+
 
 def detect_slow(
     scene: Scene, *, markers: Sequence[str], earlier: np.ndarray, options: SlowOptions, predictor: LocalRidge
-) -> list[Event]:
-    """Find the slow changes of a recording.
+) -> tuple[list[Event], dict[str, float | None]]:
+    """Find the slow changes of a recording, and say which would have been found.
 
     Parameters
     ----------
@@ -48,16 +52,24 @@ def detect_slow(
 
     Returns
     -------
-    list[Event]
+    found : list[Event]
         Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
+    smallest : dict[str, float | None]
+        Height of the smallest drift of each marker, of `long_drifts.stated_duration_s`, that would have been found, mm; None where none
+        would have been, however large.
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
-    found = SlowChanges.fit(rest, options, source).find(markers)
+    changes = SlowChanges.fit(rest, options, source)
     lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers)
-    drifts = not_explained(found, lasting, frames=len(earlier), moments=True)
+    drifts = not_explained(changes.find(markers), lasting, frames=len(earlier), moments=True)
     creeps = [event for event in lasting if event.kind == "creep"]
-    return sorted([*drifts, *creeps], key=lambda event: event.order)
+    found = sorted([*drifts, *creeps], key=lambda event: event.order)
+    heights = [changes.smallest.height(m) for m in range(len(markers))]
+    return found, {
+        name: None if np.isnan(height) else round(height, STATED_DIGITS)
+        for name, height in zip(markers, heights, strict=True)
+    }
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,12 +84,15 @@ class SlowChanges:
         Those that are estimated together with the regression, from a few tenths of a second on.
     short_attribution, long_attribution : DriftAttribution
         Whose they are.
+    smallest : SmallestDrifts
+        Which drifts would be found.
     """
 
     short: ShortDrifts
     long: LongDrifts
     short_attribution: DriftAttribution
     long_attribution: DriftAttribution
+    smallest: SmallestDrifts
 
     @classmethod
     def fit(cls, scene: Scene, options: SlowOptions, predictor: ScaledResidualSource) -> SlowChanges:
@@ -109,11 +124,13 @@ class SlowChanges:
         long = LongDrifts(regression, models, residual, options)
         short_evidence = ShortDriftEvidence(scorer, scores, predictor)
         long_evidence = LongDriftEvidence(long, scale, predictor)
+        attribution = DriftAttribution(scene, long_evidence, options)
         return cls(
             ShortDrifts(scorer, scores),
             long,
             DriftAttribution(scene, short_evidence, options),
-            DriftAttribution(scene, long_evidence, options),
+            attribution,
+            SmallestDrifts(long, scale, attribution),
         )
 
     def find(self, markers: Sequence[str]) -> list[Event]:

@@ -153,6 +153,40 @@ class PulseRegression:
         information[known < min_known_share * (pulse @ pulse)] = 0.0
         return self._responses(windows @ pulse, information)
 
+    def masking(self, length: int, places: np.ndarray, *, scale: np.ndarray) -> np.ndarray:
+        """Estimate how much pulses mask themselves: they add to the noise by which they are judged.
+
+        A pulse in the signal raises the covariance that is estimated from it by the pulse's own autocovariance.
+
+        Parameters
+        ----------
+        length : int
+            Length of the pulse, samples.
+        places : np.ndarray
+            Samples (k,) at which it begins; it must be known there.
+        scale : np.ndarray
+            Factors (n,) by which the noise is larger than its covariance function says.
+
+        Returns
+        -------
+        np.ndarray
+            Variance (k,) of the height that a pulse of height 1 adds.
+        """
+        pulse, n = raised_cosine((np.arange(length) + 0.5) / length), len(self.precision)
+        shapes = np.zeros((len(places), n))
+        shapes[np.arange(len(places))[:, None], places[:, None] + np.arange(length)] = pulse
+        weights = shapes @ self.precision
+        weights /= np.einsum("kn,kn->k", weights, shapes)[:, None]
+        autocovariance = np.zeros(n)
+        autocovariance[:length] = np.correlate(pulse, pulse, "full")[length - 1 :]
+        known = np.count_nonzero(np.diagonal(self.precision) > 0)
+        between = autocovariance[np.abs(np.arange(n)[:, None] - np.arange(n))] * scale[:, None] * scale
+        own = scale[places + length // 2]
+        added: np.ndarray = np.einsum("kn,kn->k", weights @ between, weights) / (
+            own**2 * self.weighted.shape[1] * known
+        )
+        return added
+
     @staticmethod
     def _responses(weighted: np.ndarray, information: np.ndarray) -> PulseResponses:
         """Heights from weighted sums (k, axes) and the information (k,) on them."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from markermend.options.declaration import CountOrNone, Laboratory, NotNegative, Seconds
+from markermend.options.declaration import CountOrNone, Laboratory, NotNegative, PositiveMillimetres, Seconds
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,11 @@ class QcOptions:
     """Points of the attention score, by which the report sorts recordings.
 
     Change it when the recordings that come first in the report are not those that worry you."""
+
+    notable_drift_mm: Annotated[PositiveMillimetres, Laboratory] = 10
+    """Size of slow changes that matter: the page counts the markers on which they would not have been found.
+
+    Change it when smaller or only larger ones matter to you."""
 
     context_s: Seconds = 0.5
     """Time on either side of a finding that a plot shows."""

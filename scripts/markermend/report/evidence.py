@@ -19,6 +19,7 @@ from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudge
 from markermend.core.written import written_changes
 from markermend.report.decision_outcomes import DecisionOutcome, outcomes
 from markermend.report.open_findings import left_open, worst_first
+from markermend.report.smallest_drifts import SmallestDrifts
 from markermend.storage import change_file, stage_files
 from markermend.storage.mesh_file import for_recording
 
@@ -71,6 +72,8 @@ class Evidence:
         The options of every stage.
     noted : tuple of str
         What the detectors warn of.
+    smallest_drifts : SmallestDrifts or None
+        Which drifts would have been found; None where that is not stated.
     """
 
     before: Recording
@@ -83,6 +86,7 @@ class Evidence:
     certificate: dict[str, Any]
     stages: dict[str, dict[str, Any]]
     noted: tuple[str, ...] = ()
+    smallest_drifts: SmallestDrifts | None = None
 
     @property
     def decided(self) -> list[DecisionOutcome]:
@@ -168,6 +172,7 @@ def read_evidence(call: QcCall) -> Evidence:
         certificate=certificate,
         noted=tuple(warning for facts in facts_found for warning in facts.get("warnings", ())),
         stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
+        smallest_drifts=next((SmallestDrifts.of(facts) for facts in facts_found if facts["stage"] == "slow"), None),
     )
 
 

@@ -126,7 +126,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
     summary : mapping of str to Any
         What summarize gives.
     options : QcOptions
-        `plots`, `context_s` and `plot_frames` of the stage qc.
+        `plots`, `context_s`, `max_plot_frames` and `notable_drift_mm` of the stage qc.
 
     Returns
     -------
@@ -158,6 +158,8 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         certificate=seen.certificate,
         methods=summary["methods"],
         stages=seen.stages,
+        smallest_drifts=seen.smallest_drifts,
+        notable_drift_mm=options.notable_drift_mm,
     )
 
 

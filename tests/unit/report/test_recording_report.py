@@ -37,6 +37,24 @@ def test_the_page_says_what_was_done(made):
         assert wanted in text
 
 
+def test_the_page_says_which_drifts_would_have_been_found(made, contaminated, tmp_path):
+    before, after = (
+        stage_files.read_recording(made.folder / f"{name}.parquet") for name in ("01_markers", "07_filled")
+    )
+    after = Treated(**vars(after), changes=change_file.read(made.folder / "07_changes.parquet"))
+    other = report_files.write(tmp_path, before, after, contaminated.events)
+    path = next(other.folder.glob("05_slow.parquet"))
+    heights = {**dict.fromkeys(before.markers, 2.5), before.markers[0]: None, before.markers[1]: 17.5}
+    stated = {"smallest_drifts": {"duration_s": 1.0, "height_mm": heights}}
+    stage_files.write_events(path, contaminated.events["slow"], {**stage_files.read_facts(path), **stated})
+    qc.main(other.qc())
+    text = " ".join(Page(other.page).text.split())
+    count = len(before.markers)
+    assert f"Slow changes of 1 s and 10 mm would have been found on {count - 2} of {count} markers" in text
+    assert "none, however large" in text and "17.5" in text
+    assert "would have been found" not in Page(made.page).text
+
+
 def test_the_number_of_plots_is_capped_and_the_tables_are_not(made):
     qc.main(made.qc(plots=3))
     page = Page(made.page)

@@ -11,6 +11,7 @@ from markermend.options.declaration import (
     Laboratory,
     Millimetres,
     NotEmpty,
+    NotNegative,
     Positive,
     PositiveMillimetres,
     PositiveSeconds,
@@ -79,3 +80,14 @@ class LongDriftOptions:
 
     contradicting_distance_sigmas: Positive = 3
     """A distance speaks against such a drift if the drift would change it by this many of its deviations and it stays."""
+
+    stated_duration_s: Annotated[PositiveSeconds, Laboratory] = 1
+    """Duration of the drifts of which the smallest height is stated that would have been found.
+
+    Change it when drifts of another duration would matter to you."""
+
+    stated_share: Share = 0.85
+    """Share of the times at which a drift of the stated height would have been found."""
+
+    stated_margin_sigmas: NotNegative = 1.5
+    """Standard deviations of its estimate by which the stated height exceeds the threshold."""

@@ -1,0 +1,132 @@
+"""The smallest drift of each marker that would have been found: below it, that nothing is found means nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.detection.neighbour.drift_attribution import DriftAttribution
+from markermend.detection.neighbour.drift_regression import bin_means
+from markermend.detection.neighbour.drift_scores import required_score
+from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.numerics import robust
+
+PLACES_PER_DRIFT = 2
+"""Places at which a drift is tried, over its duration."""
+
+FLOOR_MARGIN = 1.1
+"""A drift between bins appears to be lower by up to a tenth."""
+
+
+@dataclass(frozen=True, eq=False)
+class SmallestDrifts:
+    """Predicts, from the thresholds of the detector and its standard deviations, which drifts it finds.
+
+    Attributes
+    ----------
+    drifts : LongDrifts
+        The models of all markers, and the thresholds.
+    scale : np.ndarray
+        Local scale (bins, markers), mm.
+    attribution : DriftAttribution
+        From which height on drifts show in the distances.
+    """
+
+    drifts: LongDrifts
+    scale: np.ndarray
+    attribution: DriftAttribution
+
+    @property
+    def length(self) -> int:
+        """Bins of the drift of which the height is stated."""
+        return self.drifts.regression.bins(self.drifts.own.stated_duration_s)
+
+    def height(self, marker: int) -> float:
+        """Predict the smallest height of a drift that would have been found at most times.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        float
+            The height, mm; NaN where no drift could have been found, however large.
+        """
+        own = self.drifts.own
+        heights = list(self._at_places(marker))
+        if not heights:
+            return float("nan")
+        height = float(np.quantile(np.concatenate(heights), own.stated_share, method="higher"))
+        return height if np.isfinite(height) else float("nan")
+
+    def threshold_sigmas(self, marker: int) -> float:
+        """Give the threshold of a marker, raised by what it does elsewhere.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        float
+            The statistic that a drift must reach.
+        """
+        score, _ = self.drifts.scores(self.drifts.models[marker])
+        factor = self.drifts.options.distinct_factor
+        required = required_score(score, 0, 0, reach=self.length // 2, factor=factor, limit=np.inf)
+        return self.drifts.own.threshold_sigmas * required
+
+    def _at_places(self, marker: int) -> Iterator[np.ndarray]:
+        """Smallest heights (places,) at places of each part of the recording, mm; infinite where none is found."""
+        drifts, threshold, length = self.drifts, self.threshold_sigmas(marker), self.length
+        residual = bin_means(drifts.residual[:, marker], drifts.regression.step)
+        shown = self.attribution.shown_height(marker)
+        for first, part in drifts.models[marker].parts:
+            deviation = part.responses(length, min_known_share=drifts.own.min_known_share).deviation
+            places = np.flatnonzero(np.isfinite(deviation))[:: max(1, length // PLACES_PER_DRIFT)]
+            if not len(places):
+                continue
+            bins = slice(first, first + len(part.weighted))
+            scale = self.scale[bins, marker]
+            masking = part.masking(length, places, scale=scale)
+            usual = robust.mad_std((residual[bins] / scale[:, None])[~np.isnan(residual[bins])])
+            clipped = drifts.own.outlier_sigmas * usual * scale[places + length // 2]
+            yield self._found_from(deviation[places], masking, clipped, threshold=threshold, shown=shown)
+
+    def _found_from(
+        self, deviation: np.ndarray, masking: np.ndarray, clipped: np.ndarray, *, threshold: float, shown: float
+    ) -> np.ndarray:
+        """Heights (k,), mm, that reach the threshold although they raise their own standard deviation.
+
+        Parameters
+        ----------
+        deviation : np.ndarray
+            Standard deviation (k,) of the height without a drift, mm.
+        masking : np.ndarray
+            Variance (k,) that a drift of height 1 adds.
+        clipped : np.ndarray
+            Height (k,) above which drifts are clipped where the covariance is estimated, mm.
+        threshold : float
+            The statistic to be reached.
+        shown : float
+            Height from which on a drift that is not estimated precisely shows in the distances, mm.
+
+        Returns
+        -------
+        np.ndarray
+            The heights.
+        """
+        own = self.drifts.own
+        remaining = np.maximum(1 - masking * threshold**2, 1e-9)
+        height = threshold * np.minimum(
+            deviation / np.sqrt(remaining), np.sqrt(deviation**2 + masking * np.minimum(clipped, 1e6) ** 2)
+        )
+        masked = height / threshold
+        height = np.maximum(height, FLOOR_MARGIN * own.floor_mm) + own.stated_margin_sigmas * masked
+        found: np.ndarray = np.where(masked > own.precise_mm, np.maximum(height, shown), height)
+        return found
