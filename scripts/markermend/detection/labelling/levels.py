@@ -127,30 +127,31 @@ def likeliest_groups(evidence: LabelEvidence, counterpart: Mapping[int, int]) ->
     Returns
     -------
     list[Permutation]
-        Exchanges of two pairs at least, each once, of the longest sections: all that are likeliest to be exchanged in a section, and
-        those of them that may have been exchanged at its start, and at its end. Limbs may be exchanged at the same time, and a
+        Exchanges of two pairs at least, each once, of the longest sections: all that are likeliest to be exchanged in a section,
+        those of them that may have been exchanged at its start, and at its end, and all whose trajectories are broken there. Limbs may be exchanged at the same time, and a
         marker that is seen all along hangs together with a limb that is not.
     """
     options = evidence.options
     broken = evidence.border[:, sorted(counterpart)].sum(axis=1) >= 2 * options.min_group_pairs
     cuts = [0, *(np.flatnonzero(broken[1:]) + 1).tolist(), len(evidence.under)]
     sections = sorted(pairwise(cuts), key=lambda section: section[0] - section[1])[: options.max_group_sections]
+    every = Permutation(tuple(sorted(counterpart)), tuple(counterpart[m] for m in sorted(counterpart)))
     found: dict[Permutation, None] = {}
     for start, stop in sections:
         rows = (evidence.rows >= start) & (evidence.rows < stop)
         recorded = np.tile(np.arange(evidence.under.shape[1]), (int(np.count_nonzero(rows)), 1))
         exchange = likeliest_exchange(evidence.fit(rows, recorded, group=True), counterpart) if rows.any() else None
+        ends = [evidence.border[cut] for cut in (start, stop) if 0 < cut < len(evidence.under)]
+        possible = [_passing(every, broken, both=True) for broken in ends]
         if exchange:
-            ends = [evidence.border[cut] for cut in (start, stop) if 0 < cut < len(evidence.under)]
-            possible = (_passing(exchange, broken) for broken in ends)
-            found.update(
-                (own, None) for own in (exchange, *possible) if len(own.markers) >= 2 * options.min_group_pairs
-            )
+            possible += [exchange, *(_passing(exchange, broken) for broken in ends)]
+        found.update((own, None) for own in possible if len(own.markers) >= 2 * options.min_group_pairs)
     return list(found)
 
 
-def _passing(exchange: Permutation, broken: np.ndarray) -> Permutation:
-    """The pairs of an exchange of which a trajectory is broken, bool (markers,): no others pass to each other there."""
+def _passing(exchange: Permutation, broken: np.ndarray, *, both: bool = False) -> Permutation:
+    """The pairs of an exchange of which a trajectory, or both, is broken, bool (markers,): no others pass to each other there."""
     pairs = zip(exchange.markers, exchange.labels, strict=True)
-    passing = [(m, label) for m, label in pairs if broken[[m, label]].any()]
+    enough = np.all if both else np.any
+    passing = [(m, label) for m, label in pairs if enough(broken[[m, label]])]
     return Permutation(tuple(m for m, _ in passing), tuple(label for _, label in passing))
