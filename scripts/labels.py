@@ -9,9 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from markermend.command import detector
-from markermend.detection.labelling.open_exchanges import open_exchanges
-from markermend.detection.labelling.unlabelled import unlabelled_samples
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels, label_warnings
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
@@ -23,11 +21,12 @@ def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
     mesh = mesh_file.read(call.mesh, recording.facts["recording"])
     scene = Scene.of(recording, mesh)
-    found = detect_labels(scene, markers=recording.markers, options=call.options)
-    warnings = open_exchanges(scene, found, markers=recording.markers, options=call.options)
-    warnings += unlabelled_samples(found, first_frame=recording.first_frame)
-    stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
-    return detector.result(found)
+    found = find_labels(scene, markers=recording.markers, options=call.options)
+    warnings = label_warnings(
+        scene, found, markers=recording.markers, options=call.options, first_frame=recording.first_frame
+    )
+    stage_files.write_events(call.events, found.events, {**call.facts, "warnings": warnings})
+    return detector.result(found.events)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

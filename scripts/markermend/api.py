@@ -33,9 +33,7 @@ from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudge
 from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
-from markermend.detection.labelling.open_exchanges import open_exchanges
-from markermend.detection.labelling.unlabelled import unlabelled_samples
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import detect_labels, find_labels, label_warnings
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
 from markermend.detection.slow import detect_slow
@@ -299,9 +297,22 @@ def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> 
     >>> detect(recording, mesh)["peaks"][0]  # doctest: +SKIP
     Event(marker='LANK', start=310, stop=312, score=4.2, axes='xz', partner=None)
     """
-    options, own_mesh = options or Options.read(), mesh_of(recording, mesh)
+    return _detect(recording, mesh_of(recording, mesh), options or Options.read())[0]
+
+
+def _detect(recording: Recording, own_mesh: Mesh, options: Options) -> tuple[dict[str, list[Event]], list[str]]:
+    """The findings of each detector, and warnings of labels that are left as recorded."""
     findings: dict[str, list[Event]] = {}
+    warnings: list[str] = []
     for stage in (stage for stage in DETECTORS if stage in options.general.detect):
+        if stage == "labels":
+            scene, markers = Scene.of(recording, own_mesh), recording.markers
+            labels = find_labels(scene, markers=markers, options=options.labels)
+            warnings = label_warnings(
+                scene, labels, markers=markers, options=options.labels, first_frame=recording.first_frame
+            )
+            findings[stage] = labels.events
+            continue
         earlier = [event for events in findings.values() for event in events]
         found = detector.find(
             DETECTORS[stage],
@@ -312,7 +323,7 @@ def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> 
             published=PUBLISHED.get(stage),
         )
         findings[stage] = sorted(found, key=lambda event: event.order)
-    return findings
+    return findings, warnings
 
 
 def repair(
@@ -429,17 +440,11 @@ def clean(
     """
     options = options or Options.read()
     mesh = infer_mesh([recording], options=options) if mesh is None else mesh
-    findings = detect(recording, mesh, options)
-    filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
     own_mesh = mesh_of(recording, mesh)
+    findings, warnings = _detect(recording, own_mesh, options)
+    filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
     unjudged = _unjudged(recording, own_mesh, findings, options)
-    label_warnings: list[str] = []
-    if "labels" in findings:
-        scene = Scene.of(recording, own_mesh)
-        own = findings["labels"]
-        label_warnings = open_exchanges(scene, own, markers=recording.markers, options=options.labels)
-        label_warnings += unlabelled_samples(own, first_frame=recording.first_frame)
-    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, label_warnings)
+    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, warnings)
 
 
 def _unjudged(recording: Recording, mesh: Mesh, findings: Mapping[str, Any], options: Options) -> dict[str, str]:

@@ -7,6 +7,7 @@ subject's usual shape is known, those that only the level shows.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -16,17 +17,33 @@ from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
 from markermend.detection.labelling.one_spot import OneSpotSearch
-from markermend.detection.labelling.open_exchanges import without_open
+from markermend.detection.labelling.open_exchanges import open_exchanges, undecided_exchanges, without_open
 from markermend.detection.labelling.pairs import find_pair_exchanges, length
 from markermend.detection.labelling.sections import find_borders, judged_rows
 from markermend.detection.labelling.states import exchange_events, labelling
-from markermend.detection.labelling.unlabelled import UnlabelledSearch
+from markermend.detection.labelling.unlabelled import UnlabelledSearch, unlabelled_samples
 from markermend.numerics import intervals, robust
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 
 MIN_WINDOW = 5
 """Samples over which the usual motion is taken, at least."""
+
+
+@dataclass(frozen=True)
+class LabelFindings:
+    """What is found of labels.
+
+    Attributes
+    ----------
+    events : list[Event]
+        The findings, see detect_labels.
+    undecided : list[Event]
+        Exchanges of which nothing says which part of the recording is right: they are left as recorded.
+    """
+
+    events: list[Event]
+    undecided: list[Event] = field(default_factory=list)
 
 
 def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> list[Event]:
@@ -49,21 +66,43 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
         `foreign`, and of samples under unlabelled trajectories, have no partner, and state labels as they are after the exchanges
         are undone.
     """
+    return find_labels(scene, markers=markers, options=options).events
+
+
+def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> LabelFindings:
+    """Find the faults of labels, and exchanges that are undecided.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    markers : Sequence[str]
+        Names of the markers.
+    options : LabelsOptions
+        Thresholds of a change of labels, and how clear the distances must be.
+
+    Returns
+    -------
+    LabelFindings
+        The findings.
+    """
     window = max(MIN_WINDOW, intervals.samples(options.window_s, scene.rate, odd=True))
     sudden = sudden_steps(scene.positions, window=window, options=options)
     found = sudden_exchanges(scene, sudden, window=window, markers=markers, options=options)
     if scene.shape is None:
-        return found
+        return LabelFindings(found)
     under, score = labelling(found, scene.present.shape, markers)
     border = find_borders(scene.present, sudden)
     rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
     spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
     evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
     evidence, score = relabel_by_level(evidence, score, markers=markers)
+    undecided: list[Event] = []
     if not np.array_equal(under, evidence.under):
         every = exchange_events(evidence.under, score, markers)
         limit = options.max_exchanged_share if scene.shape.recordings == 1 else 1.0
         found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
+        undecided = [event for event in every if event not in found]
     right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
     single = disjoint(
         ForeignSearch(right, scene.rate, evidence).find(markers) + OneSpotSearch(right, evidence).find(markers)
@@ -72,9 +111,37 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
         measured = np.where(mask(single, len(right), markers)[..., None], np.nan, right)
         single += UnlabelledSearch(measured, scene.unlabelled, scene.rate, evidence).find(markers)
     # Where it is left open which labels are right, nothing can be said of a marker alone.
-    undecided = evidence.under != labelling(found, scene.present.shape, markers)[0]
-    found += [event for event in single if not undecided[event.start : event.stop, markers.index(event.marker)].any()]
-    return sorted(found, key=lambda event: event.order)
+    left_open = evidence.under != labelling(found, scene.present.shape, markers)[0]
+    found += [event for event in single if not left_open[event.start : event.stop, markers.index(event.marker)].any()]
+    return LabelFindings(sorted(found, key=lambda event: event.order), undecided)
+
+
+def label_warnings(
+    scene: Scene, found: LabelFindings, *, markers: Sequence[str], options: LabelsOptions, first_frame: int
+) -> list[str]:
+    """Warn of what is not undone: labels of which nothing says which are right, and samples under unlabelled trajectories.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is observed.
+    found : LabelFindings
+        What was found in it.
+    markers : Sequence[str]
+        Names of the markers.
+    options : LabelsOptions
+        How clear the distances must be.
+    first_frame : int
+        The capture program's number of row 0.
+
+    Returns
+    -------
+    list[str]
+        A sentence for each.
+    """
+    warnings = open_exchanges(scene, found.events, markers=markers, options=options)
+    warnings += undecided_exchanges(found.undecided, warned=warnings, scene=scene)
+    return warnings + unlabelled_samples(found.events, first_frame=first_frame)
 
 
 def sudden_exchanges(

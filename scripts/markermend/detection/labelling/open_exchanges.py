@@ -7,6 +7,7 @@ learnt from them both. Markers that are exchanged together keep their distances 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -54,6 +55,34 @@ def open_exchanges(
                 for start, stop in _rarer_state(_differences(positions, relations))
             ]
     return list(dict.fromkeys(warnings))
+
+
+def undecided_exchanges(undecided: Sequence[Event], *, warned: Sequence[str], scene: Scene) -> list[str]:
+    """Warn of exchanges that the usual shape would explain, if it were known which part of the recording is right.
+
+    Parameters
+    ----------
+    undecided : Sequence[Event]
+        The exchanges.
+    warned : Sequence[str]
+        Other warnings: exchanges of markers that they name are not repeated.
+    scene : Scene
+        What is observed.
+
+    Returns
+    -------
+    list[str]
+        A sentence for each stretch, with the names of the markers.
+    """
+    named = {word for text in warned for word in re.split(r"[ ,]+", text)}
+    together: dict[tuple[int, int], list[str]] = {}
+    for event in undecided:
+        together.setdefault((event.start, event.stop), []).append(event.marker)
+    return [
+        f"{', '.join(own[:-1])} and {own[-1]} may be exchanged {_when(start, stop, scene)}: nothing says which part is right"
+        for (start, stop), own in sorted(together.items())
+        if len(own) > 1 and named.isdisjoint(own)
+    ]
 
 
 def without_open(found: Sequence[Event], sudden: Sequence[Event], observed: np.ndarray, limit: float) -> list[Event]:

@@ -7,8 +7,8 @@ import pytest
 
 from markermend import api
 from markermend.core.events import Event
-from markermend.detection.labelling.open_exchanges import open_exchanges, without_open
-from markermend.detection.labels import detect_labels
+from markermend.detection.labelling.open_exchanges import without_open
+from markermend.detection.labels import find_labels, label_warnings
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -29,8 +29,8 @@ def exchanged(recording, pairs, start):
 def look(recording, *others):
     named = [replace(one, facts={"recording": f"r{k}"}) for k, one in enumerate((recording, *others))]
     scene = Scene.of(recording, infer_mesh(named, options=MeshOptions()))
-    found = detect_labels(scene, markers=recording.markers, options=OPTIONS)
-    return found, open_exchanges(scene, found, markers=recording.markers, options=OPTIONS)
+    found = find_labels(scene, markers=recording.markers, options=OPTIONS)
+    return found.events, label_warnings(scene, found, markers=recording.markers, options=OPTIONS, first_frame=1)
 
 
 @pytest.mark.parametrize("start", [540, 650])
@@ -44,6 +44,14 @@ def test_about_half_is_left_and_warned_of(walker, names, start):
     assert f"(frame {start})" in warnings[0]
     assert ("to the end" in warnings[0]) == (start > 600)
     assert warnings[0].endswith(": nothing says which of the two is right")
+
+
+@pytest.mark.parametrize("start", [540, 650])
+def test_pairs_that_are_no_counterparts_are_warned_of_as_well(walker, start):
+    recording = exchanged(walker.recording, [("LTHI", "LKNE")], start)
+    found, (warning,) = look(recording)
+    assert found == []
+    assert warning.startswith("LKNE and LTHI may be exchanged ") and any(f"(frame {frame})" in warning for frame in (start, start - 10))
 
 
 def test_other_recordings_tell(walker):
