@@ -95,7 +95,7 @@ def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions)
     border = find_borders(scene.present, sudden)
     rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
     spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
-    evidence = LabelEvidence(rows, spacing, scene.positions[rows], under, scene.present, border, scene.shape, options)
+    evidence = LabelEvidence(rows, spacing, scene.positions, under, scene.present, border, scene.shape, options)
     evidence, score = relabel_by_level(evidence, score, markers=markers)
     undecided: list[Event] = []
     if not np.array_equal(under, evidence.under):

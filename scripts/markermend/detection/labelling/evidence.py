@@ -93,8 +93,8 @@ class LabelEvidence:
         The frames that are looked at (rows,), ascending.
     spacing_s : float
         Time between most of them, s.
-    recorded : np.ndarray
-        Positions in these frames as recorded (rows, markers, 3), mm, NaN = missing.
+    positions : np.ndarray
+        Positions as recorded (frames, markers, 3), mm, NaN = missing.
     under : np.ndarray
         Under which label each marker is supposed to be recorded, int (frames, markers).
     present : np.ndarray
@@ -109,7 +109,7 @@ class LabelEvidence:
 
     rows: np.ndarray
     spacing_s: float
-    recorded: np.ndarray
+    positions: np.ndarray
     under: np.ndarray
     present: np.ndarray
     border: np.ndarray
@@ -137,7 +137,8 @@ class LabelEvidence:
         labels = self.under[self.rows[rows]] if under is None else under
         shape = self.options.shape
         options = replace(shape, anchors=self.options.group_anchors) if group else shape
-        return ShapeEvidence(np.take_along_axis(self.recorded[rows], labels[..., None], axis=1), self.shape, options)
+        recorded = self.positions[self.rows[rows]]
+        return ShapeEvidence(np.take_along_axis(recorded, labels[..., None], axis=1), self.shape, options)
 
     @cached_property
     def everywhere(self) -> np.ndarray:
@@ -295,16 +296,25 @@ class LabelEvidence:
         -------
         np.ndarray
             The first frames of the sections between them, 0 among them: where the trajectories of the markers that are
-            observed before and after are broken, of the share `min_broken_share` of them at least.
+            observed before and after are broken, of the share `min_broken_share` of them at least. Where another label continues
+            a trajectory, it is not broken.
         """
         labels = self.under[:, members]
         border = np.take_along_axis(self.border, labels, axis=1)
-        border[1:] |= labels[1:] != labels[:-1]
+        frames, columns = np.nonzero(labels[1:] != labels[:-1])
+        border[frames + 1, columns] = ~self._continues(frames + 1, labels[frames, columns], labels[frames + 1, columns])
         joined = np.take_along_axis(self.present, labels, axis=1)
         joined[1:] &= joined[:-1].copy()
         joined[0] = False
         broken = np.count_nonzero(border & joined, axis=1) >= self.options.min_broken_share * joined.sum(axis=1)
         return np.unique(np.concatenate([[0], np.flatnonzero(broken & border.any(axis=1))]))
+
+    def _continues(self, frames: np.ndarray, before: np.ndarray, now: np.ndarray) -> np.ndarray:
+        """Whether what is under one label from a frame on continues what was under another one before, bool (n,)."""
+        step = np.linalg.norm(self.positions[frames, now] - self.positions[frames - 1, before], axis=1)
+        jump = np.linalg.norm(self.positions[frames, now] - self.positions[frames - 1, now], axis=1)
+        continues: np.ndarray = step <= self.options.max_remaining_fraction * jump
+        return continues
 
     def changed(self, change: LabelChange) -> tuple[LabelEvidence, np.ndarray]:
         """Carry out a change.
