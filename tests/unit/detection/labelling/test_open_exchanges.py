@@ -51,7 +51,9 @@ def test_pairs_that_are_no_counterparts_are_warned_of_as_well(walker, start):
     recording = exchanged(walker.recording, [("LTHI", "LKNE")], start)
     found, (warning,) = look(recording)
     assert found == []
-    assert warning.startswith("LKNE and LTHI may be exchanged ") and any(f"(frame {frame})" in warning for frame in (start, start - 10))
+    assert warning.startswith("LKNE and LTHI may be exchanged ") and any(
+        f"(frame {frame})" in warning for frame in (start, start - 10)
+    )
 
 
 def test_other_recordings_tell(walker):
