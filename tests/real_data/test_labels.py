@@ -42,7 +42,7 @@ def two_subjects(data):
     other = second.positions[1200:1920, columns]
     centre = np.nanmedian(other, axis=(0, 1))
     other = (other - centre) @ np.array([[-0.4, 0.9, 0.0], [-0.9, -0.4, 0.0], [0.0, 0.0, 1.0]]) / np.hypot(0.4, 0.9)
-    place = np.nanmedian(first.positions, axis=(0, 1)) + [1100.0, 0.0, 0.0]
+    place = np.nanmedian(first.positions, axis=(0, 1)) + np.array([1100.0, 0.0, 0.0])
     return Recording(
         tuple(f"{prefix}:{name}" for prefix in "AB" for name in names),
         np.concatenate([first.positions[:720], other + place], axis=1),

@@ -13,14 +13,16 @@ import numpy as np
 
 from markermend.core.events import Event, disjoint, mask
 from markermend.detection.labelling.cycles import find_cycle_exchanges
+from markermend.detection.labelling.distances import length
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
 from markermend.detection.labelling.one_spot import OneSpotSearch
 from markermend.detection.labelling.open_exchanges import open_exchanges, undecided_exchanges, without_open
-from markermend.detection.labelling.pairs import find_pair_exchanges, length
+from markermend.detection.labelling.pairs import find_pair_exchanges
 from markermend.detection.labelling.sections import find_borders, judged_rows
 from markermend.detection.labelling.states import exchange_events, labelling
+from markermend.detection.labelling.trajectories import LabelledTrajectories
 from markermend.detection.labelling.unlabelled import UnlabelledSearch, unlabelled_samples
 from markermend.numerics import intervals, robust
 from markermend.options.detection.labels import LabelsOptions
@@ -95,15 +97,16 @@ def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions)
     border = find_borders(scene.present, sudden)
     rows = judged_rows(scene.present, border, rate=scene.rate, options=options)
     spacing = float(np.median(np.diff(rows))) / scene.rate if len(rows) > 1 else options.spacing_s
-    evidence = LabelEvidence(rows, spacing, scene.positions, under, scene.present, border, scene.shape, options)
+    tracks = LabelledTrajectories(scene.positions, under, scene.present, border, options)
+    evidence = LabelEvidence(rows, spacing, tracks, scene.shape, options)
     evidence, score = relabel_by_level(evidence, score, markers=markers)
     undecided: list[Event] = []
-    if not np.array_equal(under, evidence.under):
-        every = exchange_events(evidence.under, score, markers)
+    if not np.array_equal(under, evidence.tracks.under):
+        every = exchange_events(evidence.tracks.under, score, markers)
         limit = options.max_exchanged_share if scene.shape.recordings == 1 else 1.0
         found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
         undecided = [event for event in every if event not in found]
-    right = np.take_along_axis(scene.positions, evidence.under[..., None], axis=1)
+    right = np.take_along_axis(scene.positions, evidence.tracks.under[..., None], axis=1)
     single = disjoint(
         ForeignSearch(right, scene.rate, evidence).find(markers) + OneSpotSearch(right, evidence).find(markers)
     )
@@ -111,7 +114,7 @@ def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions)
         measured = np.where(mask(single, len(right), markers)[..., None], np.nan, right)
         single += UnlabelledSearch(measured, scene.unlabelled, scene.rate, evidence).find(markers)
     # Where it is left open which labels are right, nothing can be said of a marker alone.
-    left_open = evidence.under != labelling(found, scene.present.shape, markers)[0]
+    left_open = evidence.tracks.under != labelling(found, scene.present.shape, markers)[0]
     found += [event for event in single if not left_open[event.start : event.stop, markers.index(event.marker)].any()]
     return LabelFindings(sorted(found, key=lambda event: event.order), undecided)
 

@@ -13,7 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from markermend.detection.labelling.distances import markers_around, usual_distances
+from markermend.detection.labelling.clearness import stretch_clearness
+from markermend.detection.labelling.distances import distances
 from markermend.detection.labelling.permutations import ExchangedStretch, Permutation, possible_permutations
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -89,7 +90,7 @@ def find_cycle_changes(positions: np.ndarray, sudden: np.ndarray, options: Label
             continue
         before, last = positions[t - 2 : t, candidates]
         # A marker continues its motion, or stays: after an exchange of a single frame the step before is no estimate of its velocity.
-        far = np.minimum(*(_distances(expected, positions[t, candidates]) for expected in (2 * last - before, last)))
+        far = np.minimum(*(distances(expected, positions[t, candidates]) for expected in (2 * last - before, last)))
         for cycle in map_cycles(np.argmin(far, axis=1)):
             own = np.array(cycle)
             jump, remaining = far[own, own].min(), far[own, np.roll(own, -1)].max()
@@ -99,12 +100,6 @@ def find_cycle_changes(positions: np.ndarray, sudden: np.ndarray, options: Label
                 score = float(ratio * jump / max(remaining, 1e-3 * jump))
                 found.append(CycleChange(int(t), tuple(members[first:] + members[:first]), score))
     return found
-
-
-def _distances(some: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Distances (n, m) of points (n, 3) from others (m, 3)."""
-    far: np.ndarray = np.linalg.norm(some[:, None] - others, axis=2)
-    return far
 
 
 def map_cycles(following: np.ndarray) -> list[list[int]]:
@@ -133,42 +128,6 @@ def map_cycles(following: np.ndarray) -> list[list[int]]:
     return found
 
 
-def exchange_clearness(scene: Scene, permutation: Permutation, start: int, stop: int, *, neighbours: int) -> float:
-    """Compare the deviations of distances from their usual values under the recorded and under exchanged labels.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is observed.
-    permutation : Permutation
-        The label under which each marker may be recorded.
-    start, stop : int
-        The stretch, [start, stop).
-    neighbours : int
-        Nearest neighbours of each marker to which distances are taken.
-
-    Returns
-    -------
-    float
-        From -1 (the labels are right) to 1 (they are exchanged so): weighted sums of squared deviations of the distances
-        from their medians over the recording, steady distances counting most.
-    """
-    markers, labels = np.array(permutation.markers), np.array(permutation.labels)
-    others = markers_around(scene, permutation.markers, neighbours)
-    usual, spread = usual_distances(_distances_over_time(scene.positions, markers, others))
-    weight, rows = 1 / (1 + spread**2), scene.positions[start:stop]
-    recorded, exchanged = (
-        np.nansum(weight * (_distances_over_time(rows, own, others) - usual) ** 2) for own in (markers, labels)
-    )
-    return float((recorded - exchanged) / max(recorded + exchanged, 1e-9))
-
-
-def _distances_over_time(positions: np.ndarray, some: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Distances (frames, n, m) of some markers from others over time."""
-    distance: np.ndarray = np.linalg.norm(positions[:, some, None] - positions[:, None, others], axis=3)
-    return distance
-
-
 def _exchanged_stretches(
     scene: Scene, markers: tuple[int, ...], changes: Sequence[CycleChange], options: LabelsOptions
 ) -> list[ExchangedStretch]:
@@ -177,7 +136,7 @@ def _exchanged_stretches(
     best: list[tuple[Permutation, float]] = []
     for permutations in possible_permutations(markers, [change.cycle for change in changes]):
         clearness = [
-            0.0 if one.is_identity else exchange_clearness(scene, one, *place, neighbours=options.shape_neighbours)
+            0.0 if one.is_identity else stretch_clearness(scene, one, *place, neighbours=options.shape_neighbours)
             for one, place in zip(permutations, stretches, strict=True)
         ]
         candidate = list(zip(permutations, clearness, strict=True))

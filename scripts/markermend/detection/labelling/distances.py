@@ -30,12 +30,12 @@ def markers_around(scene: Scene, markers: Sequence[int], count: int) -> np.ndarr
     return np.array([n for n in nearest if n not in markers], int)
 
 
-def usual_distances(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def usual_distances(measured: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Estimate the usual values of distances over a recording, and how much they vary.
 
     Parameters
     ----------
-    distances : np.ndarray
+    measured : np.ndarray
         Distances (frames, k, m), mm, NaN = missing.
 
     Returns
@@ -45,8 +45,41 @@ def usual_distances(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     spread : np.ndarray
         Ranges from the 16th to the 84th percentile (k, m), mm; NaN likewise.
     """
-    known = ~np.isnan(distances).all(axis=0)
+    known = ~np.isnan(measured).all(axis=0)
     low, usual, high = np.full((3, *known.shape), np.nan)
     if known.any():
-        low[known], usual[known], high[known] = np.nanpercentile(distances[:, known], [16, 50, 84], axis=0)
+        low[known], usual[known], high[known] = np.nanpercentile(measured[:, known], [16, 50, 84], axis=0)
     return usual, high - low
+
+
+def length(vectors: np.ndarray) -> np.ndarray:
+    """Compute Euclidean lengths.
+
+    Parameters
+    ----------
+    vectors : np.ndarray
+        Vectors (..., axes).
+
+    Returns
+    -------
+    np.ndarray
+        Lengths (...).
+    """
+    lengths: np.ndarray = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    return lengths
+
+
+def distances(some: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Compute the distances of points from others.
+
+    Parameters
+    ----------
+    some, others : np.ndarray
+        Points (..., n, axes) and (..., m, axes).
+
+    Returns
+    -------
+    np.ndarray
+        Distances (..., n, m).
+    """
+    return length(some[..., :, None, :] - others[..., None, :, :])

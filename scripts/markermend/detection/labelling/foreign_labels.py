@@ -118,7 +118,7 @@ class ForeignSearch:
 
     def _bounds(self, m: int, before: int, first: int, last: int, behind: int) -> tuple[int, int] | None:
         """The frames of a stretch whose outermost ones known to be off are given, and the next ones that are not."""
-        starts = [s for s in self.evidence.section_starts([m]).tolist() if s > 0]
+        starts = [s for s in self.evidence.tracks.section_starts([m]).tolist() if s > 0]
         cuts = [0, *starts, len(self.positions)]
         start = max((cut for cut in cuts if before < cut <= first), default=None)
         stop = min((cut for cut in cuts if last < cut <= behind), default=None)
@@ -137,7 +137,7 @@ class ForeignSearch:
     def _onset(self, m: int, first: int) -> int:
         """The frame from which on the samples of a marker depart, before one where they do not fit."""
         options = self.evidence.options
-        broken = self.evidence.section_starts([m])
+        broken = self.evidence.tracks.section_starts([m])
         start = max(int(broken[broken <= first][-1]), first - samples(options.fall_s, self.rate))
         part = ShapeEvidence(self.positions[start : first + 1], self.evidence.shape, options.shape)
         likelihood = part.own_log_likelihoods(np.array([m]))[:, 0]

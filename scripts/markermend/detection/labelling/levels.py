@@ -13,9 +13,11 @@ from itertools import pairwise
 import numpy as np
 
 from markermend.detection.labelling.cuts import likeliest_exchange
-from markermend.detection.labelling.evidence import LabelChange, LabelEvidence, Relabelling
+from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject, group_exchanges
+from markermend.detection.labelling.label_changes import best_change
 from markermend.detection.labelling.permutations import Permutation
+from markermend.detection.labelling.relabelling import LabelChange, Relabelling
 
 
 def relabel_by_level(
@@ -52,9 +54,9 @@ def relabel_by_level(
         if best is None:
             break
         made.add(best.place)
-        before = evidence.under
+        before = evidence.tracks.under
         evidence, rows = evidence.changed(best)
-        moved = evidence.under != before
+        moved = evidence.tracks.under != before
         score[moved] = np.maximum(score[moved], best.evidence / evidence.options.min_gain)
         for relabelling, gain in gains.items():
             gain[rows] = evidence.group_gain(relabelling, rows)
@@ -79,8 +81,8 @@ def possible_changes(evidence: LabelEvidence, gains: Mapping[Relabelling, np.nda
     floor, of_pairs = evidence.options.min_mean_gain, evidence.pair_gains()
     better = np.triu(of_pairs.max(axis=0, initial=0.0) >= floor, 1)
     pairs = [Relabelling(Permutation((a, b), (b, a))) for a, b in np.argwhere(better).tolist()]
-    found = [evidence.best_change(own, of_pairs[:, own.markers[0], own.markers[1]]) for own in pairs]
-    found += [evidence.best_change(own, gain) for own, gain in gains.items() if gain.max(initial=0.0) >= floor]
+    found = [best_change(evidence, own, of_pairs[:, own.markers[0], own.markers[1]]) for own in pairs]
+    found += [best_change(evidence, own, gain) for own, gain in gains.items() if gain.max(initial=0.0) >= floor]
     yield from (change for change in found if change is not None)
 
 
@@ -105,10 +107,10 @@ def group_relabellings(evidence: LabelEvidence, markers: Sequence[str]) -> list[
         if counterpart:
             permutations += likeliest_groups(evidence, counterpart)
     found = dict.fromkeys(Relabelling(own) for own in permutations)
-    usual = np.arange(evidence.under.shape[1])
+    usual = np.arange(evidence.tracks.under.shape[1])
     for own in permutations:
         members = list(own.markers)
-        if (evidence.under[:, members] != usual[members]).any():
+        if (evidence.tracks.under[:, members] != usual[members]).any():
             whole = (own, Permutation.identity(own.markers))
             found.update(dict.fromkeys(Relabelling(permutation, as_recorded=True) for permutation in whole))
     return list(found)
@@ -132,16 +134,16 @@ def likeliest_groups(evidence: LabelEvidence, counterpart: Mapping[int, int]) ->
         marker that is seen all along hangs together with a limb that is not.
     """
     options = evidence.options
-    broken = evidence.border[:, sorted(counterpart)].sum(axis=1) >= 2 * options.min_group_pairs
-    cuts = [0, *(np.flatnonzero(broken[1:]) + 1).tolist(), len(evidence.under)]
+    broken = evidence.tracks.border[:, sorted(counterpart)].sum(axis=1) >= 2 * options.min_group_pairs
+    cuts = [0, *(np.flatnonzero(broken[1:]) + 1).tolist(), len(evidence.tracks.under)]
     sections = sorted(pairwise(cuts), key=lambda section: section[0] - section[1])[: options.max_group_sections]
     every = Permutation(tuple(sorted(counterpart)), tuple(counterpart[m] for m in sorted(counterpart)))
     found: dict[Permutation, None] = {}
     for start, stop in sections:
         rows = (evidence.rows >= start) & (evidence.rows < stop)
-        recorded = np.tile(np.arange(evidence.under.shape[1]), (int(np.count_nonzero(rows)), 1))
+        recorded = np.tile(np.arange(evidence.tracks.under.shape[1]), (int(np.count_nonzero(rows)), 1))
         exchange = likeliest_exchange(evidence.fit(rows, recorded, group=True), counterpart) if rows.any() else None
-        ends = [evidence.border[cut] for cut in (start, stop) if 0 < cut < len(evidence.under)]
+        ends = [evidence.tracks.border[cut] for cut in (start, stop) if 0 < cut < len(evidence.tracks.under)]
         possible = [_passing(every, broken, both=True) for broken in ends]
         if exchange:
             possible += [exchange, *(_passing(exchange, broken) for broken in ends)]

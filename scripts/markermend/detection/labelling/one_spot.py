@@ -73,10 +73,10 @@ class OneSpotSearch:
 
     def _is_broken(self, m: int, start: int, stop: int) -> bool:
         """Whether the trajectory of a marker is broken at both ends of a stretch, within the recording."""
-        labels = self.evidence.under[[start, min(stop, len(self.positions) - 1)], m]
-        first = start == 0 or bool(self.evidence.border[start, labels[0]])
-        last = stop == len(self.positions) or bool(self.evidence.border[stop, labels[1]])
-        return first and last and (start > 0 or stop < len(self.positions))
+        tracks, frames = self.evidence.tracks, len(self.positions)
+        first = start == 0 or tracks.is_broken(m, start)
+        last = stop == frames or tracks.is_broken(m, stop)
+        return first and last and (start > 0 or stop < frames)
 
     def _off(self, a: int, b: int, start: int, stop: int) -> int:
         """Which of two markers is not at the place of both: the one that is broken, or whose distances contradict it more."""

@@ -13,7 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from markermend.detection.labelling.distances import markers_around, usual_distances
+from markermend.detection.labelling.clearness import pair_clearness
+from markermend.detection.labelling.distances import length
 from markermend.detection.labelling.permutations import ExchangedStretch, Permutation
 from markermend.numerics.intervals import runs
 from markermend.options.detection.labels import LabelsOptions
@@ -160,34 +161,6 @@ def _strongest(found: Sequence[PairChange]) -> list[PairChange]:
     return sorted(kept, key=lambda c: (c.frame, c.first, c.second))
 
 
-def label_clearness(scene: Scene, pair: tuple[int, int], *, neighbours: int) -> np.ndarray:
-    """Compare the deviations of distances from their usual values under the recorded and under exchanged labels.
-
-    Parameters
-    ----------
-    scene : Scene
-        What is observed.
-    pair : tuple[int, int]
-        Indices of the markers.
-    neighbours : int
-        Nearest neighbours of either to which distances are taken.
-
-    Returns
-    -------
-    np.ndarray
-        From -1 (exchanged) to 1 (the labels are right) (frames,), 0 where neither is observed: weighted sums of squared
-        deviations of the distances from their medians over the recording, steady distances counting most.
-    """
-    a, b = pair
-    others = markers_around(scene, pair, neighbours)
-    distance = length(scene.positions[:, [a, b], None] - scene.positions[:, None, others])
-    usual, spread = usual_distances(distance)
-    weight = 1 / (1 + (spread**2).sum(axis=0))
-    recorded, exchanged = (np.nansum(weight * (distance - own) ** 2, axis=(1, 2)) for own in (usual, usual[::-1]))
-    clearness: np.ndarray = (exchanged - recorded) / np.maximum(exchanged + recorded, 1e-9)
-    return clearness
-
-
 def exchanged_stretches(
     scene: Scene, pair: tuple[int, int], changes: Sequence[PairChange], options: LabelsOptions
 ) -> list[ExchangedStretch]:
@@ -212,7 +185,7 @@ def exchanged_stretches(
     list[ExchangedStretch]
         The stretches, by frame.
     """
-    clearness = label_clearness(scene, pair, neighbours=options.shape_neighbours)
+    clearness = pair_clearness(scene, pair, neighbours=options.shape_neighbours)
     score = {change.frame: change.score for change in changes}
     found = []
     for start, stop in runs(scene.present[:, pair[0]] | scene.present[:, pair[1]]):
@@ -228,20 +201,3 @@ def exchanged_stretches(
             if clearness[u:v].mean() < limit:
                 found.append(ExchangedStretch(u, v, Permutation(pair, pair[::-1]), min(ends)))
     return found
-
-
-def length(vectors: np.ndarray) -> np.ndarray:
-    """Compute Euclidean lengths.
-
-    Parameters
-    ----------
-    vectors : np.ndarray
-        Vectors (..., axes).
-
-    Returns
-    -------
-    np.ndarray
-        Lengths (...).
-    """
-    lengths: np.ndarray = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
-    return lengths

@@ -7,57 +7,21 @@ to markers one to one; where two explanations are about equally likely, none is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
+from markermend.detection.labelling.pieces import Piece, assigned
 from markermend.numerics import robust
 from markermend.numerics.intervals import runs, samples
 from markermend.prediction.shape_evidence import ShapeEvidence
 
-WORST, IMPOSSIBLE = 2.0, 1e6
-"""Cost of the worst match of a piece and a marker that is accepted, and one that no assignment can bear."""
-
-
 NAMED = 10
 """Findings that a warning names, at most."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A piece of an unlabelled trajectory without a gap.
-
-    Attributes
-    ----------
-    name : str
-        Name of the trajectory.
-    start, stop : int
-        Its frames, [start, stop).
-    """
-
-    name: str
-    start: int
-    stop: int
-
-    def meets(self, other: Piece) -> bool:
-        """Check whether another piece has a frame in common.
-
-        Parameters
-        ----------
-        other : Piece
-            The other one.
-
-        Returns
-        -------
-        bool
-            Whether it has.
-        """
-        return self.start < other.stop and other.start < self.stop
 
 
 @dataclass(frozen=True)
@@ -196,7 +160,7 @@ class UnlabelledSearch:
         given = np.zeros(self.seen.shape, bool)
         found = []
         for piece, m, lead in sorted(
-            _assigned(costs, self.evidence.options.unlabelled.min_lead), key=lambda own: -own[2]
+            assigned(costs, min_lead=self.evidence.options.unlabelled.min_lead), key=lambda own: -own[2]
         ):
             frames = self._free(piece, m)
             if not given[frames, m].any():
@@ -240,31 +204,3 @@ def unlabelled_samples(found: Sequence[Event], *, first_frame: int) -> list[str]
     more = f", and {len(left) - NAMED} more" if len(left) > NAMED else ""
     advice = "labels.adopt_unlabelled takes them over"
     return [f"samples of missing markers may lie under unlabelled trajectories; {advice}: {', '.join(places)}{more}"]
-
-
-def _assigned(costs: Mapping[Piece, Mapping[int, float]], min_lead: float) -> Iterator[tuple[Piece, int, float]]:
-    """Pieces with the marker of each, and by how much the next likeliest explanation of the pieces at that time costs more."""
-    for piece, own in costs.items():
-        if not np.isfinite(list(own.values())).any():
-            continue
-        together = [other for other in costs if other.meets(piece)]
-        markers = sorted({m for other in together for m in costs[other]})
-        # A piece may be no marker's at all, which costs as much as the worst that is accepted.
-        cost = np.full((len(together), len(markers) + len(together)), np.inf)
-        for row, other in enumerate(together):
-            cost[row, : len(markers)] = [costs[other].get(m, np.inf) for m in markers]
-            cost[row, len(markers) + row] = WORST
-        row = together.index(piece)
-        best, total = _assignment(cost)
-        if best[row] < len(markers):
-            m = markers[best[row]]
-            cost[row, best[row]] = np.inf
-            lead = _assignment(cost)[1] - total
-            if lead >= min_lead:
-                yield piece, m, lead
-
-
-def _assignment(cost: np.ndarray) -> tuple[np.ndarray, float]:
-    """The column of each row with the least total cost, and this cost."""
-    row, column = linear_sum_assignment(np.where(np.isfinite(cost), cost, IMPOSSIBLE))
-    return column[np.argsort(row)], float(cost[row, column].sum())

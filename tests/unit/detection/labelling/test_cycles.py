@@ -4,29 +4,16 @@ import numpy as np
 import pytest
 
 from markermend.detection.labelling.cycles import (
-    exchange_clearness,
     find_cycle_changes,
     find_cycle_exchanges,
     map_cycles,
 )
-from markermend.detection.labelling.permutations import Permutation
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
+from support.exchanged import moving
 from support.naive import labels as naive
 
 OPTIONS = LabelsOptions()
-
-
-def moving(seed, frames=30, markers=6):
-    """Markers on smooth trajectories, and where some of them are exchanged in a cycle."""
-    rng = np.random.default_rng(seed)
-    t = np.arange(frames)[:, None, None] / 10
-    positions = rng.uniform(-90, 90, (markers, 3)) + rng.uniform(-5, 5, (markers, 3)) * t
-    size = int(rng.integers(3, markers))
-    cycle = rng.permutation(markers)[:size]
-    recorded = positions.copy()
-    recorded[15:, np.roll(cycle, -1)] = positions[15:, cycle]
-    return recorded + rng.normal(0, 0.5, recorded.shape), cycle.tolist()
 
 
 def first_lowest(cycle):
@@ -54,16 +41,6 @@ def test_the_cycles_of_a_map():
     assert map_cycles(np.array([1, 2, 0, 4, 3, 3])) == [[0, 1, 2]]
     assert map_cycles(np.array([1, 2, 3, 1, 0])) == [[1, 2, 3]]
     assert map_cycles(np.array([0, 1, 2])) == []
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_the_shape_is_compared_distance_by_distance(seed):
-    recorded, _ = moving(seed, frames=20)
-    recorded[3:5, 0] = np.nan
-    near = [np.delete(np.arange(6), m) for m in range(6)]
-    labels = np.random.default_rng(seed).permutation([0, 1, 2]).tolist()
-    found = exchange_clearness(Scene(recorded, 100.0, near), Permutation((0, 1, 2), tuple(labels)), 4, 12, neighbours=5)
-    assert found == pytest.approx(naive.clearness(recorded, (0, 1, 2), labels, (3, 4, 5), 4, 12))
 
 
 @pytest.mark.parametrize("seed", range(5))

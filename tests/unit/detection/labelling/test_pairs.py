@@ -8,25 +8,13 @@ from markermend.detection.labelling.pairs import (
     exchanged_stretches,
     find_pair_changes,
     find_pair_exchanges,
-    label_clearness,
-    length,
 )
 from markermend.detection.labels import sudden_steps
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
+from support.exchanged import NEAR, scene
 
 OPTIONS = LabelsOptions()
-NEAR = [np.delete(np.arange(6), m) for m in range(6)]
-
-
-def scene(*spans, seed=0, frames=120):
-    """Six markers that move together, of which the first two are exchanged over some spans."""
-    rng = np.random.default_rng(seed)
-    walk = np.cumsum(rng.normal(0, 1, (frames, 1, 3)), axis=0)
-    positions = rng.uniform(-200, 200, (6, 3)) + walk + rng.normal(0, 0.2, (frames, 6, 3))
-    for start, stop in spans:
-        positions[start:stop, [0, 1]] = positions[start:stop, [1, 0]]
-    return Scene(positions, 100.0, NEAR)
 
 
 def everywhere(one):
@@ -62,14 +50,6 @@ def test_a_marker_takes_part_in_its_strongest_change_alone():
     assert len({m for change in at for m in (change.first, change.second)}) == 2 * len(at)
 
 
-def test_the_shape_says_where_they_are_exchanged():
-    clearness = label_clearness(scene((40, 60)), (0, 1), neighbours=6)
-    assert clearness[40:60].max() < -0.9 and np.delete(clearness, np.s_[40:60]).min() > 0.9
-    gone = scene()
-    gone.positions[10:20, :2] = np.nan
-    assert not label_clearness(gone, (0, 1), neighbours=6)[10:20].any()
-
-
 @pytest.mark.parametrize("spans", [[(40, 60)], [(100, 120)], [(0, 30)], [(20, 30), (50, 70)]])
 def test_the_stretches_between_changes_that_the_shape_and_their_length_call_exchanged(spans):
     one = scene(*spans)
@@ -83,8 +63,3 @@ def test_without_a_change_or_a_clear_shape_nothing_is_exchanged():
     alike = scene()
     alike.positions[:, 1] = alike.positions[:, 0]
     assert exchanged_stretches(alike, (0, 1), [PairChange(0, 1, 60, 2.0)], OPTIONS) == []
-
-
-def test_lengths_are_euclidean():
-    vectors = np.random.default_rng(1).normal(size=(5, 4, 3))
-    np.testing.assert_allclose(length(vectors), np.linalg.norm(vectors, axis=-1))

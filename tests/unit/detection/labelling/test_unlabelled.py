@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.detection.labelling.unlabelled import Piece, unlabelled_samples
+from markermend.detection.labelling.pieces import Piece
+from markermend.detection.labelling.unlabelled import unlabelled_samples
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
