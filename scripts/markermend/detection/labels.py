@@ -18,7 +18,12 @@ from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
 from markermend.detection.labelling.one_spot import OneSpotSearch
-from markermend.detection.labelling.open_exchanges import open_exchanges, undecided_exchanges, without_open
+from markermend.detection.labelling.open_exchanges import (
+    long_exchanges,
+    open_exchanges,
+    undecided_exchanges,
+    without_open,
+)
 from markermend.detection.labelling.pairs import find_pair_exchanges
 from markermend.detection.labelling.sections import find_borders, judged_rows
 from markermend.detection.labelling.states import exchange_events, labelling
@@ -143,6 +148,7 @@ def label_warnings(
         A sentence for each.
     """
     warnings = open_exchanges(scene, found.events, markers=markers, options=options)
+    warnings += long_exchanges(found.events, scene=scene, limit=options.max_exchanged_share)
     warnings += undecided_exchanges(found.undecided, warned=warnings, scene=scene)
     return warnings + unlabelled_samples(found.events, first_frame=first_frame)
 

@@ -75,6 +75,13 @@ def test_classes_that_are_left_have_a_sentence_of_their_own(preset, said):
     assert "order steps [" in text
 
 
+@pytest.mark.parametrize("adopting", [False, True])
+def test_adopted_samples_are_said_where_they_were_asked_for(adopting):
+    text = paragraph({"labels": {"adopt_unlabelled": adopting}, "repair": {}}, "dynamic", "1.0")["text"]
+    assert ("were given these samples" in text) == adopting
+    assert ("amples under unlabelled trajectories" in text) != adopting
+
+
 def test_several_presets_are_named_once_each():
     ran = {"peaks": {"preset": "default"}, "noise": {"preset": "default"}, "slow": {"preset": "coordinates"}}
     text = paragraph(ran, "dynamic", "1")["text"]

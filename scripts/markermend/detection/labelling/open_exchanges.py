@@ -104,12 +104,47 @@ def without_open(found: Sequence[Event], sudden: Sequence[Event], observed: np.n
     list[Event]
         The others.
     """
+    share, seen = _shares(found, observed), {event.markers for event in sudden}
+    return [event for event in found if event.markers in seen or share[event.markers] <= limit]
+
+
+def long_exchanges(found: Sequence[Event], *, scene: Scene, limit: float) -> list[str]:
+    """Warn of exchanges that are undone although they last about as long as the labels as recorded.
+
+    Parameters
+    ----------
+    found : Sequence[Event]
+        The findings.
+    scene : Scene
+        What is observed.
+    limit : float
+        Share of the recording from which they do, if its usual shape is known from it alone.
+
+    Returns
+    -------
+    list[str]
+        A sentence for each stretch, with the names of the markers.
+    """
+    exchanges = [event for event in found if event.partner]
+    share = _shares(exchanges, np.asarray(scene.present.any(axis=1)))
+    together: dict[tuple[int, int], list[str]] = {}
+    for event in exchanges:
+        if share[event.markers] > limit and scene.shape is not None and scene.shape.recordings == 1:
+            together.setdefault((event.start, event.stop), []).append(event.marker)
+    return [
+        f"{', '.join(own[:-1])} and {own[-1]} are exchanged {_when(start, stop, scene)}, or else in the rest of the recording: "
+        "the labels there are taken for the right ones"
+        for (start, stop), own in sorted(together.items())
+    ]
+
+
+def _shares(exchanges: Sequence[Event], observed: np.ndarray) -> dict[tuple[str, ...], float]:
+    """For each two labels the share of the frames in which any marker is observed, bool (frames,), over which they are exchanged."""
     frames: dict[tuple[str, ...], int] = {}
-    for event in found:
+    for event in exchanges:
         frames[event.markers] = frames.get(event.markers, 0) + int(np.count_nonzero(observed[event.start : event.stop]))
-    seen = {event.markers for event in sudden}
     usable = max(1, int(np.count_nonzero(observed)))
-    return [event for event in found if event.markers in seen or frames[event.markers] <= limit * usable]
+    return {markers: count / usable for markers, count in frames.items()}
 
 
 def _turning_groups(

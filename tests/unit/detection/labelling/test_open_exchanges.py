@@ -56,6 +56,16 @@ def test_pairs_that_are_no_counterparts_are_warned_of_as_well(walker, start):
     )
 
 
+def test_what_is_undone_in_nearly_half_is_warned_of(walker):
+    positions = walker.recording.positions.copy()
+    pair = [walker.recording.markers.index(name) for name in ("LTHI", "LKNE")]
+    positions[660:, pair] = positions[660:, pair[::-1]]
+    found, warnings = look(replace(walker.recording, positions=positions))
+    assert {(event.marker, event.start, event.stop) for event in found} == {("LTHI", 660, 1200), ("LKNE", 660, 1200)}
+    (warning,) = warnings
+    assert warning.startswith("LKNE and LTHI are exchanged from 6.6 s (frame 660) to the end, or else in the rest")
+
+
 def test_other_recordings_tell(walker):
     recording = exchanged(walker.recording, [("LTHI", "RTHI")], 500)
     other = replace(walker.recording, positions=walker.recording.positions[::2])
