@@ -57,11 +57,14 @@ class OneSpotSearch:
         options = self.evidence.options
         apart = self.evidence.shape.distance >= options.min_usual_mm
         for a in range(self.positions.shape[1] - 1):
-            # Along one axis first: hardly any points are that close.
-            near = np.abs(self.positions[:, a + 1 :, 0] - self.positions[:, a, None, 0]) < options.max_one_spot_mm
-            possible = (np.count_nonzero(near, axis=0) >= options.min_one_spot_frames) & apart[a, a + 1 :]
-            for b in np.flatnonzero(possible).tolist():
-                yield a, a + 1 + b
+            others = a + 1 + np.flatnonzero(apart[a, a + 1 :])
+            # Axis by axis: hardly any points are that close along one.
+            for axis in range(3):
+                near = (
+                    np.abs(self.positions[:, others, axis] - self.positions[:, a, None, axis]) < options.max_one_spot_mm
+                )
+                others = others[np.count_nonzero(near, axis=0) >= options.min_one_spot_frames]
+            yield from ((a, b) for b in others.tolist())
 
     def _stretches(self, a: int, b: int) -> Iterator[tuple[int, int]]:
         """The stretches over which two labels are on one marker; not where that is most of the recording."""
