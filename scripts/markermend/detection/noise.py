@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +20,9 @@ from markermend.numerics.intervals import runs
 from markermend.options.detection.noise import NoiseOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
+
+JITTER_REACH = 1
+"""Samples by which a second difference sees beyond the jitter."""
 
 
 def detect_noise(
@@ -74,7 +78,8 @@ class NoiseDetector(IncrementDetector):
     def find_events(self, statistics: IncrementStatistics, marker: int) -> list[Event]:
         """Find the stretches of heavy noise, jitter and wobble of one marker; see `Detector.find_events`."""
         jitter, wobble = ([self._event(one, marker) for one in own[marker]] for own in self._shaking(statistics))
-        noise = events.disjoint(self.find_candidates(statistics, marker) + jitter)
+        sudden = self.find_candidates(statistics, marker)
+        noise = events.disjoint(sudden + [_within_reach(own, sudden) for own in jitter])
         # White noise has a part in every band.
         return events.disjoint(noise + [own for own in wobble if not any(overlap(own, other) for other in noise)])
 
@@ -122,3 +127,12 @@ class NoiseDetector(IncrementDetector):
             enough = max(self.options.min_sudden_changes, self.options.min_sudden_share * length)
             if length >= shortest and len(group) >= enough:
                 yield group
+
+
+def _within_reach(jitter: Event, sudden: Sequence[Event]) -> Event:
+    """Jitter that ends with the sudden changes if these end as near as the filter of jitter reaches."""
+    start, stop = jitter.start, jitter.stop
+    for noise in sudden:
+        start = noise.start if 0 < noise.start - jitter.start <= JITTER_REACH else start
+        stop = noise.stop if 0 < jitter.stop - noise.stop <= JITTER_REACH else stop
+    return replace(jitter, start=start, stop=stop)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
-from markermend.detection.neighbour import attribution, edges, level_shifts, residual_windows
+from markermend.detection.neighbour import attribution, common_motion, edges, level_shifts, residual_windows
 from markermend.detection.neighbour.edges import Edge
 from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
 from markermend.detection.neighbour.level_evidence import LevelEvidence
@@ -120,6 +122,20 @@ class StepDetector(WindowDetector):
         """Samples in a window."""
         return 2 * self._context + self.options.max_ramp_frames
 
+    @cached_property
+    def _bends(self) -> tuple[np.ndarray, np.ndarray]:
+        """How much the trajectories of the markers bend (frames, markers), mm, and those of the neighbours of each."""
+        own = common_motion.bend(self.scene.positions)
+        return own, common_motion.neighbour_bend(own, self.scene.neighbours, count=self.options.scale_neighbours)
+
+    def _amid_motion(self, edge: Edge, marker: int) -> Edge:
+        """An edge whose threshold rises where its neighbours are accelerated nearly as much at that moment."""
+        own, common = (
+            float(bends[max(0, edge.frame - 1) : edge.frame + edge.ramp + 1, marker].max()) for bends in self._bends
+        )
+        enough = self.options.clear_acceleration_ratio * common
+        return replace(edge, score=edge.score * own / enough) if own < enough else edge
+
     def central_filter(self, covariance: WindowCovariance) -> WindowFilters:
         """Make the filter of a step; see `WindowDetector.central_filter`."""
         return edges.step_filters(covariance, self.window, (self._context,))
@@ -145,9 +161,8 @@ class StepDetector(WindowDetector):
             self._measured, self._found = statistics, {}
         if marker not in self._found:
             fewest = self.options.single_jump_fraction
-            self._found[marker] = edges.find_edges(
-                statistics, marker, rate=self.scene.rate, options=self.options, fraction=fewest
-            )
+            found = edges.find_edges(statistics, marker, rate=self.scene.rate, options=self.options, fraction=fewest)
+            self._found[marker] = [self._amid_motion(edge, marker) for edge in found]
         return [edge for edge in self._found[marker] if edge.score > fraction]
 
     def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:

@@ -31,6 +31,16 @@ def test_jitter_is_found_although_no_single_change_is_sudden(walker):
         assert stop - 3 <= event.stop <= stop + 12
 
 
+def test_heavy_noise_ends_with_its_sudden_changes_though_it_is_jitter_too(walker):
+    rng = np.random.default_rng(10)
+    places = [("C7", 300, 380), ("RSHO", 900, 990)]
+    recording = put(
+        walker.recording, places, lambda length: rng.choice([-1, 1], (length, 3)) * rng.uniform(9, 15, (length, 3))
+    )
+    found, _ = detect(recording, only=("noise",))
+    assert [(e.marker, e.start, e.stop) for e in found["noise"]] == places
+
+
 def test_wobble_is_found(walker):
     places = [("C7", 300, 430), ("RSHO", 800, 920)]
 

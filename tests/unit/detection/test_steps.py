@@ -130,3 +130,14 @@ def test_a_flicker_between_two_levels_is_found_stretch_by_stretch(walker):
     places = [("C7", 400, 420), ("C7", 426, 440), ("C7", 446, 453), ("C7", 460, 480)]
     found, _ = detect(put(walker.recording, places, lambda length: np.ones((length, 1)) * [8, 3, -6]), only=("steps",))
     assert [(e.marker, e.start, e.stop) for e in found["steps"]] == places
+
+
+def test_the_threshold_rises_with_the_acceleration_of_the_neighbours(walker):
+    """All markers change their velocity at once where one of them jumps."""
+    recording = put(walker.recording, [("C7", 400, 430)], lambda length: np.ones((length, 1)) * [8, 0, 0])
+    assert len(detect(recording, only=("steps",))[0]["steps"]) == 1
+    t = np.arange(recording.frames)
+    recording.positions[:, :, 1] += 30.0 * np.clip(t - 400, 0, 30)[:, None]
+    assert detect(recording, only=("steps",))[0]["steps"] == []
+    careless = replace(StepsOptions(), clear_acceleration_ratio=0)
+    assert len(detect(recording, only=("steps",), options=careless)[0]["steps"]) == 1

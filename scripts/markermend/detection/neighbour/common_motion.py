@@ -11,6 +11,9 @@ from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 
+NEIGHBOUR_QUANTILE = 0.75
+"""The quantile of the neighbours that is their common acceleration: artifacts of a few must not excuse a marker."""
+
 
 def without_common_motion(
     found: Sequence[Event],
@@ -56,7 +59,8 @@ def without_common_motion(
         amid_motion = moving >= options.max_moving_share
         enough = options.min_unexplained_amid_motion if amid_motion else options.min_unexplained_fraction
         left = unexplained[rows, m].max()
-        if left == 0 or left >= enough * size[m]:
+        # What the neighbours leave of a large peak would be found by itself.
+        if left == 0 or left >= min(enough, 1 / event.score) * size[m]:
             kept.append(event)
     return kept
 
@@ -77,3 +81,28 @@ def bend(values: np.ndarray) -> np.ndarray:
     out = np.zeros(values.shape[:2])
     out[1:-1] = np.nan_to_num(np.linalg.norm(values[2:] - 2 * values[1:-1] + values[:-2], axis=2))
     return out
+
+
+def neighbour_bend(bends: np.ndarray, neighbours: Sequence[np.ndarray], *, count: int) -> np.ndarray:
+    """Measure how much the trajectories of the nearest neighbours of each marker bend.
+
+    Parameters
+    ----------
+    bends : np.ndarray
+        How much each trajectory bends (frames, markers), mm; see `bend`.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    count : int
+        Number of nearest neighbours.
+
+    Returns
+    -------
+    np.ndarray
+        A high quantile of the neighbours (frames, markers), mm; 0 for a marker without neighbours.
+    """
+    common = np.zeros_like(bends)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            some = np.sort(bends[:, np.asarray(around, int)[:count]], axis=1)
+            common[:, m] = some[:, int(NEIGHBOUR_QUANTILE * (some.shape[1] - 1))]
+    return common

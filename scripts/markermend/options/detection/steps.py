@@ -81,6 +81,12 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     sidelobe_fraction: Share = 0.25
     """A jump whose window overlaps that of a larger one is a sidelobe of it below this part of its score (0 to 1)."""
 
+    clear_acceleration_ratio: NotNegative = 3
+    """The threshold of a jump rises in proportion where the marker is not accelerated by this many times of what most of its
+    neighbours are accelerated by at that moment.
+
+    Change it when motion is taken for steps (higher), or steps amid motion are missed (lower)."""
+
     single_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.6
     """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
 

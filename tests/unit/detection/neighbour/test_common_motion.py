@@ -1,5 +1,7 @@
 """Common motion: what the body makes is no artifact of a marker."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.scene import Scene
 
 MARKERS = [f"M{m}" for m in range(10)]
-FOUND = [Event("M3", 50, 51, 2.0), Event("M3", 70, 72, 2.0)]
+FOUND = [Event("M3", 50, 51, 1.5), Event("M3", 70, 72, 1.5)]
 
 
 class Source:
@@ -31,9 +33,9 @@ def jumps():
     return positions
 
 
-def kept(positions, residual):
+def kept(positions, residual, found=FOUND):
     scene = Scene(positions, 100.0, [np.delete(np.arange(10), m) for m in range(10)])
-    return common_motion.without_common_motion(FOUND, scene, MARKERS, Source(residual), CommonMotionOptions())
+    return common_motion.without_common_motion(found, scene, MARKERS, Source(residual), CommonMotionOptions())
 
 
 def test_a_marker_that_jumps_alone_is_kept(jumps):
@@ -68,3 +70,22 @@ def test_without_a_residual_an_event_is_kept(jumps):
 def test_nothing_found_is_nothing(jumps):
     scene = Scene(jumps, 100.0, [np.zeros(0, int)] * 10)
     assert common_motion.without_common_motion([], scene, MARKERS, Source(jumps), CommonMotionOptions()) == []
+
+
+def test_a_peak_stays_of_which_the_neighbours_leave_as_much_as_would_be_found(jumps):
+    residual = jumps.copy()
+    jumps[50, [0, 1]] += [0, 6, 0]
+    residual[50, 3] -= [4, 0, 0]
+    large = [replace(event, score=2.2) for event in FOUND]
+    assert kept(jumps, residual, found=large) == large
+
+
+def test_the_acceleration_of_the_neighbours_leaves_out_a_few_with_artifacts(jumps):
+    jumps[50, 1] += [0, 20, 0]
+    bends = common_motion.bend(jumps)
+    around = [np.delete(np.arange(10), m) for m in range(10)]
+    common = common_motion.neighbour_bend(bends, around, count=8)
+    assert bends[50, 1] > 35 and bends[50, 3] > 14 and common[50, 0] < 1
+    jumps[50, [4, 5]] += [0, 20, 0]
+    assert common_motion.neighbour_bend(common_motion.bend(jumps), around, count=8)[50, 0] > 14
+    assert not common_motion.neighbour_bend(bends, [np.zeros(0, int)] * 10, count=8).any()
