@@ -159,8 +159,8 @@ class DriftAttribution:
     def shows_in_distances(self, marker: int, event: Event) -> bool:
         """Check whether the distances of a marker change as a drift would change them, beyond their usual range.
 
-        A marker that keeps its distances to rigid segment mates cannot have drifted alone. A drift that is estimated precisely
-        may otherwise leave the distances in their usual range. Any other must show in them: the part of it that they show is
+        A marker that keeps its distances to rigid segment mates cannot have drifted alone: where there are such, they decide. A
+        drift that is estimated precisely may otherwise leave the distances in their usual range. Any other must show in them: the part of it that they show is
         estimated by least squares, each weighed by how steady it usually is: those that would show the drift by themselves, if
         there are any. Where even the steadiest varies much, the pose may be rare: more is required of a short drift, and a
         long one is not told from the pose.
@@ -181,9 +181,12 @@ class DriftAttribution:
         if np.isnan(displaced).any():
             return False
         expected, change, deviation = self._distance_changes(marker, event, displaced)
+        rigid = deviation <= options.rigid_distance_fraction * np.linalg.norm(displaced)
+        if rigid.any():
+            return self._shown(expected[rigid], change[rigid])
         if self.evidence.is_precise(marker, event):
-            rigid = np.abs(expected) >= options.long_drifts.contradicting_distance_sigmas
-            return not rigid.any() or self._shown(expected[rigid], change[rigid])
+            decisive = np.abs(expected) >= options.long_drifts.contradicting_distance_sigmas
+            return not decisive.any() or self._shown(expected[decisive], change[decisive])
         least = float(deviation.min(initial=np.inf))
         if least > self.evidence.max_distance_deviation_mm:
             return False

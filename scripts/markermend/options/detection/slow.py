@@ -143,6 +143,9 @@ class SlowOptions(DetectorOptions):
     min_distance_fraction: NotNegative = 0.5
     """Such distances must change by this part of what the drift would change them: those on rigid segments decide."""
 
+    rigid_distance_fraction: Positive = 0.03
+    """Distances that deviate by at most this part of the height of a drift decide alone: they are those on a rigid body."""
+
     long_drifts: LongDriftOptions = field(default_factory=LongDriftOptions)
     """Options of the drifts that are estimated together with the regression."""
 

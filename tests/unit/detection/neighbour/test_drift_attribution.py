@@ -79,6 +79,16 @@ def test_who_keeps_its_distances_to_a_rigid_segment_has_not_drifted(precise):
 
 
 @pytest.mark.parametrize("precise", [False, True])
+def test_who_turns_about_two_rigid_mates_has_not_drifted(precise):
+    positions, event = turning_body(), Event("a", 200, 260, 2.0, "xyz")
+    to_mates = positions[230, 1:3] - positions[230, 0]
+    aside = np.cross(*to_mates)
+    near = [np.delete(np.arange(5), m)[:2] for m in range(5)]
+    claim = Claim(6 * aside / np.linalg.norm(aside), precise)
+    assert not DriftAttribution(Scene(positions, 100.0, near), claim, OPTIONS).shows_in_distances(0, event)
+
+
+@pytest.mark.parametrize("precise", [False, True])
 def test_within_the_usual_range_of_the_distances_only_a_precise_drift_counts(precise):
     positions, event, displaced = turning_body(spread=12.0), Event("a", 200, 260, 2.0, "xyz"), np.array([9.0, 7, 5])
     positions[170:290, 0] = positions[170:290, 1:].mean(axis=1) + 60  # at rest, so that nothing but the drift shows
