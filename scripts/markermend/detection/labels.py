@@ -12,11 +12,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from markermend.core.events import Event, disjoint, mask
+from markermend.core.labels import undo_exchanges
 from markermend.detection.labelling.cycles import find_cycle_exchanges
 from markermend.detection.labelling.distances import length
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
+from markermend.detection.labelling.misplaced_pieces import find_misplaced_pieces
 from markermend.detection.labelling.one_spot import OneSpotSearch
 from markermend.detection.labelling.open_exchanges import (
     long_exchanges,
@@ -112,6 +114,8 @@ def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions)
         found = without_open(every, found, np.asarray(scene.present.any(axis=1)), limit)
         undecided = [event for event in every if event not in found]
     right = np.take_along_axis(scene.positions, evidence.tracks.under[..., None], axis=1)
+    pieces = find_misplaced_pieces(right, rate=scene.rate, evidence=evidence, markers=markers)
+    found, right = found + pieces, undo_exchanges(right, pieces, markers)
     single = disjoint(
         ForeignSearch(right, scene.rate, evidence).find(markers) + OneSpotSearch(right, evidence).find(markers)
     )
@@ -119,7 +123,10 @@ def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions)
         measured = np.where(mask(single, len(right), markers)[..., None], np.nan, right)
         single += UnlabelledSearch(measured, scene.unlabelled, scene.rate, evidence).find(markers)
     # Where it is left open which labels are right, nothing can be said of a marker alone.
-    left_open = evidence.tracks.under != labelling(found, scene.present.shape, markers)[0]
+    left_open = (
+        evidence.tracks.under
+        != labelling([event for event in found if event not in pieces], scene.present.shape, markers)[0]
+    )
     found += [event for event in single if not left_open[event.start : event.stop, markers.index(event.marker)].any()]
     return LabelFindings(sorted(found, key=lambda event: event.order), undecided)
 

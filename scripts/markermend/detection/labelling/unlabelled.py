@@ -113,14 +113,34 @@ class UnlabelledSearch:
         likelihood = part.log_likelihood(m, part.anchors(m), points=track[rows])
         if np.isnan(likelihood).all():
             return np.inf
-        known = np.flatnonzero(self.seen[:, m])
-        sides = [(frames[0], known[known < frames[0]][-1:]), (frames[-1], known[known > frames[-1]][:1])]
-        changes = [self._change_misfit(m, track[frame], int(frame), int(own[0])) for frame, own in sides if len(own)]
+        changes = self.change_misfits(track, m, int(frames[0]), int(frames[-1]) + 1)
         if np.isnan(changes).all():
             return np.inf
         level = float(self.evidence.usual_likelihood[m] - np.nanmean(likelihood)) / options.max_misfit
         change = float(np.nanmax(changes)) / limits.max_change_misfit
         return max(level, 0.0) + change if max(level, change) <= 1 else np.inf
+
+    def change_misfits(self, track: np.ndarray, m: int, start: int, stop: int) -> list[float]:
+        """Compute how badly the distances of a trajectory go on from those of a marker, and lead to them.
+
+        Parameters
+        ----------
+        track : np.ndarray
+            The trajectory (frames, 3), mm.
+        m : int
+            Index of the marker.
+        start, stop : int
+            The stretch, [start, stop).
+
+        Returns
+        -------
+        list[float]
+            Losses of log likelihood of the changes between its ends and the next samples of the marker outside of it (0 to 2);
+            NaN where that is unknown.
+        """
+        known = np.flatnonzero(self.seen[:, m])
+        sides = [(start, known[known < start][-1:]), (stop - 1, known[known >= stop][:1])]
+        return [self._change_misfit(m, track[frame], frame, int(own[0])) for frame, own in sides if len(own)]
 
     def _change_misfit(self, m: int, point: np.ndarray, frame: int, known: int) -> float:
         """Loss of log likelihood of the changes of distances between a known sample of a marker and a point (3,) in another frame.
