@@ -72,18 +72,26 @@ class PeakDetector(WindowDetector):
         self.options = options
         self._longest = intervals.samples(options.max_duration_s, scene.rate)
         self._context = residual_windows.context_samples(scene.rate, options, min_samples=pulses.MIN_CONTEXT)
+        self._dip_covariance: WindowCovariance | None = None
 
     @property
     def window(self) -> int:
-        """Samples in the window of the longest pulse."""
+        """Samples in the window of the longest peak."""
         return self._longest + 2 * self._context
 
     def central_filter(self, covariance: WindowCovariance) -> WindowFilters:
         """Make the filter of the longest pulse; see `WindowDetector.central_filter`."""
         return pulses.pulse_filters(covariance, self._longest, self.window, (self._context,))
 
+    def measure(self, residual: np.ndarray) -> ResidualStatistics:
+        """Estimate the covariances of windows of peaks, and of those of dips; see `Detector.measure`."""
+        longest = max(self._longest, intervals.samples(self.options.max_dip_duration_s, self.scene.rate))
+        self._dip_covariance = self.covariance(residual, longest + 2 * self._context)
+        return super().measure(residual)
+
     def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
         """Find the pulses of one marker; see `Detector.find_events`."""
-        found = pulses.find_pulses(statistics, marker, rate=self.scene.rate, options=self.options)
+        covariance = statistics.covariance if self._dip_covariance is None else self._dip_covariance
+        found = pulses.find_pulses(statistics, marker, covariance, rate=self.scene.rate, options=self.options)
         name = self.markers[marker]
         return [Event(name, one.start, one.stop, one.score, events.main_axes(one.deviation)) for one in found]

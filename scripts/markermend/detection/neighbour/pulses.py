@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,6 +17,9 @@ from markermend.options.detection.peaks import PeaksOptions
 
 MIN_CONTEXT = 6
 """Samples of context on either side, at least: they estimate the noise scale."""
+
+DIP_REACH = 2
+"""Samples on either side of the pattern of a dip that may be on its ramps."""
 
 
 @dataclass(frozen=True)
@@ -121,8 +124,15 @@ def whitened_steps(covariance: WindowCovariance, size: int) -> np.ndarray:
     return whitened
 
 
-def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, options: PeaksOptions) -> list[Pulse]:
-    """Find the pulses of one marker; none has a stronger one within the context by which that is judged.
+def find_pulses(
+    statistics: ResidualStatistics,
+    marker: int,
+    dip_covariance: WindowCovariance,
+    *,
+    rate: float,
+    options: PeaksOptions,
+) -> list[Pulse]:
+    """Find the pulses of one marker, peaks and dips; none has a stronger one within the context by which that is judged.
 
     Parameters
     ----------
@@ -130,6 +140,8 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
         Statistics of the residuals.
     marker : int
         Index of the marker.
+    dip_covariance : WindowCovariance
+        Covariance of windows as long as those of the longest dip.
     rate : float
         Sampling rate, Hz.
     options : PeaksOptions
@@ -141,16 +153,24 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
         The pulses, the strongest first.
     """
     context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
-    longest = intervals.samples(options.max_duration_s, rate)
+    short, longest = (
+        intervals.samples(seconds, rate) for seconds in (options.max_duration_s, options.max_dip_duration_s)
+    )
     candidates: list[Pulse] = []
     for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):
-        for length in range(1, min(longest, stop - start - 2 * context) + 1):
+        for length in range(1, min(max(short, longest), stop - start - 2 * context) + 1):
+            peak = length <= short
+            covariance = statistics.covariance if peak else dip_covariance
+            reach, factor = (0, 1.0) if peak else (DIP_REACH, options.dip_threshold_factor)
             size = length + 2 * context
-            for span, offsets in residual_windows.window_spans(start, stop, size, context):
+            # Near a gap or an end of the recording a dip cannot be distinguished from motion.
+            spans = residual_windows.window_spans(start, stop, size, context)[: None if peak else 1]
+            for span, offsets in spans:
                 inside = tuple(offset for offset in offsets if offset + length <= size)
-                filters = pulse_filters(statistics.covariance, length, size, inside)
-                over = residual_windows.exceedances(statistics, marker, span, filters, options)
-                candidates += _pulses(over, filters, length, statistics.covariance, options)
+                filters = pulse_filters(covariance, length, size, inside)
+                over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=factor)
+                for pulse in _pulses(over, filters, (length, reach), covariance, options):
+                    candidates.append(replace(pulse, score=pulse.score / factor))
     kept: list[Pulse] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
@@ -159,15 +179,26 @@ def find_pulses(statistics: ResidualStatistics, marker: int, *, rate: float, opt
 
 
 def _pulses(
-    over: Exceedances, filters: WindowFilters, length: int, covariance: WindowCovariance, options: PeaksOptions
+    over: Exceedances,
+    filters: WindowFilters,
+    extent: tuple[int, int],
+    covariance: WindowCovariance,
+    options: PeaksOptions,
 ) -> Iterator[Pulse]:
-    """The pulses of some windows, each trimmed to its outlying samples, without those that a level shift explains."""
-    for i, first in enumerate(over.frame.tolist()):
-        offset = int(filters.offsets[over.filter[i]])
+    """The pulses of some windows, each trimmed to its outlying samples, without those that a level shift explains.
+
+    extent: samples of the pattern, and how many on either side of it may belong to the pulse as well.
+    """
+    fraction = options.dip_extent_fraction if extent[1] else options.extent_fraction
+    for i, frame in enumerate(over.frame.tolist()):
+        centre = int(filters.offsets[over.filter[i]])
+        offset = max(0, centre - extent[1])
+        length = min(filters.length, centre + sum(extent)) - offset
+        first = frame - centre + offset
         innovation = innovation_map(covariance, length, filters.length, offset)
         deviation = innovation @ over.residual[i].T
         own = residual_windows.recorded_part(innovation @ over.positions[i].T, deviation)
-        inside = np.flatnonzero(own >= options.extent_fraction * own.max())
+        inside = np.flatnonzero(own >= fraction * own.max())
         low, high = int(inside[0]), int(inside[-1]) + 1
         # Up to the very border of a gap a level shift and a pulse are the same.
         enclosed = offset + low > 0 and offset + high < filters.length

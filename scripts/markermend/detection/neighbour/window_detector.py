@@ -71,16 +71,32 @@ class WindowDetector(ABC):
 
     def measure(self, residual: np.ndarray) -> ResidualStatistics:
         """Estimate the covariance of residual windows, and the misfit of each; see `Detector.measure`."""
+        misfit = np.full(residual.shape[:2], np.nan)
+        return self._statistics(residual, self.covariance(residual, self.window), misfit, range(residual.shape[1]))
+
+    def covariance(self, residual: np.ndarray, size: int) -> WindowCovariance:
+        """Estimate the covariance of windows.
+
+        Parameters
+        ----------
+        residual : np.ndarray
+            Residuals (frames, markers, 3), mm, NaN = missing.
+        size : int
+            Samples in a window.
+
+        Returns
+        -------
+        WindowCovariance
+            The covariance.
+        """
         options = self.window_options
-        covariance = fit_window_covariance(
+        return fit_window_covariance(
             residual,
-            size=self.window,
+            size=size,
             order=options.polynomial_order,
             shrinkage=options.white_noise_ratio,
             max_windows=options.covariance_windows,
         )
-        misfit = np.full(residual.shape[:2], np.nan)
-        return self._statistics(residual, covariance, misfit, range(residual.shape[1]))
 
     def update(
         self, statistics: ResidualStatistics, residual: np.ndarray, markers: Sequence[int]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from markermend.options.declaration import Laboratory, NotNegative, Positive, PositiveSeconds, Share, Shared
+from markermend.options.declaration import Factor, Laboratory, NotNegative, Positive, PositiveSeconds, Share, Shared
 from markermend.options.detection.detector import DetectorOptions, Preset
 from markermend.options.detection.published import PublishedPeaksOptions
 from markermend.options.detection.residual_windows import ResidualWindowOptions
@@ -50,6 +50,12 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     Change it when longer artifacts of this class are real in your data."""
 
+    max_dip_duration_s: PositiveSeconds = 0.12
+    """Longest dip: longer than a peak, and too short for the two jumps of a step to be told apart if they have ramps."""
+
+    dip_threshold_factor: Factor = 2
+    """By how much the threshold of a dip is higher than that of a peak: motion makes such pulses."""
+
     white_noise_ratio: Positive = 0.01
     """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent).
 
@@ -57,6 +63,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     extent_fraction: Share = 0.25
     """Samples belong to the peak if they deviate by this part of its largest deviation (0 to 1)."""
+
+    dip_extent_fraction: Share = 0.15
+    """The same of a dip, whose ramps belong to it (0 to 1)."""
 
     max_shift_ratio: NotNegative = 1.8
     """A finding is no peak if a level shift leaves at most this many times the residual that remains without its samples.

@@ -39,13 +39,27 @@ def test_a_wave_has_the_amplitude_that_it_was_given():
         assert window @ filters.misfit_form[0] @ window == pytest.approx(0, abs=1e-6)
 
 
+def find(statistics, *, rate=100.0, options=PEAKS):
+    longest = round(options.max_dip_duration_s * rate) + 2 * max(pulses.MIN_CONTEXT, round(options.context_s * rate))
+    covariance = fit_window_covariance(statistics.residual, size=longest, order=2, shrinkage=0.01, max_windows=5000)
+    return pulses.find_pulses(statistics, 0, covariance, rate=rate, options=options)
+
+
+def test_a_dip_is_found_with_its_ramps():
+    residual = rough(400, 5)
+    dip = np.concatenate([[0.25, 0.5, 0.75], np.ones(4), [0.67, 0.33]])
+    residual[150:159] += dip[:, None] * [40.0, 0, -30]
+    [found] = find(peak_statistics(residual, residual, 100.0))
+    assert (found.start, found.stop) == (150, 159)
+
+
 @pytest.mark.parametrize("rate", RATES)
 def test_pulses_are_trimmed_to_the_samples_that_are_off(rate):
     residual = rough(400, 2)
     places = [(0, 1), (100, 101), (200, 202), (398, 400)]
     for start, stop in places:
         residual[start:stop] += [4, 0, -3]
-    found = pulses.find_pulses(peak_statistics(residual, residual, rate), 0, rate=rate, options=PEAKS)
+    found = find(peak_statistics(residual, residual, rate), rate=rate)
     assert sorted((one.start, one.stop) for one in found) == places
     np.testing.assert_allclose(
         [one.deviation.mean(axis=0) for one in found if one.start == 100], [[4, 0, -3]], atol=0.5
@@ -66,7 +80,7 @@ def test_what_is_no_pulse(shape):
         residual[200:203] += 10
     positions = residual if shape != "of the neighbour" else positions
     statistics = peak_statistics(residual, positions, 100.0)
-    assert pulses.find_pulses(statistics, 0, rate=100.0, options=PEAKS) == []
+    assert find(statistics) == []
 
 
 def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
@@ -74,12 +88,7 @@ def test_a_higher_threshold_finds_less_and_only_what_the_lower_finds():
     residual[::37] += [2.6, 0, 0]
     statistics = peak_statistics(residual, residual, 100.0)
     low, high = (
-        {
-            one.start
-            for one in pulses.find_pulses(
-                statistics, 0, rate=100.0, options=replace(PEAKS, max_shift_ratio=0, threshold_sigmas=sigmas)
-            )
-        }
+        {one.start for one in find(statistics, options=replace(PEAKS, max_shift_ratio=0, threshold_sigmas=sigmas))}
         for sigmas in (3, 7)
     )
     assert high < low
