@@ -14,6 +14,10 @@ REFERENCES = ("usual distances", "longer part", "undecided")
 where the marker is for longer, else nothing, and the earlier counts as right."""
 
 
+FRAMES_APART = {"repeat": 5}
+"""Frames between parts of one finding about several markers, at most, by its kind: every second or third frame may repeat."""
+
+
 @dataclass(frozen=True)
 class Event:
     """One finding on one marker over [start, stop).
@@ -81,10 +85,11 @@ class Event:
         Returns
         -------
         bool
-            Whether both state the same kind and group, and share a frame.
+            Whether both state the same kind and group, and share a frame; frames that repeat may be some frames apart.
         """
         same = self.group is not None and (self.kind, self.group) == (other.kind, other.group)
-        return same and self.start < other.stop and other.start < self.stop
+        reach = FRAMES_APART.get(self.kind or "", 0)
+        return same and self.start < other.stop + reach and other.start < self.stop + reach
 
 
 def from_mask(mask: np.ndarray, score: np.ndarray, fired: np.ndarray, markers: Sequence[str]) -> list[Event]:

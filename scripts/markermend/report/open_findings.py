@@ -11,7 +11,7 @@ from itertools import groupby
 
 from markermend.core.artifacts import class_of
 from markermend.core.changes import GAP, Change, Outcome
-from markermend.core.events import Event
+from markermend.core.events import FRAMES_APART, Event
 from markermend.core.reasons import UNSTATED
 from markermend.core.recording import Recording, gaps
 
@@ -54,7 +54,8 @@ def joined(changes: Iterable[Change]) -> list[Change]:
     for _, own in groupby(together, key=lambda c: (c.group, c.classes, c.outcome)):
         parts: list[list[Change]] = []
         for change in own:
-            if parts and change.start < max(other.stop for other in parts[-1]):
+            reach = max(FRAMES_APART.get(name, 0) for name in change.classes)
+            if parts and change.start < max(other.stop for other in parts[-1]) + reach:
                 parts[-1].append(change)
             else:
                 parts.append([change])

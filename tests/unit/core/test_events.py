@@ -50,6 +50,11 @@ def test_a_finding_about_several_markers_counts_once():
     assert not Event("A", 0, 5, 1.0).joined_with(Event("B", 0, 5, 1.0))
 
 
+def test_every_second_frame_that_repeats_is_one_finding():
+    repeated = [Event(m, k, k + 1, 1.0, kind="repeat", group="all") for m in "AB" for k in (*range(3, 15, 2), 40)]
+    assert count_findings(repeated) == 2
+
+
 def test_events_of_other_kinds_are_not_merged():
     parts = [Event("A", 2, 6, 2.0, kind="peak"), Event("A", 4, 9, 3.0, kind="step")]
     assert [(event.start, event.stop, event.kind) for event in disjoint(parts)] == [(2, 6, "peak"), (6, 9, "step")]

@@ -55,3 +55,10 @@ def test_a_joint_finding_is_listed_once_with_its_worst_marker():
         replace(other, start=3, method="spline, local_ridge", samples=6),
         replace(bare, start=20, stop=22, samples=2),
     ]
+
+
+def test_every_second_frame_that_repeats_is_listed_as_one_stretch():
+    each = [
+        Change(m, k, k + 1, ("repeat",), Outcome.REPAIRED, samples=1, group="all") for m in "AB" for k in (3, 5, 7, 20)
+    ]
+    assert [(one.start, one.stop, one.samples) for one in joined(each)] == [(3, 8, 6), (20, 21, 2)]
