@@ -113,9 +113,9 @@ class ShapeGuardOptions:
     degrees_of_freedom: Positive = 4
     """Degrees of freedom of the Student's t distribution of distances: the fewer, the less a distance that is far off counts."""
 
-    min_gain: NotNegative = 0.1
+    min_gain: NotNegative = 0
     """Mean logarithm of the factor, over samples and distances by their precision, by which a repair makes the distances more
-    likely, at least.
+    likely: above this.
 
     Change it when good samples are repaired (higher), or artifacts are left (lower)."""
 

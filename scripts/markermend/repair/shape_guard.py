@@ -165,7 +165,7 @@ class ShapeGuard:
         change = (expected.lengths(proposed) - expected.lengths(measured)) / expected.deviation
         right = -nan_mean(log_density(change, self.options.degrees_of_freedom), axis=None)
         enough = nan_mean(gain, axis=None) >= self.options.min_gain_share * right
-        return bool(enough and expected.by_precision(gain) >= self.options.min_gain)
+        return bool(enough and expected.by_precision(gain) > self.options.min_gain)
 
     def _against(
         self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray
