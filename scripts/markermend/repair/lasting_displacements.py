@@ -13,7 +13,9 @@ from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.rulings import Ruling
 from markermend.numerics.rigid_alignment import nearest_rotations
 from markermend.options.repair import RepairOptions
-from markermend.prediction.lasting_displacement import Course, Displacement, estimate, training_data
+from markermend.prediction.lasting_displacement.course import Course
+from markermend.prediction.lasting_displacement.displacement import Displacement, estimate
+from markermend.prediction.lasting_displacement.pose_regression import training_data
 from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.scene import Scene
 from markermend.repair.findings import Rulings

@@ -7,15 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.prediction import lasting_displacement
-from markermend.prediction.lasting_displacement import (
-    MIN_INDEPENDENT_VARIANCE,
-    Course,
-    Displacement,
-    PoseRegression,
-    bump,
-    rise,
-)
+from markermend.prediction.lasting_displacement.course import Course, bump, rise
+from markermend.prediction.lasting_displacement.displacement import MIN_INDEPENDENT_VARIANCE, Displacement, estimate
+from markermend.prediction.lasting_displacement.pose_regression import PoseRegression
 from markermend.prediction.local_ridge.model import TrainingSet
 
 SCREENING_FRACTION = 0.5
@@ -115,9 +109,7 @@ class DisplacementSearch:
 
     def _estimate(self, data: TrainingSet, course: Course, known: np.ndarray) -> Displacement:
         """The displacement of a course."""
-        return lasting_displacement.estimate(
-            data, course, rate=self.rate, ridge=self.ridge, options=self.options, known=known
-        )
+        return estimate(data, course, rate=self.rate, ridge=self.ridge, options=self.options, known=known)
 
     def _best_course(self, grid: _Grid, weights: np.ndarray, rises: tuple[float, ...]) -> Course | None:
         """The course that explains most, given the weights of the frames; a creep or a return must explain clearly more."""

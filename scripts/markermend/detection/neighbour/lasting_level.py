@@ -8,7 +8,7 @@ import numpy as np
 
 from markermend.numerics.intervals import runs
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.prediction.lasting_displacement import Displacement
+from markermend.prediction.lasting_displacement.displacement import Displacement
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence
 

@@ -19,8 +19,8 @@ from markermend.detection.neighbour.lasting_level import displaced_parts, locate
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
-from markermend.prediction import lasting_displacement
-from markermend.prediction.lasting_displacement import Displacement, training_data
+from markermend.prediction.lasting_displacement.displacement import Displacement, estimate
+from markermend.prediction.lasting_displacement.pose_regression import training_data
 from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence
@@ -196,9 +196,7 @@ class _Attribution:
             data = self._data(neighbour, frozenset([marker]))
             if data is None:
                 continue
-            shared = lasting_displacement.estimate(
-                data, displacement.course, rate=self.scene.rate, ridge=self.search.ridge, options=options
-            )
+            shared = estimate(data, displacement.course, rate=self.scene.rate, ridge=self.search.ridge, options=options)
             if shared.amount_mm >= least_mm and shared.evidence >= least_evidence:
                 return False
         return True

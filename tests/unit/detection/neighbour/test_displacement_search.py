@@ -5,7 +5,8 @@ import pytest
 
 from markermend.detection.neighbour.displacement_search import DisplacementSearch, _Grid
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.prediction.lasting_displacement import Course, estimate, rise
+from markermend.prediction.lasting_displacement.course import Course, rise
+from markermend.prediction.lasting_displacement.displacement import estimate
 from markermend.prediction.local_ridge.model import TrainingSet
 from support.naive import lasting
 
