@@ -55,8 +55,8 @@ def detect_slow(
     found : list[Event]
         Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
     smallest : dict[str, float | None]
-        Height of the smallest drift of each marker, of `long_drifts.stated_duration_s`, that would have been found, mm; None where none
-        would have been, however large.
+        Height of the smallest drift of each marker, of `long_drifts.stated_duration_s`, that would have been found, mm; None
+        where none would have been, however large.
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))

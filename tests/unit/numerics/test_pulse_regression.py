@@ -63,3 +63,20 @@ def test_nothing_known_is_nothing_estimated():
     assert np.isinf(responses.deviation).all()
     assert not responses.statistic.any()
     assert len(fit(signal, regressors, scale).responses(90, min_known_share=0.8).deviation) == 0
+
+
+def test_a_pulse_masks_itself_as_much_as_its_autocovariance_adds_to_the_variance():
+    signal, regressors, scale = problem()
+    fitted, places, length = fit(signal, regressors, scale), np.array([3, 30, 48]), 12
+    pulse = raised_cosine((np.arange(length) + 0.5) / length)
+    masking = fitted.masking(length, places, scale=scale)
+    for place, added in zip(places, masking, strict=True):
+        shape = np.zeros(60)
+        shape[place : place + length] = pulse
+        weights = fitted.precision @ shape / (shape @ fitted.precision @ shape)
+        own, total = shape / scale[place + length // 2], 0.0
+        for i in range(60):
+            for j in range(60):
+                lag = abs(i - j)
+                total += weights[i] * weights[j] * scale[i] * scale[j] * (own[: 60 - lag] @ own[lag:]) / (3 * 60)
+        assert added == pytest.approx(total, rel=1e-9)
