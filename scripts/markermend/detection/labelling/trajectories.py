@@ -78,7 +78,10 @@ class LabelledTrajectories:
 
     def _continues(self, frames: np.ndarray, before: np.ndarray, now: np.ndarray) -> np.ndarray:
         """Whether what is under one label from a frame on continues what was under another one before, bool (n,)."""
-        step = np.linalg.norm(self.positions[frames, now] - self.positions[frames - 1, before], axis=1)
-        jump = np.linalg.norm(self.positions[frames, now] - self.positions[frames - 1, now], axis=1)
-        continues: np.ndarray = step <= self.options.max_remaining_fraction * jump
+        step = self.positions[frames, now] - self.positions[frames - 1, before]
+        jump = self.positions[frames, now] - self.positions[frames - 1, now]
+        last = self.positions[frames - 1, before] - self.positions[np.maximum(frames - 2, 0), before]
+        departure = np.linalg.norm(step - np.nan_to_num(last), axis=1)
+        less = departure <= self.options.max_remaining_fraction * np.linalg.norm(jump, axis=1)
+        continues: np.ndarray = less & (departure <= self.options.floor_mm)
         return continues
