@@ -30,9 +30,9 @@ def test_drifts_of_the_stated_height_are_found_and_smaller_ones_are_not(data, na
     heights = search(recording, mesh)[1]
     known = [m for m, marker in enumerate(recording.markers) if heights[marker] is not None]
     hits = {1.0: [], 0.5: []}
-    for markers in np.split(rng.permutation(known)[: 3 * AT_ONCE], 3):
-        starts = rng.integers(length, recording.frames - 2 * length, AT_ONCE)
-        directions = rng.normal(size=(AT_ONCE, 3))
+    for markers in np.array_split(rng.permutation(known)[: 3 * AT_ONCE], 3):
+        starts = rng.integers(length, recording.frames - 2 * length, len(markers))
+        directions = rng.normal(size=(len(markers), 3))
         for part, found in hits.items():
             positions = recording.positions.copy()
             for m, start, direction in zip(markers, starts, directions, strict=True):

@@ -56,7 +56,7 @@ def detect_slow(
         Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
     smallest : dict[str, float | None]
         Height of the smallest drift of each marker, of `long_drifts.stated_duration_s`, that would have been found, mm; None
-        where none would have been, however large.
+        where that cannot be said: the motion is too fast or too varied.
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
@@ -124,13 +124,12 @@ class SlowChanges:
         long = LongDrifts(regression, models, residual, options)
         short_evidence = ShortDriftEvidence(scorer, scores, predictor)
         long_evidence = LongDriftEvidence(long, scale, predictor)
-        attribution = DriftAttribution(scene, long_evidence, options)
         return cls(
             ShortDrifts(scorer, scores),
             long,
             DriftAttribution(scene, short_evidence, options),
-            attribution,
-            SmallestDrifts(long, scale, attribution),
+            DriftAttribution(scene, long_evidence, options),
+            SmallestDrifts(long, scale),
         )
 
     def find(self, markers: Sequence[str]) -> list[Event]:

@@ -16,7 +16,7 @@ class SmallestDrifts:
     duration_s : float
         Duration of these drifts, s.
     height_mm : mapping of str to float or None
-        Their heights by marker, mm; None where none would have been found, however large.
+        Their heights by marker, mm; None where that cannot be said: the motion is too fast or too varied.
     """
 
     duration_s: float

@@ -190,37 +190,11 @@ class DriftAttribution:
         least = float(deviation.min(initial=np.inf))
         if least > self.evidence.max_distance_deviation_mm:
             return False
-        required = self._required(least)
+        required = options.min_distance_sigmas * (options.high_scale_factor if least > options.high_scale_mm else 1)
         steady = np.abs(expected) >= required
         some = steady if steady.any() else np.ones(len(expected), bool)
         clear = float(expected[some] @ expected[some]) >= required**2
         return clear and self._shown(expected[some], change[some])
-
-    def shown_height(self, marker: int) -> float:
-        """Estimate from which height on a drift shows in the distances, if they are in all directions.
-
-        Parameters
-        ----------
-        marker : int
-            Index of the marker.
-
-        Returns
-        -------
-        float
-            The height, mm; infinite where even the steadiest distance varies too much.
-        """
-        near = self.nearest(marker)
-        distance = np.linalg.norm(self.scene.positions[:, [marker]] - self.scene.positions[:, near], axis=2)
-        deviation = np.hypot(self._deviations(marker, near, distance), MIN_DEVIATION_MM)
-        least = float(deviation.min(initial=np.inf))
-        if not least <= self.evidence.max_distance_deviation_mm:
-            return float("inf")
-        return float(self._required(least) * np.sqrt(3 / np.nansum(1 / deviation**2)))
-
-    def _required(self, least: float) -> float:
-        """Deviations by which a drift must change the distances, given the least deviation, mm."""
-        options = self.options
-        return options.min_distance_sigmas * (options.high_scale_factor if least > options.high_scale_mm else 1)
 
     def _shown(self, expected: np.ndarray, change: np.ndarray) -> bool:
         """Whether distances change by enough of what they would be expected to, by least squares."""

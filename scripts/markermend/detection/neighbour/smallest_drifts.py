@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.detection.neighbour.drift_attribution import DriftAttribution
 from markermend.detection.neighbour.drift_regression import bin_means
 from markermend.detection.neighbour.drift_scores import required_score
 from markermend.detection.neighbour.long_drifts import LongDrifts
@@ -30,13 +29,10 @@ class SmallestDrifts:
         The models of all markers, and the thresholds.
     scale : np.ndarray
         Local scale (bins, markers), mm.
-    attribution : DriftAttribution
-        From which height on drifts show in the distances.
     """
 
     drifts: LongDrifts
     scale: np.ndarray
-    attribution: DriftAttribution
 
     @property
     def length(self) -> int:
@@ -54,7 +50,7 @@ class SmallestDrifts:
         Returns
         -------
         float
-            The height, mm; NaN where no drift could have been found, however large.
+            The height, mm; NaN where too few drifts would be estimated precisely for that to be said.
         """
         own = self.drifts.own
         heights = list(self._at_places(marker))
@@ -85,7 +81,6 @@ class SmallestDrifts:
         """Smallest heights (places,) at places of each part of the recording, mm; infinite where none is found."""
         drifts, threshold, length = self.drifts, self.threshold_sigmas(marker), self.length
         residual = bin_means(drifts.residual[:, marker], drifts.regression.step)
-        shown = self.attribution.shown_height(marker)
         for first, part in drifts.models[marker].parts:
             deviation = part.responses(length, min_known_share=drifts.own.min_known_share).deviation
             places = np.flatnonzero(np.isfinite(deviation))[:: max(1, length // PLACES_PER_DRIFT)]
@@ -96,12 +91,14 @@ class SmallestDrifts:
             masking = part.masking(length, places, scale=scale)
             usual = robust.mad_std((residual[bins] / scale[:, None])[~np.isnan(residual[bins])])
             clipped = drifts.own.outlier_sigmas * usual * scale[places + length // 2]
-            yield self._found_from(deviation[places], masking, clipped, threshold=threshold, shown=shown)
+            yield self._found_from(deviation[places], masking, clipped, threshold=threshold)
 
     def _found_from(
-        self, deviation: np.ndarray, masking: np.ndarray, clipped: np.ndarray, *, threshold: float, shown: float
+        self, deviation: np.ndarray, masking: np.ndarray, clipped: np.ndarray, *, threshold: float
     ) -> np.ndarray:
         """Heights (k,), mm, that reach the threshold although they raise their own standard deviation.
+
+        They are infinite where a drift is not estimated precisely: whether it is found depends on its direction.
 
         Parameters
         ----------
@@ -113,8 +110,6 @@ class SmallestDrifts:
             Height (k,) above which drifts are clipped where the covariance is estimated, mm.
         threshold : float
             The statistic to be reached.
-        shown : float
-            Height from which on a drift that is not estimated precisely shows in the distances, mm.
 
         Returns
         -------
@@ -128,5 +123,5 @@ class SmallestDrifts:
         )
         masked = height / threshold
         height = np.maximum(height, FLOOR_MARGIN * own.floor_mm) + own.stated_margin_sigmas * masked
-        found: np.ndarray = np.where(masked > own.precise_mm, np.maximum(height, shown), height)
+        found: np.ndarray = np.where(masked > own.precise_mm, np.inf, height)
         return found
