@@ -61,7 +61,7 @@ def test_a_mate_that_moves_along_does_not_decide(recording):
     guard, m = guard_of(recording)
     first, stop = START, START + 4
     positions, true = guard.scene.positions.copy(), recording.positions[first:stop, m]
-    moved = guard.expected(m, first, stop).mates[0]
+    moved = guard.distances.expected(m, first, stop).mates[0]
     positions[first:stop, moved] += 5.0
     guard = replace(guard, scene=replace(guard.scene, positions=positions))
     assert guard.objection(m, first, true + 5.0, true) is None
@@ -97,7 +97,7 @@ def test_a_rare_pose_is_no_objection(recording):
     true, shape = recording.positions[START : START + 4, m], guard.scene.shape
     measured = true + np.array([12.0, 0.0, 0.0])
     distance = shape.distance.copy()
-    mates = guard.expected(m, START, START + 4).mates
+    mates = guard.distances.expected(m, START, START + 4).mates
     distance[m, mates] = np.linalg.norm(measured[0] - recording.positions[START, mates], axis=1)
     guard = replace(guard, scene=replace(guard.scene, shape=replace(shape, distance=distance)))
     assert guard.objection(m, START, measured, true) is None
@@ -118,7 +118,7 @@ def test_distances_that_vary_by_more_than_the_repair_say_little(recording):
     unknown = np.full_like(shape.deviation, np.nan)
     unknown[m, far] = shape.deviation[m, far]
     soft = replace(guard, scene=replace(guard.scene, shape=replace(shape, deviation=unknown)))
-    expected = soft.expected(m, START, STOP)
+    expected = soft.distances.expected(m, START, STOP)
     assert set(expected.mates) <= set(far) and len(expected.mates) == OPTIONS.mates
     assert expected.deviation[0].max() < expected.deviation[20].min()
 
@@ -134,7 +134,7 @@ def test_missing_samples_and_mates_do_not_count(recording):
 
 def test_expected_distances_equal_the_naive_twin(recording):
     guard, m = guard_of(recording)
-    expected = guard.expected(m, START, STOP)
+    expected = guard.distances.expected(m, START, STOP)
     point = recording.positions[START:STOP, m] + 2.0
     densities = expected.log_densities(point, degrees_of_freedom=4)
     for k in (0, 4):
