@@ -28,7 +28,10 @@ def work(call: Any) -> str:
     if isinstance(found, tuple):  # published detectors find slow changes, and state nothing else
         found, smallest = found
         facts = {
-            "smallest_drifts": {"duration_s": call.options.long_drifts.stated_duration_s, "height_mm": dict(smallest)}
+            "smallest_drifts": {
+                "duration_s": call.options.estimated_drifts.stated_duration_s,
+                "height_mm": dict(smallest),
+            }
         }
     detector.write(call, found, recorded_under, facts)
     return detector.result(found)

@@ -15,14 +15,14 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.detection.neighbour.drift_attribution import DriftAttribution
-from markermend.detection.neighbour.drift_evidence import LongDriftEvidence, ShortDriftEvidence
-from markermend.detection.neighbour.drift_regression import DriftRegression
-from markermend.detection.neighbour.drift_scores import DriftScorer
-from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
-from markermend.detection.neighbour.long_drifts import LongDrifts
-from markermend.detection.neighbour.short_drifts import ShortDrifts
-from markermend.detection.neighbour.smallest_drifts import SmallestDrifts
+from markermend.detection.neighbour.drifts.attribution import DriftAttribution
+from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
+from markermend.detection.neighbour.drifts.evidence import EstimatedDriftEvidence, MatchedDriftEvidence
+from markermend.detection.neighbour.drifts.matched import MatchedDrifts
+from markermend.detection.neighbour.drifts.regression import DriftRegression
+from markermend.detection.neighbour.drifts.scores import DriftScorer
+from markermend.detection.neighbour.drifts.smallest import SmallestDrifts
+from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
@@ -55,7 +55,7 @@ def detect_slow(
     found : list[Event]
         Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
     smallest : dict[str, float | None]
-        Height of the smallest drift of each marker, of `long_drifts.stated_duration_s`, that would have been found, mm; None
+        Height of the smallest drift of each marker, of `estimated_drifts.stated_duration_s`, that would have been found, mm; None
         where that cannot be said: the motion is too fast or too varied.
     """
     rest = inputs.without_claimed(scene, earlier)
@@ -78,20 +78,20 @@ class SlowChanges:
 
     Attributes
     ----------
-    short : ShortDrifts
+    matched : MatchedDrifts
         Those of up to a second that templates find in the residuals.
-    long : LongDrifts
+    estimated : EstimatedDrifts
         Those that are estimated together with the regression, from a few tenths of a second on.
-    short_attribution, long_attribution : DriftAttribution
+    matched_attribution, estimated_attribution : DriftAttribution
         Whose they are.
     smallest : SmallestDrifts
         Which drifts would be found.
     """
 
-    short: ShortDrifts
-    long: LongDrifts
-    short_attribution: DriftAttribution
-    long_attribution: DriftAttribution
+    matched: MatchedDrifts
+    estimated: EstimatedDrifts
+    matched_attribution: DriftAttribution
+    estimated_attribution: DriftAttribution
     smallest: SmallestDrifts
 
     @classmethod
@@ -116,20 +116,20 @@ class SlowChanges:
         residual, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
         for own in regressions:
             residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
-        scorer, regression = DriftScorer(scene.rate, options), DriftRegression(scene.rate, options.long_drifts)
+        scorer, regression = DriftScorer(scene.rate, options), DriftRegression(scene.rate, options.estimated_drifts)
         motion = scorer.motion(scene)
         scores = scorer.score(scene, residual, factors, motion)
         scale = regression.scale(scene, residual, motion)
         models = regression.models(regressions, scale, len(residual))
-        long = LongDrifts(regression, models, residual, options)
-        short_evidence = ShortDriftEvidence(scorer, scores, predictor)
-        long_evidence = LongDriftEvidence(long, scale, predictor)
+        estimated = EstimatedDrifts(regression, models, residual, options)
+        matched_evidence = MatchedDriftEvidence(scorer, scores, predictor)
+        estimated_evidence = EstimatedDriftEvidence(estimated, scale, predictor)
         return cls(
-            ShortDrifts(scorer, scores),
-            long,
-            DriftAttribution(scene, short_evidence, options),
-            DriftAttribution(scene, long_evidence, options),
-            SmallestDrifts(long, scale),
+            MatchedDrifts(scorer, scores),
+            estimated,
+            DriftAttribution(scene, matched_evidence, options),
+            DriftAttribution(scene, estimated_evidence, options),
+            SmallestDrifts(estimated, scale),
         )
 
     def find(self, markers: Sequence[str]) -> list[Event]:
@@ -147,6 +147,8 @@ class SlowChanges:
         """
         found = list[Event]()
         for m, name in enumerate(markers):
-            found += [event for event in self.short.find(m, name=name) if self.short_attribution.is_own(m, event)]
-            found += [event for event in self.long.find(m, name=name) if self.long_attribution.is_own(m, event)]
+            found += [event for event in self.matched.find(m, name=name) if self.matched_attribution.is_own(m, event)]
+            found += [
+                event for event in self.estimated.find(m, name=name) if self.estimated_attribution.is_own(m, event)
+            ]
         return events.disjoint(found)

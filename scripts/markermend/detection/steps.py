@@ -13,7 +13,7 @@ from markermend.core.events import Event, OpenStep
 from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, common_motion, edges, level_shifts, residual_windows
 from markermend.detection.neighbour.edges import Edge
-from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
+from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.level_shifts import DisplacedStretch
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters

@@ -23,7 +23,7 @@ from markermend.options.declaration import (
 )
 from markermend.options.detection.detector import DetectorOptions
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.detection.long_drifts import LongDriftOptions
+from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.options.detection.published import PublishedSlowOptions
 from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
 from markermend.options.shape import ShapeOptions
@@ -146,7 +146,7 @@ class SlowOptions(DetectorOptions):
     rigid_distance_fraction: Positive = 0.03
     """Distances that deviate by at most this part of the height of a drift decide alone: they are those on a rigid body."""
 
-    long_drifts: LongDriftOptions = field(default_factory=LongDriftOptions)
+    estimated_drifts: EstimatedDriftOptions = field(default_factory=EstimatedDriftOptions)
     """Options of the drifts that are estimated together with the regression."""
 
     paper: PublishedSlowOptions = field(default_factory=PublishedSlowOptions)

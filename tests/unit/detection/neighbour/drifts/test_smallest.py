@@ -70,6 +70,6 @@ def test_none_is_stated_where_a_marker_cannot_be_judged(body):
 def test_the_stated_duration_is_an_option(body):
     scene = Scene(body, 100.0, neighbours(body))
     markers, nothing = [f"M{m:02}" for m in range(12)], np.zeros(body.shape, bool)
-    longer = replace(OPTIONS, long_drifts=replace(OPTIONS.long_drifts, stated_duration_s=2.0))
+    longer = replace(OPTIONS, estimated_drifts=replace(OPTIONS.estimated_drifts, stated_duration_s=2.0))
     own = {"markers": markers, "earlier": nothing, "predictor": RIDGE}
     assert detect_slow(scene, options=longer, **own)[1] != detect_slow(scene, options=OPTIONS, **own)[1]

@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_regression import DriftModel
-from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
-from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.detection.neighbour.drifts import shape as drift_shape
+from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
+from markermend.detection.neighbour.drifts.regression import DriftModel
+from markermend.detection.neighbour.drifts.scores import DriftScorer, DriftScores
 from markermend.numerics.pulse_regression import PulseResponses
 from markermend.prediction.interface import ScaledResidualSource
 from markermend.prediction.scene import Scene
@@ -97,7 +97,7 @@ class DriftEvidence(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class ShortDriftEvidence:
+class MatchedDriftEvidence:
     """Evidence of drifts that templates find in residuals.
 
     Attributes
@@ -143,12 +143,12 @@ class ShortDriftEvidence:
 
 
 @dataclass(frozen=True, eq=False)
-class LongDriftEvidence:
+class EstimatedDriftEvidence:
     """Evidence of drifts that are estimated together with the regression.
 
     Attributes
     ----------
-    drifts : LongDrifts
+    drifts : EstimatedDrifts
         The models of all markers.
     scale : np.ndarray
         Local scale (bins, markers), mm.
@@ -156,7 +156,7 @@ class LongDriftEvidence:
         Source of the regressions.
     """
 
-    drifts: LongDrifts
+    drifts: EstimatedDrifts
     scale: np.ndarray
     predictor: ScaledResidualSource
 

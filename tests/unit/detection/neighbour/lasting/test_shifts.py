@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.core.events import Event
-from markermend.detection.neighbour.lasting_shifts import LastingFinder, not_explained
+from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions

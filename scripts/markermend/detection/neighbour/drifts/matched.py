@@ -8,16 +8,16 @@ import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_scores import DriftScorer, DriftScores
+from markermend.detection.neighbour.drifts import shape as drift_shape
+from markermend.detection.neighbour.drifts.scores import DriftScorer, DriftScores
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection.slow import SlowOptions
 
 
 @dataclass(frozen=True)
-class ShortDrifts:
-    """Finds the short drifts of each marker by their scores.
+class MatchedDrifts:
+    """Finds the drifts of each marker by their scores.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class ShortDrifts:
         return self.scorer.options
 
     def find(self, marker: int, *, name: str) -> list[Event]:
-        """Find the short drifts of one marker, the clearest first; none reaches into the flanks of a clearer one.
+        """Find the drifts of one marker, the clearest first; none reaches into the flanks of a clearer one.
 
         Parameters
         ----------

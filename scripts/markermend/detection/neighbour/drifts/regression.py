@@ -15,7 +15,7 @@ from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals, matched_filter
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.numerics.pulse_regression import PulseRegression, PulseResponses
-from markermend.options.detection.long_drifts import LongDriftOptions
+from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.prediction.interface import LocalRegression
 from markermend.prediction.scene import Scene
 
@@ -85,18 +85,18 @@ class DriftModel:
 
 @dataclass(frozen=True)
 class DriftRegression:
-    """Fits the models in which long drifts are estimated.
+    """Fits the models in which drifts are estimated.
 
     Attributes
     ----------
     rate : float
         Sampling rate, Hz.
-    options : LongDriftOptions
+    options : EstimatedDriftOptions
         Bins, covariance and local scale.
     """
 
     rate: float
-    options: LongDriftOptions
+    options: EstimatedDriftOptions
 
     @property
     def step(self) -> int:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour.drift_regression import DriftRegression, bin_means
-from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
+from markermend.detection.neighbour.drifts.regression import DriftRegression, bin_means
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.prediction.interface import LocalRegression
 from support.signals import options_of
@@ -25,10 +25,10 @@ def drifts(change, seed=0, known=None):
     residual = target - full @ np.linalg.lstsq(full, target, rcond=None)[0]
     on_all = np.full((frames, 1, 3), np.nan)
     on_all[rows, 0] = residual[rows]
-    regression = DriftRegression(RATE, OPTIONS.long_drifts)
+    regression = DriftRegression(RATE, OPTIONS.estimated_drifts)
     own = LocalRegression(0, rows, inputs[rows], target[rows], residual[rows], np.ones(len(rows)))
     models = regression.models([own], np.ones((frames // regression.step, 1)), frames)
-    return LongDrifts(regression, models, on_all, OPTIONS)
+    return EstimatedDrifts(regression, models, on_all, OPTIONS)
 
 
 def bump(start, stop, frames=1500, height=(6.0, 0, 8)):

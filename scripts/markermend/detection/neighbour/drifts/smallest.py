@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.detection.neighbour.drift_regression import bin_means
-from markermend.detection.neighbour.drift_scores import required_score
-from markermend.detection.neighbour.long_drifts import LongDrifts
+from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
+from markermend.detection.neighbour.drifts.regression import bin_means
+from markermend.detection.neighbour.drifts.scores import required_score
 from markermend.numerics import robust
 
 PLACES_PER_DRIFT = 2
@@ -25,13 +25,13 @@ class SmallestDrifts:
 
     Attributes
     ----------
-    drifts : LongDrifts
+    drifts : EstimatedDrifts
         The models of all markers, and the thresholds.
     scale : np.ndarray
         Local scale (bins, markers), mm.
     """
 
-    drifts: LongDrifts
+    drifts: EstimatedDrifts
     scale: np.ndarray
 
     @property

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_evidence import DriftEvidence
+from markermend.detection.neighbour.drifts import shape as drift_shape
+from markermend.detection.neighbour.drifts.evidence import DriftEvidence
 from markermend.numerics import intervals, robust
 from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.scene import Scene
@@ -185,7 +185,7 @@ class DriftAttribution:
         if rigid.any():
             return self._shown(expected[rigid], change[rigid])
         if self.evidence.is_precise(marker, event):
-            decisive = np.abs(expected) >= options.long_drifts.contradicting_distance_sigmas
+            decisive = np.abs(expected) >= options.estimated_drifts.contradicting_distance_sigmas
             return not decisive.any() or self._shown(expected[decisive], change[decisive])
         least = float(deviation.min(initial=np.inf))
         if least > self.evidence.max_distance_deviation_mm:

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from markermend.core.events import Event
-from markermend.detection.neighbour.drift_attribution import DriftAttribution
+from markermend.detection.neighbour.drifts.attribution import DriftAttribution
 from markermend.prediction.scene import Scene
 from support.signals import options_of
 

@@ -9,16 +9,16 @@ import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.detection.neighbour import drift_shape
-from markermend.detection.neighbour.drift_regression import DriftModel, DriftRegression
-from markermend.detection.neighbour.drift_scores import required_score
+from markermend.detection.neighbour.drifts import shape as drift_shape
+from markermend.detection.neighbour.drifts.regression import DriftModel, DriftRegression
+from markermend.detection.neighbour.drifts.scores import required_score
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
-from markermend.options.detection.long_drifts import LongDriftOptions
+from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.options.detection.slow import SlowOptions
 
 MIN_BINS = 2
-"""Bins of the shortest drift that is tried: what fits best with so few is no long drift."""
+"""Bins of the shortest drift that is tried: what fits best with so few is none of these drifts."""
 
 
 LONGEST = 1.2
@@ -26,7 +26,7 @@ LONGEST = 1.2
 
 
 @dataclass(frozen=True, eq=False)
-class LongDrifts:
+class EstimatedDrifts:
     """Finds the drifts of each marker that are estimated together with its regression.
 
     Attributes
@@ -47,9 +47,9 @@ class LongDrifts:
     options: SlowOptions
 
     @property
-    def own(self) -> LongDriftOptions:
-        """The options of long drifts."""
-        return self.options.long_drifts
+    def own(self) -> EstimatedDriftOptions:
+        """The options of these drifts."""
+        return self.options.estimated_drifts
 
     @property
     def longest(self) -> int:
@@ -57,7 +57,7 @@ class LongDrifts:
         return int(LONGEST * self.regression.bins(max(self.own.durations_s)))
 
     def find(self, marker: int, *, name: str) -> list[Event]:
-        """Find the long drifts of one marker, the clearest first; none overlaps a clearer one.
+        """Find the drifts of one marker, the clearest first; none overlaps a clearer one.
 
         What is fitted best by a drift shorter than the shortest of them is left to the templates.
 

@@ -21,7 +21,7 @@ from markermend.options.declaration import (
 
 
 @dataclass(frozen=True)
-class LongDriftOptions:
+class EstimatedDriftOptions:
     """Detect drifts together with the regression."""
 
     durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour.displacement_search import DisplacementSearch, _Grid
+from markermend.detection.neighbour.lasting.search import DisplacementSearch, _Grid
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.prediction.lasting_displacement.course import Course, rise
 from markermend.prediction.lasting_displacement.displacement import estimate

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour.drift_scores import DriftScorer, median_response
+from markermend.detection.neighbour.drifts.scores import DriftScorer, median_response
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.prediction.scene import Scene
 from support.signals import options_of

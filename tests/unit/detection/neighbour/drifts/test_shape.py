@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour import drift_shape
+from markermend.detection.neighbour.drifts import shape as drift_shape
 from markermend.numerics.matched_filter import raised_cosine
 
 

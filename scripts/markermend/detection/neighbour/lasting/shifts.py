@@ -14,8 +14,8 @@ import numpy as np
 
 from markermend.core import events
 from markermend.core.events import Event
-from markermend.detection.neighbour.displacement_search import DisplacementSearch
-from markermend.detection.neighbour.lasting_level import displaced_parts, locate
+from markermend.detection.neighbour.lasting.level import displaced_parts, locate
+from markermend.detection.neighbour.lasting.search import DisplacementSearch
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
