@@ -1,7 +1,7 @@
 """Detect slow changes.
 
 Reads: 01_markers.parquet, mesh.json, the events of the detectors before.
-Writes: 05_slow.parquet, with the smallest drift of each marker that would have been found among its facts.
+Writes: 05_slow.parquet, with the smallest drift of each marker that would have been found among its facts (preset `default`).
 """
 
 from collections.abc import Sequence
@@ -23,17 +23,9 @@ def published(options: SlowOptions) -> Any:
 
 def work(call: Any) -> str:
     given, recorded_under = detector.arguments(call)
-    found = preset_detector(detect_slow, call.options, published)(**given)
-    facts: dict[str, Any] = {}
-    if isinstance(found, tuple):  # published detectors find slow changes, and state nothing else
-        found, smallest = found
-        facts = {
-            "smallest_drifts": {
-                "duration_s": call.options.estimated_drifts.stated_duration_s,
-                "height_mm": dict(smallest),
-            }
-        }
-    detector.write(call, found, recorded_under, facts)
+    found, smallest = preset_detector(detect_slow, call.options, published)(**given)
+    stated = {"duration_s": call.options.estimated_drifts.stated_duration_s, "height_mm": smallest}
+    detector.write(call, found, recorded_under, {"smallest_drifts": stated} if smallest else {})
     return detector.result(found)
 
 

@@ -33,7 +33,7 @@ def detect_slow(
     earlier: np.ndarray,
     options: PublishedSlowOptions,
     predictor: ResidualSource,
-) -> list[Event]:
+) -> tuple[list[Event], dict[str, float | None]]:
     """Find the slow changes of a recording.
 
     Parameters
@@ -51,8 +51,10 @@ def detect_slow(
 
     Returns
     -------
-    list[Event]
+    found : list[Event]
         Disjoint events, sorted.
+    smallest : dict[str, float | None]
+        Empty: which slow changes would have been found is not published.
     """
 
     def detect(residual: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
@@ -60,10 +62,10 @@ def detect_slow(
 
     reach = intervals.samples(options.slope_window_s, scene.rate)
     bridged = replace(scene, positions=coordinatewise.bridge_claimed(scene.positions, earlier, reach))
-    return coordinatewise.detect_each(predictor.residuals(bridged), detect, markers=markers, earlier=earlier)
+    return coordinatewise.detect_each(predictor.residuals(bridged), detect, markers=markers, earlier=earlier), {}
 
 
-def make_detector(options: SlowOptions) -> Callable[..., list[Event]]:
+def make_detector(options: SlowOptions) -> Callable[..., tuple[list[Event], dict[str, float | None]]]:
     """Make the detector, with the predictor that the options name.
 
     Parameters

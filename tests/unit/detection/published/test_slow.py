@@ -85,7 +85,7 @@ def test_a_smoother_finds_a_pulse_where_the_motion_is_slower(name, height, expec
     positions = np.stack([sway + residual(100.0, seed) for seed in range(3)], axis=1)[:, None]
     positions[900:1000, 0, 0] += triangle(100, height)
     scene, nothing = Scene(positions, 100.0, [np.zeros(0, int)]), np.zeros(positions.shape, bool)
-    found = slow.detect_slow(
+    found, _ = slow.detect_slow(
         scene, markers=["A"], earlier=nothing, options=own, predictor=slow.make_predictor(own, PredictorOptions())
     )
     assert {event.axes for event in found} == expected  # a polynomial rings next to the drift as well
@@ -108,7 +108,7 @@ def test_a_drift_is_found_where_the_pose_recurs_without_it(name):
     scene, own = Scene(positions, 100.0, others, segment_mates=others), replace(PAPER, predictor=name)
     source = Only(slow.make_predictor(own, PredictorOptions()), 2)
     nothing = np.zeros(positions.shape, bool)
-    found = slow.detect_slow(scene, markers=list("ABCDE"), earlier=nothing, options=own, predictor=source)
+    found, _ = slow.detect_slow(scene, markers=list("ABCDE"), earlier=nothing, options=own, predictor=source)
     [event] = [event for event in found if "x" in event.axes]
     assert event.marker == "C"
     assert abs(event.start - 1000) <= 30 and abs(event.stop - 1100) <= 30
@@ -160,9 +160,9 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
 
     scene = Scene(positions, rate, [np.zeros(0, int)])
     arguments = {"markers": ["A"], "options": PAPER, "predictor": Level()}
-    [event] = slow.detect_slow(scene, earlier=np.zeros_like(claimed), **arguments)
+    [event], _ = slow.detect_slow(scene, earlier=np.zeros_like(claimed), **arguments)
     assert (event.start, event.stop, event.axes) == (600, 800, "x")
-    assert slow.detect_slow(scene, earlier=claimed, **arguments) == []
+    assert slow.detect_slow(scene, earlier=claimed, **arguments) == ([], {})
     assert np.abs(asked[-1][600:800, 0, 0]).max() < 5
     assert np.array_equal(asked[-1][:, 0, 1:], positions[:, 0, 1:])
     assert np.isfinite(asked[-1]).all()
