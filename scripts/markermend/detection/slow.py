@@ -62,7 +62,9 @@ def detect_slow(
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
     changes = SlowChanges.fit(rest, options, source)
     lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers)
-    drifts = not_explained(changes.find(markers), lasting, frames=len(earlier), moments=True)
+    drifts = not_explained(
+        changes.find(markers), lasting, frames=len(earlier), moments=True, options=options.displacement
+    )
     creeps = [event for event in lasting if event.kind == "creep"]
     found = sorted([*drifts, *creeps], key=lambda event: event.order)
     heights = [changes.smallest.height(m) for m in range(len(markers))]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -58,9 +58,9 @@ def detect_steps(
     unseen = ~scene.present | earlier.any(axis=2)
     truncated = list(_truncated(detector, statistics, found, unseen))
     finder = LastingFinder(options.predictors.local_ridge, options.displacement, options.shape)
-    frames, lasting = len(unseen), finder.find(detector.scene, markers)
-    lasting = not_explained(lasting, found, frames=frames, moments=False)
-    truncated = not_explained(truncated, lasting, frames=frames, moments=True)
+    explained = partial(not_explained, frames=len(unseen), options=options.displacement)
+    lasting = explained(finder.find(detector.scene, markers), found, moments=False)
+    truncated = explained(truncated, lasting, moments=True)
     displaced = [event for event in lasting if event.kind == "displaced"]
     found = sorted([*events.disjoint([*found, *truncated]), *displaced], key=lambda event: event.order)
     return found, _open_steps([detector.edges(statistics, m) for m in range(len(markers))], found, markers)
@@ -126,7 +126,12 @@ class StepDetector(WindowDetector):
     def _bends(self) -> tuple[np.ndarray, np.ndarray]:
         """How much the trajectories of the markers bend (frames, markers), mm, and those of the neighbours of each."""
         own = common_motion.bend(self.scene.positions)
-        return own, common_motion.neighbour_bend(own, self.scene.neighbours, count=self.options.scale_neighbours)
+        return own, common_motion.neighbour_bend(
+            own,
+            self.scene.neighbours,
+            count=self.options.scale_neighbours,
+            quantile=self.options.neighbour_acceleration_quantile,
+        )
 
     def _amid_motion(self, edge: Edge, marker: int) -> Edge:
         """An edge whose threshold rises where its neighbours are accelerated nearly as much at that moment."""

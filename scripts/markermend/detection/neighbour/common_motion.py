@@ -11,9 +11,6 @@ from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 
-NEIGHBOUR_QUANTILE = 0.75
-"""The quantile of the neighbours that is their common acceleration: artifacts of a few must not excuse a marker."""
-
 
 def without_common_motion(
     found: Sequence[Event],
@@ -83,7 +80,7 @@ def bend(values: np.ndarray) -> np.ndarray:
     return out
 
 
-def neighbour_bend(bends: np.ndarray, neighbours: Sequence[np.ndarray], *, count: int) -> np.ndarray:
+def neighbour_bend(bends: np.ndarray, neighbours: Sequence[np.ndarray], *, count: int, quantile: float) -> np.ndarray:
     """Measure how much the trajectories of the nearest neighbours of each marker bend.
 
     Parameters
@@ -94,15 +91,17 @@ def neighbour_bend(bends: np.ndarray, neighbours: Sequence[np.ndarray], *, count
         For each marker its neighbours, the nearest first.
     count : int
         Number of nearest neighbours.
+    quantile : float
+        The quantile that is taken of them, 0 to 1.
 
     Returns
     -------
     np.ndarray
-        A high quantile of the neighbours (frames, markers), mm; 0 for a marker without neighbours.
+        The quantile of the neighbours (frames, markers), mm; 0 for a marker without neighbours.
     """
     common = np.zeros_like(bends)
     for m, around in enumerate(neighbours):
         if len(around):
             some = np.sort(bends[:, np.asarray(around, int)[:count]], axis=1)
-            common[:, m] = some[:, int(NEIGHBOUR_QUANTILE * (some.shape[1] - 1))]
+            common[:, m] = some[:, int(quantile * (some.shape[1] - 1))]
     return common

@@ -18,9 +18,6 @@ from markermend.options.detection.peaks import PeaksOptions
 MIN_CONTEXT = 6
 """Samples of context on either side, at least: they estimate the noise scale."""
 
-DIP_REACH = 2
-"""Samples on either side of the pattern of a dip that may be on its ramps."""
-
 
 @dataclass(frozen=True)
 class Pulse:
@@ -161,7 +158,7 @@ def find_pulses(
         for length in range(1, min(max(short, longest), stop - start - 2 * context) + 1):
             peak = length <= short
             covariance = statistics.covariance if peak else dip_covariance
-            reach, factor = (0, 1.0) if peak else (DIP_REACH, options.dip_threshold_factor)
+            reach, factor = (0, 1.0) if peak else (options.dip_ramp_frames, options.dip_threshold_factor)
             size = length + 2 * context
             # Near a gap or an end of the recording a dip cannot be distinguished from motion.
             spans = residual_windows.window_spans(start, stop, size, context)[: None if peak else 1]

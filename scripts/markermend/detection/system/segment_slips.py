@@ -10,7 +10,6 @@ import numpy as np
 from scipy import ndimage
 
 from markermend.detection.system.slip_pulses import (
-    FLANKS,
     Pulse,
     best_pulse,
     impact_residual,
@@ -73,7 +72,7 @@ def find_segment_slips(scene: Scene, options: SegmentSlipOptions) -> list[Segmen
     """
     score = _scores(scene, options)
     finder = _SlipFinder(scene, options)
-    reach = options.max_frames + max(FLANKS)
+    reach = options.max_frames + options.max_flank_frames
     found: list[SegmentSlip] = []
     taken = np.zeros(score.shape, bool)
     frames, seeds = np.nonzero(score >= 1)
@@ -138,12 +137,12 @@ class _SlipFinder:
         if len(rows) < margin + 2 * options.context_frames or not len(around) or around[0] != seed:
             return None
         courses = self.scene.positions[rows][:, around]
-        pulse = best_pulse(courses[:, 0], options.max_frames, options.context_frames)
+        pulse = best_pulse(courses[:, 0], options)
         group = self._together(courses, pulse)
         if group is None:
             return None
         flat = courses[:, group].reshape(len(rows), -1)
-        pulse = best_pulse(flat, options.max_frames, options.context_frames)
+        pulse = best_pulse(flat, options)
         if residual_beside(flat, pulse) > options.max_impact_ratio * impact_residual(flat, options.context_frames):
             return None
         group = self._together(courses, pulse)

@@ -8,11 +8,7 @@ from functools import cache
 import numpy as np
 from scipy import ndimage
 
-SHORTEST = 2
-"""Shortest slip, frames, with the flanks: a single frame of several markers may be one of the motion."""
-
-FLANKS = (0, 1, 2, 3)
-"""Frames over which a slip begins and ends."""
+from markermend.options.detection.frames import SegmentSlipOptions
 
 ORDER = 2
 """Order of the polynomial that the motion follows over the context of a candidate."""
@@ -65,24 +61,22 @@ def pulse_sizes(positions: np.ndarray, length: int, context: int) -> np.ndarray:
     return sizes
 
 
-def best_pulse(courses: np.ndarray, longest: int, context: int) -> Pulse:
+def best_pulse(courses: np.ndarray, options: SegmentSlipOptions) -> Pulse:
     """Find the pulse that, with a polynomial, explains some courses best.
 
     Parameters
     ----------
     courses : np.ndarray
         Coordinates (n, d) over n frames, mm, without NaN.
-    longest : int
-        Longest pulse, frames, without its flanks.
-    context : int
-        Frames between a pulse and either end, at least.
+    options : SegmentSlipOptions
+        Durations of a pulse and its flanks, and the frames between it and either end, at least.
 
     Returns
     -------
     Pulse
         The pulse.
     """
-    pulses, free, power = _pulses(len(courses), longest, context)
+    pulses, free, power = _pulses(len(courses), options)
     explained = ((free @ courses) ** 2).sum(axis=1) / power
     best = int(np.argmax(explained))
     raised = np.flatnonzero(pulses[best])
@@ -149,12 +143,12 @@ def _breaks(frames: int, context: int) -> list[np.ndarray]:
 
 
 @cache
-def _pulses(frames: int, longest: int, context: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _pulses(frames: int, options: SegmentSlipOptions) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pulses (k, frames) of height 1 of all lengths, flanks and places, their parts free of polynomials, and the power of these."""
-    shapes = []
-    for flank in FLANKS:
+    shapes, context = [], options.context_frames
+    for flank in range(options.max_flank_frames + 1):
         ramp = np.arange(1, flank + 1) / (flank + 1)
-        for length in range(max(1, SHORTEST - 2 * flank), longest + 1):
+        for length in range(max(1, options.min_total_frames - 2 * flank), options.max_frames + 1):
             pulse = np.concatenate([ramp, np.ones(length), ramp[::-1]])
             for start in range(context, frames - context - len(pulse) + 1):
                 shapes.append(np.pad(pulse, (start, frames - start - len(pulse))))

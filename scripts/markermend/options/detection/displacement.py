@@ -12,6 +12,7 @@ from markermend.options.declaration import (
     Below,
     Changes,
     Count,
+    CountOrNone,
     Factor,
     Millimetres,
     NotEmpty,
@@ -66,11 +67,17 @@ class DisplacementOptions:
     ceiling_mm: Millimetres = 100
     """Largest displacement: markers that are further away are not on their segment."""
 
+    screening_fraction: Share = 0.5
+    """A marker is searched closely where a sudden displacement explains this part of `min_explained_share`, at least (0 to 1)."""
+
     creep_gain: Share = 0.8
     """A creep must leave at most this part of the variance that a sudden displacement leaves (0 to 1)."""
 
     return_gain: Share = 0.6
     """A displacement that ends must leave at most this part of the variance that one to the end leaves (0 to 1)."""
+
+    drift_widths: Annotated[tuple[Positive, ...], NotEmpty] = (0.8, 1, 1.25)
+    """Widths of drifts, in units of its duration, that must explain less than a displacement that ends."""
 
     shared_evidence_fraction: NotNegative = 0.25
     """Where the same course explains the motion of a neighbour as well, the marker excluded, the pose has changed and not the
@@ -87,6 +94,12 @@ class DisplacementOptions:
 
     refine_s: PositiveSeconds = 0.3
     """Time on either side of a sudden displacement, beyond the distance of two moments, in which its frame is looked for."""
+
+    same_share: Share = 0.5
+    """Two findings of a marker that overlap by this share of the longer one are the same (0 to 1)."""
+
+    moment_frames: CountOrNone = 5
+    """What was found as near as this to where a displacement begins or ends shows that moment and nothing else, frames."""
 
     max_usual_deviation: NotNegative = 0.35
     """The usual distances decide which of the two places is right if those at one deviate from them by at most this part of

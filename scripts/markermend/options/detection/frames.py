@@ -10,6 +10,7 @@ from markermend.options.declaration import (
     AtLeast,
     AtMost,
     Count,
+    CountOrNone,
     NotNegative,
     Positive,
     PositiveMillimetres,
@@ -80,6 +81,12 @@ class SegmentSlipOptions:
 
     max_frames: Count = 6
     """Longest slip, frames, without the flanks over which it begins and ends."""
+
+    min_total_frames: Count = 2
+    """Shortest slip, frames, with its flanks: a single frame of several markers may be one of the motion."""
+
+    max_flank_frames: CountOrNone = 3
+    """Frames over which a slip begins and ends, at most."""
 
     floor_mm: PositiveMillimetres = 3
     """Smallest slip."""

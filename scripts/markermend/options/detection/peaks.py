@@ -5,7 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from markermend.options.declaration import Factor, Laboratory, NotNegative, Positive, PositiveSeconds, Share, Shared
+from markermend.options.declaration import (
+    Count,
+    Factor,
+    Laboratory,
+    NotNegative,
+    Positive,
+    PositiveSeconds,
+    Share,
+    Shared,
+)
 from markermend.options.detection.detector import DetectorOptions, Preset
 from markermend.options.detection.published import PublishedPeaksOptions
 from markermend.options.detection.residual_windows import ResidualWindowOptions
@@ -66,6 +75,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     dip_extent_fraction: Share = 0.15
     """The same of a dip, whose ramps belong to it (0 to 1)."""
+
+    dip_ramp_frames: Count = 2
+    """Samples of the ramps of a dip on either side of the pattern by which it is found, at most."""
 
     max_shift_ratio: NotNegative = 1.8
     """A finding is no peak if a level shift leaves at most this many times the residual that remains without its samples.

@@ -87,6 +87,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
 
     Change it when motion is taken for steps (higher), or steps amid motion are missed (lower)."""
 
+    neighbour_acceleration_quantile: Share = 0.75
+    """Quantile of the accelerations of the neighbours with which it is compared: artifacts of a few must not excuse a marker (0 to 1)."""
+
     single_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.6
     """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
 

@@ -84,8 +84,8 @@ def test_the_acceleration_of_the_neighbours_leaves_out_a_few_with_artifacts(jump
     jumps[50, 1] += [0, 20, 0]
     bends = common_motion.bend(jumps)
     around = [np.delete(np.arange(10), m) for m in range(10)]
-    common = common_motion.neighbour_bend(bends, around, count=8)
+    common = common_motion.neighbour_bend(bends, around, count=8, quantile=0.75)
     assert bends[50, 1] > 35 and bends[50, 3] > 14 and common[50, 0] < 1
     jumps[50, [4, 5]] += [0, 20, 0]
-    assert common_motion.neighbour_bend(common_motion.bend(jumps), around, count=8)[50, 0] > 14
-    assert not common_motion.neighbour_bend(bends, [np.zeros(0, int)] * 10, count=8).any()
+    assert common_motion.neighbour_bend(common_motion.bend(jumps), around, count=8, quantile=0.75)[50, 0] > 14
+    assert not common_motion.neighbour_bend(bends, [np.zeros(0, int)] * 10, count=8, quantile=0.75).any()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.system.slip_pulses import best_pulse, impact_residual, pulse_sizes, residual_beside
+from markermend.options.detection.frames import SegmentSlipOptions
 
 SHIFT = np.array([9.0, -6.0, 5.0])
 TIME = np.linspace(-1, 1, 19)
@@ -18,7 +19,7 @@ def course():
 def test_best_pulse_agrees_with_least_squares(course):
     box = (np.arange(19) >= 7) & (np.arange(19) < 11)
     course[box] += SHIFT
-    pulse = best_pulse(course, 6, 3)
+    pulse = best_pulse(course, SegmentSlipOptions())
     assert (pulse.start, pulse.stop) == (7, 11)
     naive, *_ = np.linalg.lstsq(np.column_stack([np.vander(TIME, 6), box]), course, rcond=None)
     np.testing.assert_allclose(pulse.weights @ course, naive[-1])
@@ -26,7 +27,7 @@ def test_best_pulse_agrees_with_least_squares(course):
 
 def test_residuals_agree_with_least_squares(course):
     course[7:11] += SHIFT * np.array([0.4, 1, 1, 0.3])[:, None]
-    pulse = best_pulse(course, 6, 3)
+    pulse = best_pulse(course, SegmentSlipOptions())
     beside = np.delete(np.arange(19), np.arange(pulse.start, pulse.stop))
     _, left, _, _ = np.linalg.lstsq(np.vander(TIME, 6)[beside], course[beside], rcond=None)
     assert residual_beside(course, pulse) == pytest.approx(left.sum() / (len(beside) - 6))

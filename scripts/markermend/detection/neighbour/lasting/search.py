@@ -12,12 +12,6 @@ from markermend.prediction.lasting_displacement.displacement import MIN_INDEPEND
 from markermend.prediction.lasting_displacement.pose_regression import PoseRegression
 from markermend.prediction.local_ridge.model import TrainingSet
 
-SCREENING_FRACTION = 0.5
-"""A marker is searched closely where a sudden displacement explains this part of the share that is wanted."""
-
-DRIFT_WIDTHS = (0.8, 1.0, 1.25)
-"""Widths of drifts that are compared with a displacement that ends, in units of its duration."""
-
 
 @dataclass(frozen=True, eq=False)
 class _Explained:
@@ -101,7 +95,7 @@ class DisplacementSearch:
         weights = np.ones(len(time_s))
         course = self._best_course(grid, weights, (0.0,))
         first = None if course is None else self._estimate(data, course, known)
-        if first is None or first.explained < SCREENING_FRACTION * self.options.min_explained_share:
+        if first is None or first.explained < self.options.screening_fraction * self.options.min_explained_share:
             return None
         rises = (0.0, *(duration for duration in self.options.rise_durations_s if duration < span / 3))
         course = self._best_course(grid, first.weights, rises)
@@ -143,7 +137,7 @@ class DisplacementSearch:
             near = grid.middles[np.abs(grid.middles - sudden.middle_s) <= duration / 2]
             own += [Course(float(m), duration, stop_s) for m in near if m + duration / 2 + stay <= stop_s]
         values = [course.at(time_s) for course in own]
-        values += [bump(time_s, sudden.middle_s, stop_s, width) for width in DRIFT_WIDTHS]
+        values += [bump(time_s, sudden.middle_s, stop_s, width) for width in self.options.drift_widths]
         explained = self._explained(grid, weights, [np.stack(values, axis=1)])
         left = explained.total - explained.rises
         best = int(left[: len(own)].argmin())

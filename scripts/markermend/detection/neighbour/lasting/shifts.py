@@ -25,14 +25,15 @@ from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence
 
-SAME_SHARE = 0.5
-"""Findings that overlap by this share of the longer one are the same."""
 
-NEAR_FRAMES = 5
-"""What was found this near to where a displacement begins or ends shows that moment."""
-
-
-def not_explained(found: Sequence[Event], explained_by: Sequence[Event], *, frames: int, moments: bool) -> list[Event]:
+def not_explained(
+    found: Sequence[Event],
+    explained_by: Sequence[Event],
+    *,
+    frames: int,
+    moments: bool,
+    options: DisplacementOptions,
+) -> list[Event]:
     """Leave out what other findings of the same markers explain.
 
     Parameters
@@ -40,11 +41,13 @@ def not_explained(found: Sequence[Event], explained_by: Sequence[Event], *, fram
     found : Sequence[Event]
         Findings.
     explained_by : Sequence[Event]
-        Findings that explain those which overlap with one of them by half of the longer of the two, or more.
+        Findings that explain those which overlap with one of them by `same_share` of the longer of the two, or more.
     frames : int
         Frames of the recording.
     moments : bool
         Whether those are left out, too, in which or beside which one of the others begins or ends.
+    options : DisplacementOptions
+        Which findings are the same, and how near a moment is.
 
     Returns
     -------
@@ -56,8 +59,9 @@ def not_explained(found: Sequence[Event], explained_by: Sequence[Event], *, fram
         overlap = min(other.stop, event.stop) - max(other.start, event.start)
         longer = max(other.stop - other.start, event.stop - event.start)
         ends = [frame for frame in (other.start, other.stop) if 0 < frame < frames]
-        spanned = any(event.start - NEAR_FRAMES <= frame <= event.stop + NEAR_FRAMES for frame in ends)
-        return overlap >= SAME_SHARE * longer or (moments and spanned)
+        near = options.moment_frames
+        spanned = any(event.start - near <= frame <= event.stop + near for frame in ends)
+        return overlap >= options.same_share * longer or (moments and spanned)
 
     return [
         event

@@ -94,15 +94,15 @@ def test_further_away_than_on_the_segment_is_left_to_other_classes():
 
 
 def test_findings_are_explained_by_those_that_cover_half_of_the_longer_or_begin_or_end_in_them():
-    lasting = Event("2b", 100, 300, 1.0, "x", kind="displaced")
+    lasting, options = Event("2b", 100, 300, 1.0, "x", kind="displaced"), DisplacementOptions()
 
     def left(start, stop, *, moments, marker="2b"):
         own = Event(marker, start, stop, 1.0, "x")
-        return not_explained([own], [lasting], frames=400, moments=moments) == [own]
+        return not_explained([own], [lasting], frames=400, moments=moments, options=options) == [own]
 
     assert not left(120, 280, moments=False) and not left(50, 320, moments=False)
     assert left(150, 200, moments=True) and left(120, 280, moments=True, marker="2a")
     assert left(302, 400, moments=False) and not left(302, 400, moments=True) and left(310, 400, moments=True)
     to_end = replace(lasting, stop=400)
     step = Event("2b", 350, 400, 1.0, "x")
-    assert not_explained([step], [to_end], frames=400, moments=True) == [step]
+    assert not_explained([step], [to_end], frames=400, moments=True, options=options) == [step]
