@@ -17,6 +17,9 @@ from markermend.numerics.intervals import runs
 FOREIGN = "foreign"
 """The class of samples that are not on the marker, in whose place others may be adopted."""
 
+ADOPTABLE = ("unlabelled", "adopted")
+"""The classes of samples under unlabelled trajectories: reported, and adopted without asking anybody."""
+
 
 def is_adopted(event: Event) -> bool:
     """Check whether a finding is of samples that are adopted without asking anybody.

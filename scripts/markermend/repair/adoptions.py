@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from markermend.core.adoption import FOREIGN, adopt, is_adopted, without_adopted
+from markermend.core.adoption import ADOPTABLE, FOREIGN, adopt, is_adopted, without_adopted
 from markermend.core.artifacts import class_of
 from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event, mask
@@ -67,7 +67,7 @@ def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], ru
     carried: list[Event] = []
     changes = []
     for event in (event for event in labels if event.source is not None):
-        ruling = rulings.on([("labels", event)])
+        ruling = _ruling_on(event, rulings)
         reason = _reason_against(event, ruling, recording)
         if reason is None:
             carried.append(event)
@@ -90,6 +90,11 @@ def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], ru
         [change for change in changes if change.reason is None],
         [change for change in changes if change.reason is not None],
     )
+
+
+def _ruling_on(event: Event, rulings: Rulings) -> Ruling:
+    """The ruling on a finding: a decision holds whether an option adopts such samples or not, under the name of either class."""
+    return rulings.on([("labels", replace(event, kind=kind)) for kind in ADOPTABLE])
 
 
 def _reason_against(event: Event, ruling: Ruling, recording: Recording) -> Reason | None:

@@ -64,6 +64,14 @@ def test_a_decision_against_it_holds(recording, decision):
     assert given(recording, result) == [] and result.left[0].reason == decision.reason
 
 
+@pytest.mark.parametrize(("found", "named"), [("adopted", "unlabelled"), ("unlabelled", "adopted")])
+def test_a_decision_holds_whether_such_samples_are_adopted_or_reported(recording, found, named):
+    rejected = adoption(recording, [event(found)], Decision("B", 0, 30, "reject", named))
+    assert given(recording, rejected) == [] and rejected.left[0].reason.cause is Cause.DECIDED
+    accepted = adoption(recording, [event(found)], Decision("B", 0, 30, "accept", named))
+    assert len(given(recording, accepted)) == 10 and accepted.carried[0].decisions == (f"accept {named}",)
+
+
 def test_a_static_recording_stays(recording):
     result = adoption(replace(recording, facts={"kind": "static"}), [event()])
     assert given(recording, result) == [] and result.left[0].reason.cause is Cause.STATIC
