@@ -90,7 +90,9 @@ def decode_word4(word4: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarra
     return np.where(finite, residual, np.nan), np.where(missing, 0, (whole >> 8) & 0x7F).astype(np.uint8)
 
 
-def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str, np.ndarray], bool]:
+def missing_clauses(
+    positions: np.ndarray, word4: np.ndarray, *, credible: bool | None = None
+) -> tuple[dict[str, np.ndarray], bool]:
     """Decide which samples are missing, and by which clause of the rule.
 
     A sample counts for the first clause that holds: `residual` (word 4 is negative), `zero` (exactly 0, 0, 0),
@@ -102,6 +104,8 @@ def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str,
         In the file's unit, as decoded.
     word4 : ndarray of float, shape (frames, points)
         As decoded.
+    credible : bool, optional
+        Whether word 4 means anything, where other points of the file have shown it; by default these points decide.
 
     Returns
     -------
@@ -116,7 +120,8 @@ def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str,
     unusable = ~(np.isfinite(positions).all(axis=2) & np.isfinite(word4))
     far = (np.abs(positions) >= LARGEST).any(axis=2)
     real = ~(zero | unusable | far)
-    credible = not (real.any() and bool(np.all(negative | ~real)))
+    if credible is None:
+        credible = not (real.any() and bool(np.all(negative | ~real)))
     negative &= credible
     zero &= ~negative
     unusable &= ~negative
@@ -124,10 +129,13 @@ def missing_clauses(positions: np.ndarray, word4: np.ndarray) -> tuple[dict[str,
     return {"residual": negative, "zero": zero, "not finite": unusable, "out of range": far}, credible
 
 
-def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarray, np.ndarray]:
+def encode(
+    values: np.ndarray, layout: Layout, coding: Coding, *, credible: bool = True
+) -> tuple[np.ndarray, np.ndarray]:
     """Encode samples for storage.
 
-    A position gets word 4 = 0 (residual 0, no camera: not measured), a missing one zeros and -1.
+    A position gets word 4 = 0 (residual 0, no camera: not measured), a missing one zeros and -1. Where word 4 of all samples is -1,
+    a position gets it, too: one that is not negative would declare all others missing.
 
     Parameters
     ----------
@@ -137,6 +145,8 @@ def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarr
         Where the data lie, and their scale.
     coding : Coding
         How numbers are stored.
+    credible : bool
+        False where word 4 of the file is disregarded.
 
     Returns
     -------
@@ -148,7 +158,7 @@ def encode(values: np.ndarray, layout: Layout, coding: Coding) -> tuple[np.ndarr
     """
     missing = np.isnan(values).any(axis=1)
     positions = np.where(missing[:, None], 0.0, values)
-    word4 = np.where(missing, -1.0, 0.0)
+    word4 = np.where(missing, -1.0, 0.0 if credible else -1.0)
     if layout.real:
         stored = coding.encode_floats(np.column_stack((positions, word4)))
         readable = np.asarray(np.isfinite(coding.decode_floats(stored)).all(axis=1))

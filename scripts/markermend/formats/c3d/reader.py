@@ -49,10 +49,14 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
     outputs = _model_outputs(section, names)
     nameless = [name for name in names if name not in outputs and is_unlabelled(name, unlabelled)]
     columns = [c for c, name in enumerate(names) if name not in outputs and name not in set(nameless)]
-    positions, missing, residual_warnings = _positions(path, section, layout, columns)
+    positions, missing, credible = _positions(path, section, layout, columns)
+    residual_warnings = (
+        [] if credible else ["Every residual is -1 although the positions are real; the positions are kept."]
+    )
     unit, factors, unit_warnings = _units(section, columns, positions)
     others = [c for c, name in enumerate(names) if name in set(nameless)]
-    tracks = _positions(path, section, layout, others)[0] * _units(section, others, positions)[1][:, None]
+    tracks, _, _ = _positions(path, section, layout, others, credible=credible)
+    tracks *= _units(section, others, positions)[1][:, None]
     positions *= factors[:, None]
     recording = Recording(
         tuple(names[c] for c in columns),
@@ -78,8 +82,8 @@ def patch(
 ) -> PatchResult:
     """Copy a C3D file and overwrite the changed samples in its data block, and nothing else.
 
-    A sample is written with word 4 = 0 (not measured), or as zeros and -1 where it is missing; integer files round it
-    to their scale. What the number format cannot hold stays as in the original.
+    A sample is written with word 4 = 0 (not measured), or as zeros and -1 where it is missing, and always with -1 where every
+    residual of the file is -1; integer files round it to their scale. What the number format cannot hold stays as in the original.
 
     Parameters
     ----------
@@ -105,10 +109,12 @@ def patch(
     section, layout = _open(original)
     if positions.shape != (layout.frames, len(columns), 3):
         raise ValueError(f"positions {positions.shape} do not fit {layout.frames} frames of {len(columns)} markers")
-    _, factors, _ = _units(section, columns, _positions(original, section, layout, columns)[0])
+    before, _, credible = _positions(original, section, layout, columns)
+    _, factors, _ = _units(section, columns, before)
     shutil.copyfile(original, target)
     frame, marker = np.nonzero(changed)
-    stored, refused = c3d_points.encode(positions[frame, marker] / factors[marker, None], layout, section.coding)
+    values = positions[frame, marker] / factors[marker, None]
+    stored, refused = c3d_points.encode(values, layout, section.coding, credible=credible)
     column = np.asarray(columns, int)[marker]
     written = ~refused
     if written.any():
@@ -125,17 +131,15 @@ def _open(path: Path) -> tuple[Section, Layout]:
 
 
 def _positions(
-    path: Path, section: Section, layout: Layout, columns: Sequence[int]
-) -> tuple[np.ndarray, dict[str, int], list[str]]:
-    """Positions (frames, columns, 3) in the file's unit, NaN where missing; missing samples per clause; warnings."""
+    path: Path, section: Section, layout: Layout, columns: Sequence[int], *, credible: bool | None = None
+) -> tuple[np.ndarray, dict[str, int], bool]:
+    """Positions (frames, columns, 3) in the file's unit, NaN where missing; missing samples per clause; whether word 4 is credible."""
     stored = c3d_points.map_points(path, layout, section.coding)
     positions, word4 = c3d_points.decode(stored[:, np.asarray(columns, int)], layout, section.coding)
-    missing, credible = c3d_points.missing_clauses(positions, word4)
+    missing, credible = c3d_points.missing_clauses(positions, word4, credible=credible)
     for caught in missing.values():
         positions[caught] = np.nan
-    counts = {clause: int(caught.sum()) for clause, caught in missing.items()}
-    warnings = [] if credible else ["Every residual is -1 although the positions are real; the positions are kept."]
-    return positions, counts, warnings
+    return positions, {clause: int(caught.sum()) for clause, caught in missing.items()}, credible
 
 
 def _names(section: Section, layout: Layout) -> tuple[list[str], list[str]]:

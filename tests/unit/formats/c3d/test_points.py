@@ -63,6 +63,26 @@ def test_residuals_that_are_all_negative_are_disregarded(tmp_path):
 
 
 @pytest.mark.parametrize("storage", STORAGES)
+def test_a_repaired_sample_among_negative_residuals_does_not_make_the_others_missing(tmp_path, storage):
+    path, target = tmp_path / "a.c3d", tmp_path / "b.c3d"
+    write(path, trajectories(), storage=storage, residuals=np.full((20, 4), -1.0))
+    edit(path, target, [7, 9], [2, 3], to=[[1.0, 2.0, 3.0], [np.nan] * 3])
+    before, after = read(path).recording, read(target).recording
+    differs = np.argwhere((before.positions != after.positions).any(axis=2)).tolist()
+    assert differs == [[7, 2], [9, 3]] and np.argwhere(after.missing).tolist() == [[9, 3]]
+
+
+def test_residuals_of_unlabelled_trajectories_count_where_those_of_markers_do(tmp_path):
+    residuals = np.zeros((20, 4))
+    residuals[:, 3] = -1.0
+    labels = ["A", "B", "C", "*3"]
+    reading = read(write(tmp_path / "a.c3d", trajectories(), labels=labels, residuals=residuals))
+    assert np.isnan(reading.recording.unlabelled["*3"]).all() and not reading.recording.missing.any()
+    reading = read(write(tmp_path / "b.c3d", trajectories(), labels=labels, residuals=np.full((20, 4), -1.0)))
+    assert not np.isnan(reading.recording.unlabelled["*3"]).any() and not reading.recording.missing.any()
+
+
+@pytest.mark.parametrize("storage", STORAGES)
 def test_what_the_number_format_cannot_hold_is_refused(tmp_path, storage):
     path, target = write(tmp_path / "a.c3d", storage=storage), tmp_path / "b.c3d"
     scale, real = layout_of(path).scale, storage.endswith("real")
