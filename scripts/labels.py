@@ -1,4 +1,4 @@
-"""Detect exchanged labels: markers that stand under each other's labels over a stretch.
+"""Detect faults of labels: markers under each other's labels, labels on something else, and markers without their labels.
 
 Reads: 01_markers.parquet, mesh.json.
 Writes: 02_labels.parquet, with warnings of exchanges of which nothing says which part is right, and of samples that may
@@ -14,7 +14,7 @@ from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
 
-STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="exchanged labels")
+STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="faults of labels")
 
 
 def work(call: Any) -> str:

@@ -165,7 +165,8 @@ class Cleaned:
     unjudged : mapping of str to str
         Why a marker could not be judged but for its labels, by marker.
     label_warnings : sequence of str
-        Which markers may be exchanged in about half of the recording, and which may lie under unlabelled trajectories, one sentence each.
+        Which exchanges may have been left, or undone in the wrong part of the recording, and which markers may lie under
+        unlabelled trajectories, one sentence each.
     """
 
     measured: Recording

@@ -1,7 +1,7 @@
 """Adopted samples: those of a marker that the file holds under an unlabelled trajectory while the marker is missing.
 
-A finding of them is an event with a `source`. Findings of the class `adopted` are carried out here, for the detectors that come after
-and for the repair; those of the class `unlabelled` are only reported. The trajectory itself keeps its samples in the file.
+A finding of them is an event with a `source`. Findings of the class `adopted` are carried out here, for the detectors that come
+after and for the repair; those of the class `unlabelled` are only reported. The trajectory itself keeps its samples in the file.
 """
 
 from __future__ import annotations

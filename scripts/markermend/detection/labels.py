@@ -1,7 +1,8 @@
 """Faults of labels: markers under each other's labels, and labels on something else.
 
-Exchanges from one frame to the next, where each of two or more markers stands where another one was, are found first; then, if the
-subject's usual shape is known, those that only the level shows.
+Exchanges from one frame to the next, where each of two or more markers stands where another one was, are found first; then, if
+the subject's usual shape is known, those that only the level of the distances shows, pieces between gaps that are another marker's,
+labels on something else, and samples of missing markers under unlabelled trajectories.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Slow changes: a marker drifts away from where its neighbours predict it, and comes back (skurowski2022 3.5).
 
-Natural motion leaves residuals as large as the drift. Two things distinguish a drift: its duration (it rises and falls within
-a second or so, from baseline to baseline), and the local scale, which is larger where the pose has high leverage, where
+Natural motion leaves residuals as large as the drift. Two things distinguish a drift: its course (it rises and falls within
+seconds, from baseline to baseline), and the local scale, which is larger where the pose has high leverage, where
 the body moves fast, and where the neighbours fit badly as well.
 """
 
@@ -46,7 +46,7 @@ def detect_slow(
     earlier : np.ndarray
         What earlier detectors claimed, bool, like the positions.
     options : SlowOptions
-        Lengths of the templates, threshold, local scale, and attribution.
+        Durations, thresholds, local scale, and attribution.
     predictor : LocalRidge
         Predicts each marker from its neighbours; some of its options are changed.
 
@@ -81,7 +81,7 @@ class SlowChanges:
     Attributes
     ----------
     matched : MatchedDrifts
-        Those of up to a second that templates find in the residuals.
+        Those of up to a second or so that templates find in the residuals.
     estimated : EstimatedDrifts
         Those that are estimated together with the regression, from a few tenths of a second on.
     matched_attribution, estimated_attribution : DriftAttribution

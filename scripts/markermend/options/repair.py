@@ -120,11 +120,11 @@ class ShapeGuardOptions:
     Change it when good samples are repaired (higher), or artifacts are left (lower)."""
 
     min_gain_share: Share = 0.4
-    """The same, over samples and distances, as a part of what a right repair would bring, at least (0 to 1)."""
+    """Mean of that logarithm over samples and distances alike, as a part of what a right repair would bring, at least (0 to 1)."""
 
     clear_gain: NotNegative = 1
-    """The same, over all distances, from which a repair stands whatever single mates, or the usual distances, say: a mate may be
-    off itself, and a pose rare."""
+    """The same mean, by itself, from which a repair stands whatever the most precise, or the usual, distances say: a mate may be off
+    itself, and a pose rare."""
 
     max_loss: NotNegative = 0.5
     """The same, by which it makes the usual distances of the subject alone less likely, at most."""

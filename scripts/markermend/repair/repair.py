@@ -1,11 +1,12 @@
 """Repair what the detectors found, by class, always from the original samples (skurowski2022 section 4.2.3; own defaults).
 
-Markers are given their samples that lie under unlabelled trajectories, then labels are exchanged, then stretches over which all markers are displaced are moved back, then, on request, markers that
-were displaced for good. All other findings were made on trajectories with the exchanges undone; where an exchange is not
-carried out, they follow their samples. Every method of a class proposes samples and states their expected error. The
-proposal with the least expected error is taken if it changes more than it may err by, and if a method that leaves the
-neighbours aside brings the samples nearer to where these predict them. Where no proposal is accurate enough, the samples
-become missing; so do samples that were not measured. Samples outside the findings are returned bit for bit.
+Markers are given their samples that lie under unlabelled trajectories; then labels are exchanged, then stretches over which
+all markers are displaced are moved back, then, on request, markers that were displaced for good. All other findings were
+made on trajectories with the exchanges undone; where an exchange is not carried out, they follow their samples. Every
+method of a class proposes samples and states their expected error. The proposal with the least expected error is taken if
+it changes more than it may err by, and if a method that leaves the neighbours aside brings the samples nearer to where
+these predict them. Where no proposal is accurate enough, the samples become missing; so do samples that were not measured.
+Samples outside the findings are returned bit for bit.
 """
 
 from __future__ import annotations

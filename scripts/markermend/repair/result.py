@@ -26,8 +26,8 @@ class Restoration:
         The recording as it is to be repaired; never modified.
     left : iterable of Change
         What is already known about stretches that are not repaired.
-    radius : mapping of str to float
-        Radii of the balls in standard deviations, see `RepairOptions`.
+    radius : RepairRadiusOptions
+        Radii of the balls in standard deviations.
     adopted : ndarray of bool, shape (frames, markers), optional
         The samples of the recording that were taken over from unlabelled trajectories; by default none.
 

@@ -109,7 +109,8 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
         The Parquet file.
     recording : Recording
         Its positions become the columns `{marker}.x`, `.y`, `.z`; for a Restored one origin and errors are stored, too, else
-        the columns of unlabelled trajectories, by the fact `unlabelled`. Its markers, rate, first frame and number of frames join the facts in the footer.
+        the columns of unlabelled trajectories, by the fact `unlabelled`. Its markers, rate, first frame and number of frames join
+        the facts in the footer.
     facts : dict
         What the stage says of itself, JSON values.
     """

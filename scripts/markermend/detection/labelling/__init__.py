@@ -1,1 +1,1 @@
-"""Which marker each label is on: exchanges from one frame to the next and by level, and labels on something else."""
+"""Which marker each label is on: exchanges from one frame to the next and by level, labels on something else, and missing ones."""

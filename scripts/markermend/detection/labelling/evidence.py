@@ -108,9 +108,9 @@ class LabelEvidence:
         Returns
         -------
         np.ndarray
-            Gains of log likelihood (rows, markers, markers), both samples together; 0 where neither is observed. The distance between
-            the two does not count, since it stays the same. A sample that fits a marker worse than `max_misfit` may be no marker's:
-            it says nothing of which label is right.
+            Gains of log likelihood (rows, markers, markers), both samples together; 0 where neither is observed. The distance
+            between the two does not count, since it stays the same. A sample that fits a marker worse than `max_misfit` may be no
+            marker's: it says nothing of which label is right.
         """
         floor = np.nan_to_num(self.usual_likelihood - self.options.max_misfit, nan=-np.inf)
         own = np.maximum(self.likelihood_without_other, floor[:, None])

@@ -72,7 +72,7 @@ class ForeignSearch:
         return sorted(found, key=lambda event: event.order)
 
     def _fallen(self, m: int, misfit: np.ndarray) -> tuple[int, int] | None:
-        """The frames over which a marker that fell off lies still, for long, or for a shorter time in which its samples do not fit."""
+        """The frames over which a marker that fell off lies still: for long, or shorter if its samples do not fit meanwhile."""
         options, rows = self.evidence.options, self.evidence.rows
         span = self._lies_still(m, samples(options.min_still_s, self.rate))
         if span is None and (span := self._lies_still(m, samples(options.min_foreign_s, self.rate))):
@@ -149,7 +149,7 @@ class ForeignSearch:
         return next((start + first for first, _ in reversed(list(runs(moving)))), start + departed)
 
     def _speed_misfit(self, m: int, start: int, stop: int) -> np.ndarray:
-        """Loss of log likelihood of the speeds at which the distances of a marker change, against their usual ones (stop - start,)."""
+        """Loss of log likelihood (stop - start,) of the speeds at which the distances of a marker change, against usual ones."""
         options = self.evidence.options
         anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
         distance = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)

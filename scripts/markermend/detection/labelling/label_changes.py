@@ -59,8 +59,8 @@ def misfit_after(evidence: LabelEvidence, change: LabelChange) -> float:
     Returns
     -------
     float
-        Mean loss of log likelihood of a marker against what is usual of it in the recording; the median over the markers,
-        of two the smaller one, since the next change may be about the other, unless that did fit before.
+        Mean loss of log likelihood of a marker against what is usual of it in the recording, median of the markers. Of two it is
+        the smaller one, since the next change may be about the other, but never below that of a marker that fitted before.
     """
     rows = (evidence.rows >= change.start) & (evidence.rows < change.stop)
     under = change.relabelling.of(evidence.tracks.under[evidence.rows[rows]])

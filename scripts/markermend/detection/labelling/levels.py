@@ -130,8 +130,8 @@ def likeliest_groups(evidence: LabelEvidence, counterpart: Mapping[int, int]) ->
     -------
     list[Permutation]
         Exchanges of two pairs at least, each once, of the longest sections: all that are likeliest to be exchanged in a section,
-        those of them that may have been exchanged at its start, and at its end, and all whose trajectories are broken there. Limbs may be exchanged at the same time, and a
-        marker that is seen all along hangs together with a limb that is not.
+        those of them that may have been exchanged at its start, and at its end, and all whose trajectories are broken there. Limbs
+        may be exchanged at the same time, and a marker that is seen all along hangs together with a limb that is not.
     """
     options = evidence.options
     broken = evidence.tracks.border[:, sorted(counterpart)].sum(axis=1) >= 2 * options.min_group_pairs

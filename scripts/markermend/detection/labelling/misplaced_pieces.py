@@ -1,6 +1,6 @@
-"""Pieces of trajectories between gaps that are another marker's, which has no label meanwhile.
+"""Pieces of trajectories between gaps that are those of another marker, which has no label meanwhile.
 
-They may be too short for the level of the distances to show it, but the distances do not go on from one side of the gap to the other.
+They may be too short for the level of the distances to show it, but the distances do not go on across the gaps as usual.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 A marker is nearer to some markers than its counterpart is, and the counterpart nearer to others. Where that is the other way round
 in about half of a recording, the two were exchanged at some time; which of the two states is right no shape can say that was
-learnt from them both. Markers that are exchanged together keep their distances to each other.
+learnt from them both. Markers that are exchanged together keep their distances to each other. The same holds for exchanges of any
+markers that the usual distances would explain, but that last about as long as the labels as recorded.
 """
 
 from __future__ import annotations
@@ -139,7 +140,7 @@ def long_exchanges(found: Sequence[Event], *, scene: Scene, limit: float) -> lis
 
 
 def _shares(exchanges: Sequence[Event], observed: np.ndarray) -> dict[tuple[str, ...], float]:
-    """For each two labels the share of the frames in which any marker is observed, bool (frames,), over which they are exchanged."""
+    """For how large a share of the frames in which any marker is observed, bool (frames,), each two labels are exchanged."""
     frames: dict[tuple[str, ...], int] = {}
     for event in exchanges:
         frames[event.markers] = frames.get(event.markers, 0) + int(np.count_nonzero(observed[event.start : event.stop]))
@@ -150,7 +151,10 @@ def _shares(exchanges: Sequence[Event], observed: np.ndarray) -> dict[tuple[str,
 def _turning_groups(
     positions: np.ndarray, counterpart: Mapping[int, int], options: LabelsOptions
 ) -> Iterator[tuple[list[tuple[int, int]], np.ndarray, list[int]]]:
-    """Pairs that are exchanged together in a part of the time, (pair, anchor) triples that show it (n, 3), and the others if these may be exchanged as well."""
+    """Pairs that are exchanged together in a part of the time, and the (pair, anchor) triples (n, 3) that show it.
+
+    Last come the other markers of these triples, if it may be them that are exchanged.
+    """
     every = np.arange(positions.shape[1])
     pairs = [(m, other) for m, other in sorted(counterpart.items()) if m < other]
     triples = np.array([(a, b, c) for a, b in pairs for c in every.tolist() if c not in (a, b)], int).reshape(-1, 3)
@@ -162,7 +166,6 @@ def _turning_groups(
     ends = node[triples[steady, 0]], node[triples[steady, 2]]
     joined = coo_array((np.ones(len(ends[0])), ends), shape=(len(every), len(every)))
     group = connected_components(joined, directed=False)[1][node]
-    largest = np.bincount(group).argmax()
     ends = group[triples[:, 0]], group[triples[:, 2]]
     largest = np.bincount(group).argmax()
     while True:
@@ -184,7 +187,7 @@ def _turning_groups(
 
 
 def _states(positions: np.ndarray, triples: np.ndarray, options: LabelsOptions) -> tuple[np.ndarray, np.ndarray]:
-    """Which anchors of (pair, anchor) triples are now nearer to the one, now to the other of a pair, and which always to the same."""
+    """Which anchors of (pair, anchor) triples are nearer to now the one, now the other of a pair, and which always to the same."""
     difference = _differences(positions, triples)
     count = (~np.isnan(difference)).sum(axis=0)
     size, spread = _moments(np.abs(difference), count)

@@ -1,4 +1,4 @@
-"""Pieces of unlabelled trajectories, and their assignment to markers."""
+"""Pieces of trajectories whose markers are to be found, and their assignment to markers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WORST, IMPOSSIBLE = 2.0, 1e6
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of an unlabelled trajectory without a gap.
+    """A piece of a trajectory without a gap.
 
     Attributes
     ----------

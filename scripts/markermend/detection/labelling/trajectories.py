@@ -62,9 +62,9 @@ class LabelledTrajectories:
         Returns
         -------
         np.ndarray
-            The first frames of the sections between them, 0 among them: where the trajectories of the markers that are
-            observed before and after are broken, of the share `min_broken_share` of them at least. Where another label continues
-            a trajectory, it is not broken.
+            The first frames of the sections between them, 0 among them. There the trajectories of at least `min_broken_share`
+            of the markers are broken that are observed before and after. Where another label continues a trajectory, it is not
+            broken.
         """
         labels = self.under[:, members]
         border = np.take_along_axis(self.border, labels, axis=1)

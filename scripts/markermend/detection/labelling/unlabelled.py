@@ -1,8 +1,8 @@
 """Samples of markers that lie under unlabelled trajectories while the markers are missing.
 
-A piece of such a trajectory is a marker's if the marker is missing as long as it lasts, if its distances to other markers are the usual
-ones of the marker, and if they go on from the last sample of the marker before it, or lead to the first one after it. Pieces are assigned
-to markers one to one; where two explanations are about equally likely, none is taken.
+A piece of such a trajectory is a marker's if the marker is missing as long as it lasts, if its distances to other markers are
+the usual ones of the marker, and if they go on from the last sample of the marker before it, or lead to the first one after it.
+Pieces are assigned to markers one to one; where two explanations are about equally likely, none is taken.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ def without_common_motion(
     predictor: ResidualSource,
     options: CommonMotionOptions,
 ) -> list[Event]:
-    """Leave out the events that the neighbours explain once all are seen; where many are accelerated it takes less of it.
+    """Leave out the events that the neighbours explain once all are seen; where many are accelerated, a smaller part suffices.
 
     Attribution hides simultaneous candidates of neighbours from each other. Where several markers really move together, each
     alone is then beyond what the rest predicts, although all together agree.

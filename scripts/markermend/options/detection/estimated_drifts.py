@@ -76,10 +76,11 @@ class EstimatedDriftOptions:
     """Share of a drift, by its square, that must be observed together with the neighbours."""
 
     precise_mm: PositiveMillimetres = 2
-    """Standard deviation of the height up to which a drift may leave the distances in their usual range."""
+    """Standard deviation of the height up to which a drift may leave the distances in their usual range, but for those on a rigid
+    body."""
 
     contradicting_distance_sigmas: Positive = 3
-    """A distance speaks against such a drift if the drift would change it by this many of its deviations and it stays."""
+    """A distance speaks against such a drift if the drift would change it by this many of its deviations, and it does not change."""
 
     stated_duration_s: Annotated[PositiveSeconds, Laboratory] = 1
     """Duration of the drifts of which the smallest height is stated that would have been found.

@@ -171,7 +171,7 @@ class LabelsOptions:
     Change it when markers are smaller than this (lower)."""
 
     min_usual_mm: PositiveMillimetres = 15
-    """They are farther apart than this usually."""
+    """Usually these two are farther apart than this."""
 
     min_one_spot_frames: Count = 3
     """Frames in a row in which two labels are on one marker, at least."""
@@ -180,8 +180,8 @@ class LabelsOptions:
     """Longest time in which a marker falls off."""
 
     max_onset_misfit: NotNegative = 1
-    """A fall begins after the last sample whose loss of log likelihood is below this, and before it as long as that of the speed at
-    which its distances change is above."""
+    """A fall begins after the last sample whose loss of log likelihood is below this, or earlier: while the loss of the speed at which
+    the distances change is above it."""
 
     min_onset_speed: Annotated[float, AtLeast(0), Unit("mm/s", "millimetres per second")] = 30
     """No speed of a distance counts as more certain than this."""
@@ -189,6 +189,7 @@ class LabelsOptions:
     max_exchanged_share: Share = 0.4
     """Largest share of a recording over which labels may be exchanged back by the usual shape, if that is known from the same
     recording alone (0 to 1). More is left and warned of.
+
     Change it when labels are right in a smaller part of a recording than this (higher)."""
 
     min_open_share: Share = 0.3

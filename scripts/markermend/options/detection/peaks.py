@@ -63,7 +63,7 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     """Longest dip: longer than a peak, and too short for the two jumps of a step to be told apart if they have ramps."""
 
     dip_threshold_factor: Factor = 2
-    """By how much the threshold of a dip is higher than that of a peak: motion makes such pulses."""
+    """Factor by which the threshold of a dip exceeds that of a peak: motion makes such pulses."""
 
     white_noise_ratio: Positive = 0.01
     """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent).

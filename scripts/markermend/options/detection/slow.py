@@ -101,7 +101,8 @@ class SlowOptions(DetectorOptions):
 
     high_scale_mm: PositiveMillimetres = 3
     """Local scale, as the height of a drift, above which a drift must exceed the threshold by `high_scale_factor`; the same holds
-    for the deviation of the steadiest distance, above which drifts that are not estimated precisely are not found, but for short ones."""
+    for the deviation of the steadiest distance. Above it drifts that are estimated with the regression, but not precisely, are not
+    found."""
 
     high_scale_factor: Factor = 1.4
     """Factor by which the threshold rises there.

@@ -12,7 +12,7 @@ from markermend.prediction.lasting_displacement.pose_regression import PoseRegre
 from markermend.prediction.local_ridge.model import TrainingSet
 
 MIN_INDEPENDENT_VARIANCE = 1e-3
-"""No course counts as more independent of the pose than it is, and none as less than this."""
+"""Variance of a course that the pose leaves unexplained: none counts as smaller than this."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -94,7 +94,7 @@ def training_data(
     local_ridge : LocalRidgeOptions
         Options of the frame and the inputs.
     options : DisplacementOptions
-        In which of them differ.
+        Those of them that differ.
     excluded : frozenset of int
         Markers that are no neighbours here.
 

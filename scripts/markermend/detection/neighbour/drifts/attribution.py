@@ -159,11 +159,12 @@ class DriftAttribution:
     def shows_in_distances(self, marker: int, event: Event) -> bool:
         """Check whether the distances of a marker change as a drift would change them, beyond their usual range.
 
-        A marker that keeps its distances to rigid segment mates cannot have drifted alone: where there are such, they decide. A
-        drift that is estimated precisely may otherwise leave the distances in their usual range. Any other must show in them: the part of it that they show is
-        estimated by least squares, each weighed by how steady it usually is: those that would show the drift by themselves, if
-        there are any. Where even the steadiest varies much, the pose may be rare: more is required of a short drift, and a
-        long one is not told from the pose.
+        A marker that keeps its distances to rigid segment mates cannot have drifted alone: where it has such mates, they decide.
+        Elsewhere a drift that is estimated precisely may leave the distances in their usual range, unless those that would show it
+        do not change. Any other drift must show in them. The part of a drift that they show is estimated by least squares, each
+        weighed by how steady it usually is: from those that would show the drift by themselves, if there are any. Where even
+        the steadiest varies much, the pose may be rare: more is required of a drift that templates find, and one that is
+        estimated together with the regression cannot be distinguished from the pose.
 
         Parameters
         ----------

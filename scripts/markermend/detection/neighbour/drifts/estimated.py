@@ -1,4 +1,4 @@
-"""Drifts of a few tenths of a second to many seconds: scored at all places by generalised least squares, and found, the clearest first."""
+"""Drifts of a few tenths of a second to seconds: scored at all places by generalised least squares, the clearest found first."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from markermend.options.detection.slow import SlowOptions
 
 MIN_BINS = 2
 """Bins of the shortest drift that is tried: what fits best with so few is none of these drifts."""
-
 
 LONGEST = 1.2
 """Longest drift that is tried, in units of the longest that is looked for."""

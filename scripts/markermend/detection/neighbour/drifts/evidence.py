@@ -1,4 +1,7 @@
-"""Evidence of drifts, short and long, by which they are attributed: heights, scores, and what remains without some neighbours."""
+"""Evidence by which drifts are attributed: heights, scores, and what remains without some neighbours.
+
+Templates find drifts in the residuals; others are estimated together with the regression. Either kind has evidence of its own.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +25,7 @@ class DriftEvidence(Protocol):
 
     @property
     def max_distance_deviation_mm(self) -> float:
-        """Largest deviation of the steadiest distance with which a drift is told from a rare pose, mm."""
+        """Largest deviation of the steadiest distance with which a drift can be distinguished from a rare pose, mm."""
         ...
 
     def displacement(self, marker: int, event: Event) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Drifts of up to a second or so: found where templates stand out in the residual, the clearest first."""
+"""Drifts of up to a second or so: templates are matched to the residual, the clearest drifts found first."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Long drifts by generalised least squares: the height of a drift is estimated together with the regression on the neighbours.
+"""Drifts by generalised least squares: the height of a drift is estimated together with the regression on the neighbours.
 
 A regression that is fitted to a recording of seconds follows half of a drift of seconds, so that little of it remains in the
-residual. Long drifts need no high sampling rate: everything is done on means over bins of a tenth of a second or so.
+residual. Such drifts need no high sampling rate: everything is done on means over bins of a tenth of a second or so.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Long drifts on a body whose loose marker is predicted by its neighbours: found whole, and only those that come back."""
+"""Drifts on a body whose loose marker is predicted by its neighbours: found whole, and only those that come back."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ RATE = 100.0
 
 
 def drifts(change, seed=0, known=None):
-    """Long drifts in a marker that follows slow inputs, with a change (frames, 3) put on it."""
+    """Drifts in a marker that follows slow inputs, with a change (frames, 3) put on it."""
     rng = np.random.default_rng(seed)
     frames = len(change)
     inputs = 100 * np.sin(np.arange(frames)[:, None] / rng.uniform(60, 300, 6) + rng.uniform(0, 6, 6))
