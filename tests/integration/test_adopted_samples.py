@@ -18,7 +18,7 @@ import qc
 import repair
 from markermend import api
 from markermend.core.originals import origin_names, restore_originals
-from markermend.core.recording import ADOPTED
+from markermend.core.recording import ADOPTED, changed
 from markermend.formats.c3d.writer import Content, write_new
 from markermend.options.config import read_config
 from markermend.options.flags import write_flags
@@ -154,3 +154,35 @@ def test_an_exchange_beside_or_within_the_samples_is_undone_as_well(source, othe
     cleaned = api.clean(replace(recording, positions=positions), options=adopting)
     assert np.array_equal(cleaned.recording.positions, whole.positions)
     assert {event.kind for event in cleaned.findings["labels"]} == {None, "adopted"}
+
+
+@pytest.mark.parametrize(
+    "decision",
+    [
+        {"decision": "reject", "value": "swap"},
+        {"decision": "class", "value": "noise", "first_frame": 331, "last_frame": 350},
+        {"decision": "protect", "first_frame": 331, "last_frame": 350},
+    ],
+)
+@pytest.mark.parametrize("marker", [MARKER, "LANK"])
+def test_every_sample_is_listed_where_an_exchange_around_them_is_not_undone(source, tmp_path, decision, marker):
+    recording = api.read(source[0])
+    own, other = recording.markers.index(MARKER), recording.markers.index("LANK")
+    positions = recording.positions.copy()
+    positions[200:450, [own, other]] = positions[200:450, [other, own]]
+    path = tmp_path / "walk.c3d"
+    tracks = recording.unlabelled["*7"][:, None]
+    whole = np.concatenate([positions, tracks], axis=1)
+    write_new(path, Content(labels=[*recording.markers, "*7"], positions=whole, rate=100.0))
+    exchanged = api.read(path)
+    adopting = api.Options.read({"labels": {"adopt_unlabelled": True}, "detect": ["labels"]})
+    cleaned = api.clean(exchanged, options=adopting, decisions=[{"marker": marker, **decision}])
+    api.write(cleaned, path, tmp_path / "cleaned.c3d", changes=tmp_path / "changes.tsv")
+    listed = np.zeros(exchanged.missing.shape, bool)
+    for row in rows(tmp_path):
+        column = exchanged.markers.index(row["marker"])
+        listed[int(row["first_frame"]) - 1 : int(row["last_frame"]), column] = True
+    differs = changed(exchanged, api.read(tmp_path / "cleaned.c3d"))
+    assert np.array_equal(differs, differs & listed)
+    if decision["decision"] == "protect":
+        assert not differs[330:350, exchanged.markers.index(marker)].any()

@@ -43,6 +43,29 @@ class Adoption:
     carried: list[Change]
     left: list[Change]
 
+    def carried_under(self, exchanges: Sequence[Event], undone: Sequence[Event]) -> list[Change]:
+        """State what was carried out under the labels that the samples have in the end.
+
+        Parameters
+        ----------
+        exchanges : sequence of Event
+            The exchanges of labels as detected.
+        undone : sequence of Event
+            Those of them that are undone.
+
+        Returns
+        -------
+        list of Change
+            The records; one is split where its samples go to different labels.
+        """
+        return [
+            replace(change, marker=part.marker, start=part.start, stop=part.stop, samples=part.stop - part.start)
+            for change in self.carried
+            for part in follow(
+                [Event(change.marker, change.start, change.stop, 1.0)], found_under=exchanges, stated_under=undone
+            )
+        ]
+
 
 def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], rulings: Rulings) -> Adoption:
     """Give markers their samples that are recorded under unlabelled trajectories.
@@ -67,7 +90,7 @@ def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], ru
     carried: list[Event] = []
     changes = []
     for event in (event for event in labels if event.source is not None):
-        ruling = _ruling_on(event, rulings)
+        ruling = _ruling_on(event, rulings, exchanges)
         reason = _reason_against(event, ruling, recording)
         if reason is None:
             carried.append(event)
@@ -92,9 +115,11 @@ def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], ru
     )
 
 
-def _ruling_on(event: Event, rulings: Rulings) -> Ruling:
-    """The ruling on a finding: a decision holds whether an option adopts such samples or not, under the name of either class."""
-    return rulings.on([("labels", replace(event, kind=kind)) for kind in ADOPTABLE])
+def _ruling_on(event: Event, rulings: Rulings, exchanges: Sequence[Event]) -> Ruling:
+    """The ruling on a finding, whichever of the two classes a decision names, and whether an exchange around it is undone or not."""
+    under = [event, *follow([event], found_under=exchanges, stated_under=())]
+    each = [rulings.on([("labels", replace(part, kind=kind)) for kind in ADOPTABLE]) for part in under]
+    return next((ruling for ruling in each if ruling.left), each[0])
 
 
 def _reason_against(event: Event, ruling: Ruling, recording: Recording) -> Reason | None:

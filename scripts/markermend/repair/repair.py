@@ -134,7 +134,7 @@ def repair_scene(
     for finding in group_findings(remaining):
         repair_finding(finding, rulings.on(finding.members), refusal, maker, result)
     restored, changes = result.finished()
-    return TreatedRecording(restored, (*adoption.carried, *changes))
+    return TreatedRecording(restored, (*adoption.carried_under(exchanges, carried), *changes))
 
 
 def _candidate_maker(

@@ -97,3 +97,13 @@ def test_within_an_exchange_they_go_under_the_label_as_recorded(recording):
     result = adoption(replace(recording, positions=positions), [*pair, event()])
     assert np.array_equal(result.recording.positions[10:20, 0], TRACK[10:20])
     assert result.found["labels"] == pair
+
+
+def test_where_an_exchange_is_not_undone_they_are_recorded_under_the_label_that_gets_them(recording):
+    pair = [Event("A", 15, 25, 1.0, partner="B"), Event("B", 15, 25, 1.0, partner="A")]
+    result = adoption(recording, [*pair, event()])
+    stated = [(own.marker, own.start, own.stop, own.samples) for own in result.carried_under(pair, [])]
+    assert stated == [("A", 15, 20, 5), ("B", 10, 15, 5)]
+    assert [(own.marker, own.start, own.stop) for own in result.carried_under(pair, pair)] == [("B", 10, 20)]
+    protected = adoption(recording, [*pair, event()], Decision("A", 16, 17, "protect"))
+    assert given(recording, protected) == [] and protected.left[0].reason.text == "a person decided: protect"
