@@ -4,9 +4,10 @@ Markers are given their samples that lie under unlabelled trajectories; then lab
 all markers are displaced are moved back, then, on request, markers that were displaced for good. All other findings were
 made on trajectories with the exchanges undone; where an exchange is not carried out, they follow their samples. Every
 method of a class proposes samples and states their expected error. The proposal with the least expected error is taken if
-it changes more than it may err by, and if a method that leaves the neighbours aside brings the samples nearer to where
-these predict them. Where no proposal is accurate enough, the samples become missing; so do samples that were not measured.
-Samples outside the findings are returned bit for bit.
+it changes more than it may err by, if a method that leaves the neighbours aside brings the samples nearer to where these
+predict them, and if the distances to other markers come nearer to what they should be. Where no proposal is accurate enough,
+samples that their distances contradict become missing; so do samples that were not measured. Samples outside the findings
+are returned bit for bit.
 """
 
 from __future__ import annotations
