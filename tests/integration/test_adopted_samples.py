@@ -115,7 +115,7 @@ def test_on_request_the_samples_are_taken_over(source, tmp_path):
     measured = stage_files.read_recording(folder / "01_markers.parquet")
     back = restore_originals(filled.positions, filled.markers, originals)
     assert np.array_equal(back, measured.positions, equal_nan=True)
-    assert "adopted" in (folder / "page.html").read_text()
+    assert "LKNE ← *7" in (folder / "page.html").read_text()
 
 
 def test_by_default_they_are_reported_and_the_gap_is_filled(source, tmp_path):
@@ -127,7 +127,8 @@ def test_by_default_they_are_reported_and_the_gap_is_filled(source, tmp_path):
     assert not (filled.origin == ADOPTED).any() and not filled.missing.any()
     warnings = stage_files.read_facts(folder / "02_labels.parquet")["warnings"]
     assert any("120 of LKNE under *7 (frames 301 to 420)" in text for text in warnings)
-    assert "may lie under *7" in (folder / "page.html").read_text()
+    page = (folder / "page.html").read_text()
+    assert "may lie under *7" in page and "LKNE ← *7" in page
 
 
 def test_a_person_may_accept_them(source):
