@@ -38,9 +38,9 @@ def separate(difference, error, artifacts, likelihood_power):
     )
 
 
-def expected_distance(guard, marker, mate, start, stop):
+def expected_distance(estimator, marker, mate, start, stop):
     """Mean and deviation (n,) of a distance by Bayes' rule, given the border samples and the usual distance."""
-    scene, kriging = guard.scene, guard.kriging
+    scene, kriging = estimator.scene, estimator.kriging
     usual = scene.shape.distance[marker, mate]
     length = np.linalg.norm(scene.positions[:, marker] - scene.positions[:, mate], axis=1)
     covariance = fit_covariance(
@@ -59,7 +59,7 @@ def expected_distance(guard, marker, mate, start, stop):
     known = joint[n:, n:] + 1e-5 * total * np.eye(len(border))
     gain = joint[:n, n:] @ np.linalg.inv(known)
     variance = np.diag(joint[:n, :n] - gain @ joint[n:, :n])
-    deviation = np.sqrt(variance + guard.options.min_deviation_mm**2)
+    deviation = np.sqrt(variance + estimator.options.min_deviation_mm**2)
     return usual + gain @ (length[border] - usual), deviation
 
 

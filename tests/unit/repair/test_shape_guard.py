@@ -9,7 +9,6 @@ from markermend.core.reasons import Cause
 from markermend.options.repair import ShapeGuardOptions
 from markermend.prediction.scene import Scene
 from markermend.repair.shape_guard import ShapeGuard
-from support.naive.repair import expected_distance, log_density
 from support.repairs import MARKER, RIDGE, START, STOP, body, neighbours_of, usual_shape
 
 OPTIONS = ShapeGuardOptions(mates=5)
@@ -110,19 +109,6 @@ def test_without_mates_or_shape_nothing_is_objected_to(recording):
         assert guard.objection(m, START, true, true + 50.0) is None and guard.why_kept(m, START, true) is None
 
 
-def test_distances_that_vary_by_more_than_the_repair_say_little(recording):
-    """Far from the marker's segment every distance changes by decimetres: the border alone can tell, and not for long."""
-    guard, m = guard_of(recording)
-    far = [i for i, name in enumerate(recording.markers) if name[0] in "04"]
-    shape = guard.scene.shape
-    unknown = np.full_like(shape.deviation, np.nan)
-    unknown[m, far] = shape.deviation[m, far]
-    soft = replace(guard, scene=replace(guard.scene, shape=replace(shape, deviation=unknown)))
-    expected = soft.distances.expected(m, START, STOP)
-    assert set(expected.mates) <= set(far) and len(expected.mates) == OPTIONS.mates
-    assert expected.deviation[0].max() < expected.deviation[20].min()
-
-
 def test_missing_samples_and_mates_do_not_count(recording):
     guard, m = guard_of(recording)
     measured = recording.positions[START:STOP, m] + 5.0
@@ -130,17 +116,3 @@ def test_missing_samples_and_mates_do_not_count(recording):
     assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
     measured[:] = np.nan
     assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
-
-
-def test_expected_distances_equal_the_naive_twin(recording):
-    guard, m = guard_of(recording)
-    expected = guard.distances.expected(m, START, STOP)
-    point = recording.positions[START:STOP, m] + 2.0
-    densities = expected.log_densities(point, degrees_of_freedom=4)
-    for k in (0, 4):
-        mate = expected.mates[k]
-        mean, deviation = expected_distance(guard, m, mate, START, STOP)
-        np.testing.assert_allclose(expected.distance[:, k], mean, rtol=1e-6)
-        np.testing.assert_allclose(expected.deviation[:, k], deviation, rtol=1e-6)
-        length = np.linalg.norm(point - recording.positions[START:STOP, mate], axis=1)
-        np.testing.assert_allclose(densities[:, k], log_density((length - mean) / deviation, 4), rtol=1e-6)

@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core.shape import Shape
 from markermend.detection.labelling.cuts import likeliest_exchange, minimum_cut
-from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject
+from markermend.detection.labelling.groups import counterparts_by_side
 from markermend.mesh.usual_distances import recording_distances
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.shape_evidence import ShapeEvidence
@@ -45,9 +45,3 @@ def test_the_markers_of_a_limb_that_are_exchanged(walker, limb):
     assert found is not None
     assert found.markers == tuple(own)
     assert likeliest_exchange(ShapeEvidence(positions[300:400:10], shape, ShapeOptions(anchors=16)), other) is None
-
-
-def test_counterparts_by_their_names():
-    names = ("L_knee", "r_knee", "LTHI", "RTHI", "C7", "pLeftASI", "pRightASI", "CLAV")
-    assert counterparts_by_side(names) == {0: 1, 1: 0, 2: 3, 3: 2, 5: 6, 6: 5}
-    assert counterparts_by_subject(("A:HEAD", "B:HEAD", "A:HAND", "C7")) == {0: 1, 1: 0}

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.detection.labelling.pieces import Piece
 from markermend.detection.labelling.unlabelled import unlabelled_samples
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
@@ -96,7 +95,3 @@ def test_what_is_left_is_said(walker):
     (text,) = unlabelled_samples(found, first_frame=11)
     assert text.endswith("100 of LKNE under *7 (frames 511 to 610)")
     assert unlabelled_samples([], first_frame=1) == []
-
-
-def test_pieces_meet_in_a_common_frame():
-    assert Piece("*1", 0, 10).meets(Piece("*2", 9, 12)) and not Piece("*1", 0, 10).meets(Piece("*2", 10, 12))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
-from markermend.detection.neighbour.drifts.regression import DriftRegression, bin_means
+from markermend.detection.neighbour.drifts.regression import DriftRegression
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.prediction.interface import LocalRegression
 from support.signals import options_of
@@ -76,8 +76,3 @@ def test_long_recordings_are_divided_and_nothing_is_lost_between_the_parts():
         [(5800, 6100), (11000, 11300)],
         [(11000, 11300), (5800, 6100)],
     )
-
-
-def test_means_over_bins_are_those_of_known_values():
-    values = np.array([1.0, 3, np.nan, 5, np.nan, np.nan, 7, 8, 9])
-    np.testing.assert_allclose(bin_means(values, 2), [2, 5, np.nan, 7.5])
