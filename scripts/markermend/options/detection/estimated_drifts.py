@@ -8,7 +8,6 @@ from typing import Annotated
 from markermend.options.declaration import (
     Above,
     Count,
-    Laboratory,
     Millimetres,
     NotEmpty,
     NotNegative,
@@ -24,7 +23,7 @@ from markermend.options.declaration import (
 class EstimatedDriftOptions:
     """Detect drifts together with the regression."""
 
-    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty, Laboratory] = (
+    durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty] = (
         0.3,
         0.4,
         0.55,
@@ -40,7 +39,7 @@ class EstimatedDriftOptions:
 
     Change it when slow changes of other durations are real in your data."""
 
-    threshold_sigmas: Annotated[Positive, Laboratory] = 6.3
+    threshold_sigmas: Positive = 6.3
     """Smallest drift, in standard deviations of its estimated height.
 
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
@@ -82,7 +81,7 @@ class EstimatedDriftOptions:
     contradicting_distance_sigmas: Positive = 3
     """A distance speaks against such a drift if the drift would change it by this many of its deviations, and it does not change."""
 
-    stated_duration_s: Annotated[PositiveSeconds, Laboratory] = 1
+    stated_duration_s: PositiveSeconds = 1
     """Duration of the drifts of which the smallest height is stated that would have been found.
 
     Change it when drifts of another duration would matter to you."""

@@ -82,13 +82,14 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     """A jump whose window overlaps that of a larger one is a sidelobe of it below this part of its score (0 to 1)."""
 
     clear_acceleration_ratio: NotNegative = 3
-    """The threshold of a jump rises in proportion where the marker is not accelerated by this many times of what most of its
-    neighbours are accelerated by at that moment.
+    """The threshold of a jump rises in proportion where the marker is accelerated by less than this many times what most of its
+    neighbours are at that moment.
 
     Change it when motion is taken for steps (higher), or steps amid motion are missed (lower)."""
 
     neighbour_acceleration_quantile: Share = 0.75
-    """Quantile of the accelerations of the neighbours with which it is compared: artifacts of a few must not excuse a marker (0 to 1)."""
+    """Quantile of the accelerations of the neighbours with which that of the marker is compared: artifacts of a few must not excuse
+    it (0 to 1)."""
 
     single_jump_fraction: Annotated[float, Above(0), AtMost(1)] = 0.6
     """Size of each of the two jumps as a part of the threshold, at least (0 to 1).
