@@ -21,7 +21,7 @@ from markermend.detection.neighbour.drifts.evidence import EstimatedDriftEvidenc
 from markermend.detection.neighbour.drifts.matched import MatchedDrifts
 from markermend.detection.neighbour.drifts.regression import DriftRegression
 from markermend.detection.neighbour.drifts.scores import DriftScorer
-from markermend.detection.neighbour.drifts.smallest import SmallestDrifts
+from markermend.detection.neighbour.drifts.smallest import SmallestDriftPredictor
 from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
@@ -86,7 +86,7 @@ class SlowChanges:
         Those that are estimated together with the regression, from a few tenths of a second on.
     matched_attribution, estimated_attribution : DriftAttribution
         Whose they are.
-    smallest : SmallestDrifts
+    smallest : SmallestDriftPredictor
         Which drifts would be found.
     """
 
@@ -94,7 +94,7 @@ class SlowChanges:
     estimated: EstimatedDrifts
     matched_attribution: DriftAttribution
     estimated_attribution: DriftAttribution
-    smallest: SmallestDrifts
+    smallest: SmallestDriftPredictor
 
     @classmethod
     def fit(cls, scene: Scene, options: SlowOptions, predictor: ScaledResidualSource) -> SlowChanges:
@@ -131,7 +131,7 @@ class SlowChanges:
             estimated,
             DriftAttribution(scene, matched_evidence, options),
             DriftAttribution(scene, estimated_evidence, options),
-            SmallestDrifts(estimated, scale),
+            SmallestDriftPredictor(estimated, scale),
         )
 
     def find(self, markers: Sequence[str]) -> list[Event]:

@@ -18,7 +18,7 @@ class IngestOptions:
         r"[CU]_\d+",
         r"unlabell?ed\W*\d*",
     )
-    """Regular expressions for the names of unlabelled trajectories, which are left out.
+    """Regular expressions for the names of unlabelled trajectories, which are no markers.
 
     Change it when your capture program names unlabelled trajectories in another way."""
 

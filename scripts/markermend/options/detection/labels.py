@@ -1,4 +1,4 @@
-"""Options of the detection of exchanged and foreign labels."""
+"""Options of the detection of faults of labels: exchanged and foreign ones, and samples without the label of their marker."""
 
 from __future__ import annotations
 
@@ -54,9 +54,9 @@ class UnlabelledOptions:
 
 @dataclass(frozen=True)
 class LabelsOptions:
-    """Detect exchanged labels.
+    """Detect faults of labels.
 
-    The detectors that come after look at trajectories on which these exchanges are undone; those of the preset `paper` look
+    The detectors that come after look at trajectories on which exchanges are undone; those of the preset `paper` look
     at the trajectories as recorded. Without `labels` among `detect`, nothing is exchanged anywhere.
     """
 

@@ -16,11 +16,11 @@ PLACES_PER_DRIFT = 2
 """Places at which a drift is tried, over its duration."""
 
 FLOOR_MARGIN = 1.1
-"""A drift between bins appears to be lower by up to a tenth."""
+"""Factor above the smallest height: between bins a drift appears to be lower by up to a tenth."""
 
 
 @dataclass(frozen=True, eq=False)
-class SmallestDrifts:
+class SmallestDriftPredictor:
     """Predicts, from the thresholds of the detector and its standard deviations, which drifts it finds.
 
     Attributes
