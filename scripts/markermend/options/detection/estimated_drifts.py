@@ -8,6 +8,7 @@ from typing import Annotated
 from markermend.options.declaration import (
     Above,
     Count,
+    Factor,
     Millimetres,
     NotEmpty,
     NotNegative,
@@ -38,6 +39,12 @@ class EstimatedDriftOptions:
     """Durations of the drifts that are looked for, together with the regression on the neighbours.
 
     Change it when slow changes of other durations are real in your data."""
+
+    min_bins: Count = 2
+    """Bins of the shortest drift that is tried where a drift begins and ends: what fits best with so few is left to the templates."""
+
+    longest_factor: Factor = 1.2
+    """Longest drift that is tried, in units of the longest that is looked for: what fits best with it is another pose."""
 
     threshold_sigmas: Positive = 6.3
     """Smallest drift, in standard deviations of its estimated height.
@@ -88,6 +95,9 @@ class EstimatedDriftOptions:
 
     stated_share: Share = 0.85
     """Share of the times at which a drift of the stated height would have been found."""
+
+    stated_places: Count = 2
+    """Places over its duration at which such a drift is tried."""
 
     stated_margin_sigmas: NotNegative = 1.5
     """Standard deviations of its estimate by which the stated height exceeds the threshold."""

@@ -17,12 +17,6 @@ from markermend.numerics.intervals import runs
 from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.options.detection.slow import SlowOptions
 
-MIN_BINS = 2
-"""Bins of the shortest drift that is tried: what fits best with so few is none of these drifts."""
-
-LONGEST = 1.2
-"""Longest drift that is tried, in units of the longest that is looked for."""
-
 
 @dataclass(frozen=True, eq=False)
 class EstimatedDrifts:
@@ -53,7 +47,7 @@ class EstimatedDrifts:
     @property
     def longest(self) -> int:
         """Bins of the longest drift that is tried: what fits best with so many may last longer, as another pose does."""
-        return int(LONGEST * self.regression.bins(max(self.own.durations_s)))
+        return int(self.own.longest_factor * self.regression.bins(max(self.own.durations_s)))
 
     def find(self, marker: int, *, name: str) -> list[Event]:
         """Find the drifts of one marker, the clearest first; none overlaps a clearer one.
@@ -150,7 +144,9 @@ class EstimatedDrifts:
             The drift, bins [start, stop).
         """
         best = (0.0, peak - length // 2, peak - length // 2 + length)
-        lengths = {min(max(MIN_BINS, int(factor * length)), self.longest) for factor in drift_shape.LENGTH_FACTORS}
+        lengths = {
+            min(max(self.own.min_bins, int(factor * length)), self.longest) for factor in drift_shape.LENGTH_FACTORS
+        }
         for own in sorted(lengths):
             first = max(0, peak - own // 2 - length // 4)
             statistic = model.responses(own, min_known_share=self.own.min_known_share).statistic

@@ -12,9 +12,6 @@ from markermend.detection.neighbour.drifts.regression import bin_means
 from markermend.detection.neighbour.drifts.scores import required_score
 from markermend.numerics import robust
 
-PLACES_PER_DRIFT = 2
-"""Places at which a drift is tried, over its duration."""
-
 FLOOR_MARGIN = 1.1
 """Factor above the smallest height: between bins a drift appears to be lower by up to a tenth."""
 
@@ -83,7 +80,7 @@ class SmallestDriftPredictor:
         residual = bin_means(drifts.residual[:, marker], drifts.regression.step)
         for first, part in drifts.models[marker].parts:
             deviation = part.responses(length, min_known_share=drifts.own.min_known_share).deviation
-            places = np.flatnonzero(np.isfinite(deviation))[:: max(1, length // PLACES_PER_DRIFT)]
+            places = np.flatnonzero(np.isfinite(deviation))[:: max(1, length // drifts.own.stated_places)]
             if not len(places):
                 continue
             bins = slice(first, first + len(part.weighted))
