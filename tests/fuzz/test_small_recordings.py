@@ -79,6 +79,13 @@ def test_what_cannot_be_judged_is_named(frames: int, markers: int) -> None:
     assert all(any(marker in text for text in cleaned.warnings) for marker in recording.markers)
 
 
+def test_nothing_is_stated_of_drifts_in_recordings_shorter_than_a_bin_of_their_search() -> None:
+    rng = np.random.default_rng(0)
+    recording = Recording(tuple("ABCDEFGH"), motion(rng, 10, 8, 250.0), 250.0)
+    cleaned = api.clean(recording)
+    assert not changed(recording, cleaned.recording).any() and set(cleaned.unjudged) == set(recording.markers)
+
+
 def test_markers_that_each_move_by_themselves() -> None:
     rng = np.random.default_rng(0)
     positions = 2000 * rng.normal(size=(1, 8, 3)) + np.cumsum(rng.normal(0, 20, (300, 8, 3)), axis=0)

@@ -50,7 +50,7 @@ class SmallestDriftPredictor:
             The height, mm; NaN where too few drifts would be estimated precisely for that to be said.
         """
         own = self.drifts.own
-        heights = list(self._at_places(marker))
+        heights = list(self._at_places(marker)) if self.drifts.models[marker].parts else []
         if not heights:
             return float("nan")
         height = float(np.quantile(np.concatenate(heights), own.stated_share, method="higher"))
