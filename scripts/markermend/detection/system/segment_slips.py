@@ -25,9 +25,6 @@ from markermend.prediction.scene import Scene
 MIN_ANCHORS = 3
 """Markers around a segment that fix a frame of reference, at least."""
 
-NEAREST = 4
-"""Nearest displaced markers of which any two fix, with the marker that slips most clearly, how a segment is displaced."""
-
 
 @dataclass(frozen=True)
 class SegmentSlip:
@@ -98,7 +95,7 @@ def _scores(scene: Scene, options: SegmentSlipOptions) -> np.ndarray:
     window = samples(options.scale_window_s, scene.rate, odd=True)
     best = np.zeros(scene.present.shape)
     for length in range(1, options.max_frames + 1):
-        size = pulse_sizes(scene.positions, length, options.context_frames)
+        size = pulse_sizes(scene.positions, length, options)
         score = size / (_usual(size, window) + options.noise_mm)
         np.maximum(best, np.where(size >= options.floor_mm, score, 0.0), out=best)
     return best / options.threshold_sigmas
@@ -143,7 +140,7 @@ class _SlipFinder:
             return None
         flat = courses[:, group].reshape(len(rows), -1)
         pulse = best_pulse(flat, options)
-        if residual_beside(flat, pulse) > options.max_impact_ratio * impact_residual(flat, options.context_frames):
+        if residual_beside(flat, pulse, options) > options.max_impact_ratio * impact_residual(flat, options):
             return None
         group = self._together(courses, pulse)
         if group is None or not self._against_anchors(courses, group, pulse.weights):
@@ -166,7 +163,7 @@ class _SlipFinder:
         after = courses[int(np.argmax(pulse.weights))]
         before, limit = after - displaced, options.max_disagreement * size
         best = np.zeros(0, int)
-        for others in combinations(moved[1 : 1 + NEAREST].tolist(), 2):
+        for others in combinations(moved[1 : 1 + options.nearest_markers].tolist(), 2):
             group = np.array([0, *others])
             for _ in range(2):
                 rigid = fit_displacement(before[group], after[group])

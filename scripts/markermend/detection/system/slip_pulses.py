@@ -10,12 +10,6 @@ from scipy import ndimage
 
 from markermend.options.detection.frames import SegmentSlipOptions
 
-ORDER = 2
-"""Order of the polynomial that the motion follows over the context of a candidate."""
-
-FIT_ORDER = 5
-"""Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
-
 
 @dataclass(frozen=True, eq=False)
 class Pulse:
@@ -34,7 +28,7 @@ class Pulse:
     weights: np.ndarray
 
 
-def pulse_sizes(positions: np.ndarray, length: int, context: int) -> np.ndarray:
+def pulse_sizes(positions: np.ndarray, length: int, options: SegmentSlipOptions) -> np.ndarray:
     """Compute by how much the mean of a few samples departs from the motion on either side.
 
     Parameters
@@ -43,17 +37,18 @@ def pulse_sizes(positions: np.ndarray, length: int, context: int) -> np.ndarray:
         Positions (frames, markers, 3), mm, NaN = missing.
     length : int
         Samples whose mean is taken, around each frame.
-    context : int
-        Samples on either side through which a polynomial is laid.
+    options : SegmentSlipOptions
+        Samples on either side through which a polynomial is laid, and its order.
 
     Returns
     -------
     np.ndarray
         Distances (frames, markers), mm; 0 where a sample is missing.
     """
+    context = options.context_frames
     time = np.arange(-context, length + context) - (length - 1) / 2
     inside = (np.arange(len(time)) >= context) & (np.arange(len(time)) < context + length)
-    powers = np.vander(time / len(time), ORDER + 1)
+    powers = np.vander(time / len(time), options.context_order + 1)
     kernel = np.where(inside, 1 / length, 0.0)
     kernel[~inside] = -powers[inside].mean(axis=0) @ np.linalg.pinv(powers[~inside])
     pulse = ndimage.correlate1d(positions, kernel, axis=0)
@@ -69,7 +64,7 @@ def best_pulse(courses: np.ndarray, options: SegmentSlipOptions) -> Pulse:
     courses : np.ndarray
         Coordinates (n, d) over n frames, mm, without NaN.
     options : SegmentSlipOptions
-        Durations of a pulse and its flanks, and the frames between it and either end, at least.
+        Durations of a pulse and its flanks, the frames between it and either end, at least, and the order of the polynomial.
 
     Returns
     -------
@@ -83,7 +78,7 @@ def best_pulse(courses: np.ndarray, options: SegmentSlipOptions) -> Pulse:
     return Pulse(int(raised[0]), int(raised[-1]) + 1, free[best] / power[best])
 
 
-def residual_beside(courses: np.ndarray, pulse: Pulse) -> float:
+def residual_beside(courses: np.ndarray, pulse: Pulse, options: SegmentSlipOptions) -> float:
     """Fit the motion beside a pulse, whatever its shape: a polynomial through all frames but its own.
 
     Parameters
@@ -92,6 +87,8 @@ def residual_beside(courses: np.ndarray, pulse: Pulse) -> float:
         Coordinates (n, d) over n frames, mm, without NaN.
     pulse : Pulse
         The pulse.
+    options : SegmentSlipOptions
+        The order of the polynomial.
 
     Returns
     -------
@@ -100,26 +97,26 @@ def residual_beside(courses: np.ndarray, pulse: Pulse) -> float:
     """
     beside = np.ones(len(courses), bool)
     beside[pulse.start : pulse.stop] = False
-    basis = np.linalg.qr(_polynomials(len(courses))[beside])[0]
+    basis = np.linalg.qr(_polynomials(len(courses), options.fit_order)[beside])[0]
     return _mean_square(courses[beside], basis)
 
 
-def impact_residual(courses: np.ndarray, context: int) -> float:
+def impact_residual(courses: np.ndarray, options: SegmentSlipOptions) -> float:
     """Fit an impact: a polynomial whose velocity and acceleration break at one frame.
 
     Parameters
     ----------
     courses : np.ndarray
         Coordinates (n, d) over n frames, mm, without NaN.
-    context : int
-        Frames between the break and either end, at least.
+    options : SegmentSlipOptions
+        Frames between the break and either end, at least, and the order of the polynomial.
 
     Returns
     -------
     float
         Smallest mean square that it leaves per degree of freedom, mm^2.
     """
-    return min(_mean_square(courses, basis) for basis in _breaks(len(courses), context))
+    return min(_mean_square(courses, basis) for basis in _breaks(len(courses), options))
 
 
 def _mean_square(courses: np.ndarray, basis: np.ndarray) -> float:
@@ -129,17 +126,17 @@ def _mean_square(courses: np.ndarray, basis: np.ndarray) -> float:
 
 
 @cache
-def _polynomials(frames: int) -> np.ndarray:
-    """An orthonormal basis (frames, FIT_ORDER + 1) of polynomials."""
-    return np.linalg.qr(np.vander(np.linspace(-1, 1, frames), FIT_ORDER + 1))[0]
+def _polynomials(frames: int, order: int) -> np.ndarray:
+    """An orthonormal basis (frames, order + 1) of polynomials."""
+    return np.linalg.qr(np.vander(np.linspace(-1, 1, frames), order + 1))[0]
 
 
 @cache
-def _breaks(frames: int, context: int) -> list[np.ndarray]:
-    """Orthonormal bases (frames, FIT_ORDER + 3) of polynomials that break at each frame."""
-    time = np.linspace(-1, 1, frames)
+def _breaks(frames: int, options: SegmentSlipOptions) -> list[np.ndarray]:
+    """Orthonormal bases (frames, fit_order + 3) of polynomials that break at each frame."""
+    time, context = np.linspace(-1, 1, frames), options.context_frames
     after = [np.maximum(0, time - time[frame]) for frame in range(context, frames - context)]
-    return [np.linalg.qr(np.column_stack([np.vander(time, FIT_ORDER + 1), own, own**2]))[0] for own in after]
+    return [np.linalg.qr(np.column_stack([np.vander(time, options.fit_order + 1), own, own**2]))[0] for own in after]
 
 
 @cache
@@ -152,6 +149,6 @@ def _pulses(frames: int, options: SegmentSlipOptions) -> tuple[np.ndarray, np.nd
             pulse = np.concatenate([ramp, np.ones(length), ramp[::-1]])
             for start in range(context, frames - context - len(pulse) + 1):
                 shapes.append(np.pad(pulse, (start, frames - start - len(pulse))))
-    pulses, basis = np.array(shapes), _polynomials(frames)
+    pulses, basis = np.array(shapes), _polynomials(frames, options.fit_order)
     free = pulses - pulses @ basis @ basis.T
     return pulses, free, (free**2).sum(axis=1)

@@ -103,6 +103,12 @@ class SegmentSlipOptions:
     context_frames: Annotated[int, AtLeast(2)] = 3
     """Frames on either side with which a slip is compared."""
 
+    context_order: Annotated[int, AtLeast(0), AtMost(5)] = 2
+    """Order of the polynomial that the motion follows over these frames."""
+
+    fit_order: Annotated[int, AtLeast(0), AtMost(7)] = 5
+    """Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
+
     max_impact_ratio: Annotated[float, Above(0), AtMost(1)] = 0.1
     """Departure of the motion beside a slip from a polynomial (mean square), as a part of that from an impact, a break of the
     velocity, at most (0 to 1)."""
@@ -112,6 +118,9 @@ class SegmentSlipOptions:
 
     min_markers: Annotated[int, AtLeast(2)] = 3
     """Markers that slip together, at least."""
+
+    nearest_markers: Annotated[int, AtLeast(2)] = 4
+    """Nearest displaced markers of which any two fix, with the marker that slips most clearly, how a segment is displaced."""
 
     anchors: Annotated[int, AtLeast(3)] = 6
     """Nearest markers that do not slip with these, against which they move."""
