@@ -1,6 +1,7 @@
 """Guard of the usual shape: a repair must bring the distances to the steadiest markers nearer to what they should be.
 
-Where the distances vary by more than a repair changes them, they say nothing, and the repair stands.
+Where too few distances vary by less than a repair moves the marker, they do not fix its place, and the repair stands unless it
+takes them clearly away from the usual ones.
 """
 
 from __future__ import annotations
@@ -54,9 +55,9 @@ class ShapeGuard:
         Returns
         -------
         Reason or None
-            The reason, with the distance that speaks most clearly against it; None where the repair brings all of them together
-            clearly nearer to what is expected; where it brings them nearer as a right one would, by their precision, too, and
-            not clearly away from usual; and where too few of them are known, and steadier than the repair is large, to tell.
+            The reason, with the distance that speaks most clearly against it. None where the repair brings all of them together
+            clearly nearer to what is expected; where it brings them nearer as a right one would, weighted by their precision, too,
+            and not clearly away from usual; and where too few of them are known and vary by less than the repair changes.
         """
         local = self.distances.expected(marker, start, start + len(measured))
         if local is None:
@@ -118,7 +119,7 @@ class ShapeGuard:
         -------
         str or None
             That the distances are as expected, with the one that is furthest off; None where they contradict the samples, or
-            where too few or none of them can tell.
+            where too few of them are known.
         """
         expected = self.distances.expected(marker, start, start + len(measured))
         if expected is None:

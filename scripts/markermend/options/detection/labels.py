@@ -196,7 +196,7 @@ class LabelsOptions:
     """Smallest share of a recording in which the distances of two counterparts are interchanged, to warn of it (0 to 1)."""
 
     min_open_mm: Millimetres = 60
-    """Smallest difference between the distances of the two to a marker that may tell them apart, mean."""
+    """Smallest mean difference between the distances of the two to a marker by which they may be distinguished."""
 
     max_open_spread: NotNegative = 0.25
     """Largest standard deviation of this difference and of the sum of the distances, as a part of the difference."""

@@ -60,7 +60,7 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     Change it when longer artifacts of this class are real in your data."""
 
     max_dip_duration_s: PositiveSeconds = 0.12
-    """Longest dip: longer than a peak, and too short for the two jumps of a step to be told apart if they have ramps."""
+    """Longest dip: longer than a peak, and too short for the two jumps of a step to be separated if they have ramps."""
 
     dip_threshold_factor: Factor = 2
     """Factor by which the threshold of a dip exceeds that of a peak: motion makes such pulses."""
