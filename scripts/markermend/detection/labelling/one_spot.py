@@ -45,10 +45,10 @@ class OneSpotSearch:
             Events of the class `foreign`, sorted.
         """
         found = [
-            Event(markers[self._off(a, b, start, stop)], start, stop, 1.0, kind="foreign")
+            Event(markers[off], start, stop, 1.0, kind="foreign")
             for a, b in self._close_pairs()
             for start, stop in self._stretches(a, b)
-            if self._is_broken(a, start, stop) or self._is_broken(b, start, stop)
+            if (off := self._off(a, b, start, stop)) is not None
         ]
         return sorted(found, key=lambda event: event.order)
 
@@ -81,14 +81,19 @@ class OneSpotSearch:
         last = stop == frames or tracks.is_broken(m, stop)
         return first and last and (start > 0 or stop < frames)
 
-    def _off(self, a: int, b: int, start: int, stop: int) -> int:
-        """Which of two markers is not at the place of both: the one that is broken, or whose distances contradict it more."""
-        broken = [self._is_broken(m, start, stop) for m in (a, b)]
-        if broken[0] != broken[1]:
-            return a if broken[0] else b
+    def _off(self, a: int, b: int, start: int, stop: int) -> int | None:
+        """Which of two markers is not at the place of both: the one that is broken, or whose distances contradict it more.
+
+        None where neither is broken, or where both are and too few others are seen to say which.
+        """
+        broken = [m for m in (a, b) if self._is_broken(m, start, stop)]
+        if len(broken) < 2:
+            return broken[0] if broken else None
         step = max(1, (stop - start) // self.evidence.options.open_frames)
         fit = ShapeEvidence(self.positions[start:stop:step], self.evidence.shape, self.evidence.options.shape)
         with_other = fit.own_log_likelihoods_without_other()
-        usual = self.evidence.usual_likelihood
-        misfit = [usual[m] - np.nanmean(with_other[:, m, other]) for m, other in ((a, b), (b, a))]
-        return a if misfit[0] > misfit[1] else b
+        misfit = self.evidence.usual_likelihood[[a, b]] - np.stack((with_other[:, a, b], with_other[:, b, a]), axis=1)
+        if np.isnan(misfit).all(axis=0).any():
+            return None
+        first, second = np.nanmean(misfit, axis=0)
+        return a if first > second else b

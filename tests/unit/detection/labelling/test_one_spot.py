@@ -38,6 +38,16 @@ def test_a_label_that_comes_from_a_gap(walker):
     assert find(walker.recording, positions) == [("LTHI", 500, 560, "foreign")]
 
 
+@pytest.mark.filterwarnings("error")
+def test_where_nothing_says_which_of_two_labels_is_right_neither_is_taken(walker):
+    positions, index = walker.recording.positions[:600].copy(), walker.recording.markers.index
+    pair = [index("LTHI"), index("LKNE")]
+    positions[500:550, pair[0]] = positions[500:550, pair[1]]
+    positions[[499, 550]] = np.nan
+    positions[500:550, np.delete(np.arange(positions.shape[1]), pair)] = np.nan
+    assert find(walker.recording, positions) == []
+
+
 def test_points_that_are_always_on_one_spot_are_no_fault(walker):
     positions = walker.recording.positions
     doubled = replace(
