@@ -45,16 +45,12 @@ def detect_frames(
     found : list[Event]
         Sorted; those of one finding have the same kind and group.
     warnings : list[str]
-        One sentence where frames are repeated regularly, which is no fault of single frames.
+        One sentence where frames are repeated regularly or often, which is no fault of single frames.
     """
     scene = inputs.without_claimed(scene, earlier)
     repeated = RepeatedFrames(scene.positions, scene.rate, options.repeats)
-    if repeated.content_rate is not None:
-        warnings = [
-            f"frames repeat regularly: the recording has {scene.rate:.4g} frames a second, of which about "
-            f"{repeated.content_rate:.4g} differ; nothing was done about it"
-        ]
-        return [], warnings
+    if repeated.warning is not None:
+        return [], [repeated.warning]
     found = [
         Event(markers[m], start, stop, 1.0, kind="repeat", group=ALL)
         for start, stop in repeated.spans

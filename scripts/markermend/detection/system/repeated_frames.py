@@ -46,6 +46,19 @@ class RepeatedFrames:
         """The stretches [start, stop) of frames that repeat the frame before them, while the subject moves around."""
         return [span for span in runs(self._repeated) if self._moves_around(*span)]
 
+    @property
+    def warning(self) -> str | None:
+        """What is said of frames that repeat regularly, or so often that they are no fault of single frames; else None."""
+        if self.content_rate is not None:
+            return (
+                f"frames repeat regularly: the recording has {self.rate:.4g} frames a second, of which about "
+                f"{self.content_rate:.4g} differ; nothing was done about it"
+            )
+        share = sum(stop - start for start, stop in self.spans) / max(1, len(self.positions))
+        if share > self.options.max_frames_share:
+            return f"{100 * share:.0f} % of the frames repeat the frame before; nothing was done about it"
+        return None
+
     @cached_property
     def content_rate(self) -> float | None:
         """Rate of the frames that differ, Hz, where repetition is regular; None where it is not."""

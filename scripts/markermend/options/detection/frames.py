@@ -45,6 +45,9 @@ class RepeatedFramesOptions:
     min_regular_share: Annotated[float, Above(0), AtMost(1)] = 0.8
     """If this share of the frames with motion lies between regular repetitions, the recording has frames of a lower rate, and stays as it is (0 to 1)."""
 
+    max_frames_share: Share = 0.2
+    """If more of all frames repeat, the recording stays as it is: too little would be left to fill them from (0 to 1)."""
+
 
 @dataclass(frozen=True)
 class SceneJumpOptions:

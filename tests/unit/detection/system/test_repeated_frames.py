@@ -64,8 +64,16 @@ def test_intact_resting_and_coarse_recordings_have_none(moving):
 def test_frames_of_a_lower_rate_are_recognised(moving):
     assert find(np.repeat(moving[::2], 2, axis=0)).content_rate == pytest.approx(50)
     assert find(moving[np.arange(600) * 4 // 5]).content_rate == pytest.approx(80)
+    assert find(np.repeat(moving[::2], 2, axis=0)).warning.startswith("frames repeat regularly")
     moving[200:300:2] = moving[199:299:2]
-    assert find(moving).content_rate is None
+    assert find(moving).content_rate is None and find(moving).warning is None
+
+
+def test_where_much_of_a_recording_repeats_it_is_only_warned_of(moving):
+    moving[101:400:2] = moving[100:399:2]
+    found = find(moving)
+    assert len(found.spans) == 150 and found.content_rate is None
+    assert found.warning == "25 % of the frames repeat the frame before; nothing was done about it"
 
 
 def test_agrees_with_a_loop(moving):
