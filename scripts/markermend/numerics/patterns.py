@@ -6,6 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+WORD_BYTES = 8
+"""Bytes of the numbers as which rows are compared."""
+
 
 def group_rows(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Group the equal rows of a bool matrix.
@@ -25,10 +28,24 @@ def group_rows(rows: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     if (rows == rows[:1]).all():
         yield rows[0], np.arange(len(rows))
         return
-    distinct, inverse = np.unique(rows, axis=0, return_inverse=True)
-    inverse = inverse.reshape(-1)
-    order = np.argsort(inverse, kind="stable")
-    yield from zip(distinct, np.split(order, np.cumsum(np.bincount(inverse))[:-1]), strict=True)
+    group = _ranks(rows)
+    order = np.argsort(group, kind="stable")
+    members = np.split(order, np.cumsum(np.bincount(group))[:-1])
+    yield from ((rows[own[0]], own) for own in members)
+
+
+def _ranks(rows: np.ndarray) -> np.ndarray:
+    """The places (n,) of rows among the distinct ones in lexicographic order.
+
+    Rows are compared as whole numbers of 64 bits each, which takes a fraction of the time of comparing rows.
+    """
+    packed = np.packbits(rows, axis=1)
+    packed = np.pad(packed, ((0, 0), (0, -packed.shape[1] % WORD_BYTES)))
+    group = np.zeros(len(rows), np.int64)
+    for word in packed.view(">u8").T:
+        rank = np.unique(word.astype(np.uint64), return_inverse=True)[1]
+        group = np.unique(group * (rank.max() + 1) + rank, return_inverse=True)[1]
+    return group
 
 
 def group_by_pattern(observed: np.ndarray, minimum: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:

@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 from markermend.numerics.patterns import group_by_pattern, group_rows
 
 
-@given(st.integers(0, 100), st.integers(1, 4))
+@given(st.integers(0, 100), st.sampled_from([1, 4, 64, 130]))
 def test_every_row_is_in_the_group_of_its_pattern(seed, columns):
-    rows = np.random.default_rng(seed).random((12, columns)) < 0.7
+    rng = np.random.default_rng(seed)
+    rows = (rng.random((5, columns)) < 0.7)[rng.integers(0, 5, 12)]
     found = list(group_rows(rows))
     patterns = [tuple(pattern.tolist()) for pattern, _ in found]
     assert patterns == sorted(set(map(tuple, rows.tolist())))
