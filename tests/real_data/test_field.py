@@ -15,6 +15,25 @@ TOO_LITTLE = [
 
 
 @pytest.mark.data
+@pytest.mark.parametrize(
+    ("name", "rate", "markers"),
+    [
+        ("doubled_tabs.trc", 100.0, 10),
+        ("labels_spaces.trc", 100.0, 10),
+        ("rate.trc", 25.0, 10),
+        ("meters_word.c3d", 100.0, 6),
+        ("khz.c3d", 1000.0, 6),
+    ],
+)
+def test_headers(data, name, rate, markers):
+    """The header's oddities neither stop the reader nor mislead it."""
+    recording = api.read(data / "field" / name)
+    assert recording.rate == rate
+    assert recording.markers == tuple(f"M{number:02}" for number in range(markers))
+    assert np.ptp(recording.positions[:, 0], axis=0).max() > 10
+
+
+@pytest.mark.data
 @pytest.mark.parametrize(("name", "exchanged"), TOO_LITTLE)
 def test_too_little_for_a_mesh(data, name, exchanged):
     """Exchanged labels alone can be found; the markers that nothing else can judge are named."""

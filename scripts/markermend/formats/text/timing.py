@@ -23,6 +23,9 @@ ROUNDING = 0.002
 LEAP = 2.5
 """Steps between times that are at least this many times the median are leaps; shorter ones may be due to rounding."""
 
+EVEN = 0.5
+"""Frames; times are evenly spaced where no step between them differs from the mean by more."""
+
 SHORTEST = 1e-9
 """s; no system captures frames at shorter intervals."""
 
@@ -52,6 +55,9 @@ class Timing:
 def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
     """Determine the rate and the first frame of a file.
 
+    Evenly spaced times in seconds take precedence over the header where the two part by more than a frame in the course
+    of the recording, more than the rounding of times can explain; otherwise the header takes precedence over the times.
+
     Parameters
     ----------
     sheet : Sheet
@@ -59,8 +65,7 @@ def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
     layout : Layout
         Where its frame numbers and times stand.
     rate : float or None
-        Frame rate in Hz of the recordings table, which takes precedence over that of the header, and this over the
-        times; None = not given.
+        Frame rate in Hz of the recordings table, which takes precedence; None = not given.
 
     Returns
     -------
@@ -74,19 +79,34 @@ def clock(sheet: Sheet, layout: Layout, rate: float | None) -> Timing:
     """
     columns = [column for column in (layout.frame, layout.time) if column is not None]
     numbers = dict(zip(columns, parse(sheet, layout, columns)[0].T, strict=True)) if columns else {}
-    first, warnings = _frames(numbers.get(layout.frame) if layout.frame is not None else None)
-    timed, uneven = _rate_of_times(numbers.get(layout.time) if layout.time is not None else None, layout.seconds)
+    first, warnings = _frames(numbers[layout.frame] if layout.frame is not None else None)
+    times = numbers[layout.time] * layout.seconds if layout.time is not None else np.empty(0)
+    timed, uneven = _rate_of_times(times)
     warnings += uneven
-    if rate is None and layout.rate is None and timed is not None and timed <= SLOWEST:
+    stated = layout.rate
+    if rate is None and stated is None and timed is not None and timed <= SLOWEST:
         timed *= 1000
         warnings.append("By the size of its numbers, the time column is in milliseconds.")
-    chosen = next((value for value in (rate, layout.rate, timed) if value is not None), None)
+    if rate is None and stated is not None and timed is not None and _contradict(times, timed, stated):
+        warnings.append(
+            f"The header says {stated:.6g} Hz, but the times are evenly spaced at {timed:.6g} Hz, which is used."
+        )
+        stated = None
+    chosen = next((value for value in (rate, stated, timed) if value is not None), None)
     if chosen is None or not 0 < chosen < float("inf"):
         raise BadRecording(f"{sheet.name} gives no usable frame rate: give its `rate` in the recordings table")
-    for value, source in ((layout.rate, "header"), (timed, "time column")):
+    for value, source in ((stated, "header"), (timed, "time column")):
         if value is not None and abs(value - chosen) > TOLERANCE * chosen:
             warnings.append(f"The {source} says {value:.6g} Hz; {chosen:.6g} Hz is used.")
     return Timing(float(chosen), first, tuple(warnings))
+
+
+def _contradict(times: np.ndarray, timed: float, stated: float) -> bool:
+    """True where evenly spaced times (s) of one rate cannot be those of another, stated one."""
+    steps = np.diff(times) * timed
+    even = timed > SLOWEST and bool((np.abs(steps - 1) <= EVEN).all())
+    parted = abs(len(steps) * (timed / stated - 1))
+    return even and abs(timed - stated) > TOLERANCE * timed and parted > 1
 
 
 def _frames(numbers: np.ndarray | None) -> tuple[int, list[str]]:
@@ -112,9 +132,9 @@ def _frames(numbers: np.ndarray | None) -> tuple[int, list[str]]:
     ]
 
 
-def _rate_of_times(times: np.ndarray | None, seconds: float) -> tuple[float | None, list[str]]:
-    """The rate (Hz) at which times count up, or None where they do not, and what is odd about them."""
-    steps = np.diff(times) * seconds if times is not None else np.empty(0)
+def _rate_of_times(times: np.ndarray) -> tuple[float | None, list[str]]:
+    """The rate (Hz) at which times (s) count up, or None where they do not, and what is odd about them."""
+    steps = np.diff(times)
     steps = steps[np.isfinite(steps)]
     step = float(np.median(steps)) if steps.size else 0.0
     if not 0 < step < float("inf"):

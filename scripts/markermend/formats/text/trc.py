@@ -13,6 +13,7 @@ from markermend.formats.text.header_values import count_named, rate_named, unit_
 from markermend.formats.text.lines import Sheet, likeliest_delimiter
 from markermend.formats.text.table_layout import Layout
 from markermend.formats.text.table_rows import frame_rows, row_widths, writes_decimal_comma
+from markermend.formats.text.trc_labels import labelled_columns
 from markermend.formats.units import MILLIMETRES
 from markermend.storage.atomic import write_text
 
@@ -45,50 +46,35 @@ def describe(sheet: Sheet) -> Layout:
     if fields is None:
         raise BadRecording(f"{sheet.name} is no TRC file: its first lines do not name DataRate. Export it again")
     delimiter = likeliest_delimiter(sheet.lines[fields : fields + 1])
-    header = dict(zip(sheet.texts(fields, delimiter), sheet.texts(fields + 1, delimiter), strict=False))
+    header = _header(sheet.texts(fields, delimiter), sheet.texts(fields + 1, delimiter))
     title = next(iter(sheet.filled(fields + 2, delimiter)), len(sheet.lines))
     labels = sheet.texts(title, delimiter)
     if not labels or not labels[0].lower().startswith("frame"):
         raise BadRecording(f"{sheet.name}: the header of this TRC file is cut off before the labels. Export it again")
     rows, warnings = frame_rows(sheet, title + 1, delimiter, section=False)
-    first = 2 if labels[1:2] and labels[1].lower().startswith("time") else 1
     widths = row_widths(sheet, rows, delimiter)
-    names, starts, more = _match(sheet, labels, first, widths)
+    promised = header.get("NumMarkers", "")
+    own = labelled_columns(sheet.name, labels, width=max(widths, default=0), promised=count_named(promised))
     return Layout(
         format="trc",
         delimiter=delimiter,
         rows=rows,
-        names=names,
-        columns=consecutive(starts),
+        names=own.names,
+        columns=consecutive(own.starts),
         unit=unit_named(sheet, header["Units"]) if header.get("Units") else None,
         rate=rate_named(header.get("DataRate", "")),
-        time=1 if first == 2 else None,
+        time=1 if own.first == 2 else None,
         frames=count_named(header.get("NumFrames", "")),
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
-        warnings=(*warnings, *more, *_count_warnings(header.get("NumMarkers", ""), starts, widths)),
+        warnings=(*warnings, *own.warnings, *_count_warnings(promised, own.starts, widths)),
     )
 
 
-def _match(
-    sheet: Sheet, labels: Sequence[str], first: int, widths: Sequence[int]
-) -> tuple[tuple[str, ...], list[int], list[str]]:
-    """Match the labels with the columns: each stands above its X, or there are as many as the rows have triples."""
-    labelled = [i for i in range(first, len(labels)) if labels[i]]
-    if not labelled:
-        raise BadRecording(f"{sheet.name}: no marker is labelled. Label the markers and export it again")
-    if all((i - first) % 3 == 0 for i in labelled):
-        starts = list(range(first, labelled[-1] + 1, 3))
-        return tuple(labels[i] for i in starts), starts, []
-    if first + 3 * len(labelled) != max(widths, default=0):
-        raise BadRecording(
-            f"{sheet.name}: the {len(labelled)} labels do not stand above columns of their own. Correct the line of"
-            " labels: each above its X"
-        )
-    starts = list(range(first, first + 3 * len(labelled), 3))
-    warning = (
-        "The labels do not stand above their columns; there are as many as trajectories, and they are taken in order."
-    )
-    return tuple(labels[i] for i in labelled), starts, [warning]
+def _header(fields: Sequence[str], values: Sequence[str]) -> dict[str, str]:
+    """The values of the header by field: in order where several delimiters stand between them, as OpenSim reads them."""
+    names, filled = [field for field in fields if field], [value for value in values if value]
+    in_order = len(filled) == len(names) or len(values) > len(fields)
+    return dict(zip(names, filled, strict=False) if in_order else zip(fields, values, strict=False))
 
 
 def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int]) -> list[str]:

@@ -25,7 +25,8 @@ TRC = make("trc", positions())
         (b"\r\n103\t", b"\r\n203\t", "1 go back, 1 leap"),
         (b"\r\n103\t", b"\r\nx\t", "no frame number"),
         (b"\t4\tmm", b"\t4\t", "names no unit"),
-        (b"\r\n100\t", b"\r\n50\t", "time column says 100 Hz; 50 Hz is used"),
+        (b"\r\n100\t", b"\r\n50\t", "header says 50 Hz, but the times are evenly spaced at 100 Hz"),
+        (b"LASI\t\t\tRASI\t\t\tC7\t\t\tT10", b"LASI   RASI   C7   T10", "separated by blanks"),
     ],
 )
 def test_trc_damage_is_read_with_a_warning(tmp_path: Path, old: bytes, new: bytes, warning: str) -> None:
@@ -34,6 +35,25 @@ def test_trc_damage_is_read_with_a_warning(tmp_path: Path, old: bytes, new: byte
     assert_positions(reading, positions())
     assert warning in " ".join(reading.warnings)
     assert reading.recording.first_frame == 101
+
+
+HEADER = TRC.split(b"\r\n")[1:3]
+
+
+@pytest.mark.parametrize(
+    ("fields", "values"),
+    [
+        (HEADER[0], HEADER[1].replace(b"\t", b"\t\t")),
+        (HEADER[0].replace(b"\t", b"\t\t"), HEADER[1]),
+        (HEADER[0].replace(b"\t", b"\t\t"), HEADER[1].replace(b"\t", b"\t\t")),
+        (HEADER[0], HEADER[1].replace(b"\tmm", b"\t\t mm")),
+        (HEADER[0], b"100\t\t100\t\t30\t\t4\t\tmm"),
+    ],
+)
+def test_doubled_tabs_in_the_header(tmp_path: Path, fields: bytes, values: bytes) -> None:
+    reading = read(tmp_path, TRC.replace(HEADER[0], fields).replace(HEADER[1], values))
+    assert_positions(reading, positions())
+    assert (reading.unit, reading.recording.rate, reading.warnings) == ("mm", 100.0, ())
 
 
 @pytest.mark.parametrize(
