@@ -45,3 +45,15 @@ def test_stretches_that_contradict_the_shape_are_found(gait, marker, first, last
 def test_fast_motion_and_models_have_no_steps(data, name):
     recording = api.read(data / name)
     assert api.detect(recording, api.infer_mesh([recording]))["steps"] == []
+
+
+@pytest.mark.data
+def test_what_recurs_with_each_squat_is_no_step(data):
+    folder = data / "sessions/expert1"
+    session = [
+        api.read(folder / f"{name}.trc", subject="expert1") for name in ("squats1", "static1", "walking1", "STSFast1")
+    ]
+    steps = api.detect(session[0], api.infer_mesh(session))["steps"]
+    named = {event.marker for event in steps}
+    assert not named & {"L_elbow_med", "L_thigh1"}
+    assert {"L_Sternum", "R_Sternum"} <= named

@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from markermend.numerics import robust
+from markermend.detection.neighbour.similar_poses import SimilarPoses
+from markermend.numerics import intervals, robust
 from markermend.options.detection.steps import StepsOptions
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.scene import Scene
@@ -56,6 +57,11 @@ class LevelEvidence:
         return np.array([max(robust.mad_std(axis), MIN_SCALE_MM) for axis in self.residual.T])
 
     @cached_property
+    def _poses(self) -> SimilarPoses:
+        """The poses of the neighbours."""
+        return SimilarPoses(self.scene, self.marker, self.options.similar_poses)
+
+    @cached_property
     def _anchors(self) -> np.ndarray:
         """The markers whose distances count: none without a shape, or with too few of them."""
         if self.scene.shape is None:
@@ -78,12 +84,40 @@ class LevelEvidence:
         float
             Logarithm of the likelihood with the displacement less that without it; 0 where nothing is known.
         """
-        # Samples nearer to each other than the time over which levels vary say the same.
-        weight = 1 + len(frames) / (self.options.correlation_time_s * self.scene.rate)
+        weight = self._weight(frames)
         parts = self.options.remaining_fractions
         residual = [weight * self._of_residual(part * displacement, frames) for part in parts]
         average = float(np.logaddexp.reduce(residual)) - np.log(len(parts))
         return float(average + weight * self._of_shape(displacement, frames))
+
+    def recurrence(self, displacement: np.ndarray, frames: np.ndarray) -> float:
+        """Compare a displacement with none at similar poses at other times: what recurs with the pose is motion.
+
+        Parameters
+        ----------
+        displacement : np.ndarray
+            By how much the marker is displaced (3,), mm.
+        frames : np.ndarray
+            In which frames (n,).
+
+        Returns
+        -------
+        float
+            Logarithm of the likelihood with the displacement less that without it, at most 0: that the marker is elsewhere at similar
+            poses is no evidence for a displacement, since motion may differ.
+        """
+        poses, count = self._poses, self.options.similar_poses.max_samples
+        some = frames[np.unique(np.linspace(0, len(frames) - 1, count).astype(int))]
+        near = intervals.samples(self.options.level_window_s, self.scene.rate)
+        usual, deviation = poses.predict(some, excluded=(int(frames[0]) - near, int(frames[-1]) + 1 + near))
+        scale = np.hypot(deviation, self.options.min_shape_deviation_mm)
+        points = self.scene.positions[some, self.marker]
+        before, after = (poses.distances(own, some) - usual for own in (points, points - displacement))
+        return min(0.0, self._weight(frames) * self._of_distances(before, after, scale))
+
+    def _weight(self, frames: np.ndarray) -> float:
+        """How many independent samples frames (n,) are worth: those nearer than the time over which levels vary say the same."""
+        return 1 + len(frames) / (self.options.correlation_time_s * self.scene.rate)
 
     def _of_residual(self, displacement: np.ndarray, frames: np.ndarray) -> float:
         """The part of the residual, by a multivariate t distribution about 0: the mean over the frames."""
@@ -96,12 +130,17 @@ class LevelEvidence:
         if self.scene.shape is None or not len(self._anchors):
             return 0.0
         evidence = ShapeEvidence(self.scene.positions[frames], self.scene.shape, self._shape)
-        scale, freedom = evidence.scale(self.marker, self._anchors), self._shape.degrees_of_freedom
+        scale = evidence.scale(self.marker, self._anchors)
         points = self.scene.positions[frames, self.marker]
         before, after = (
-            np.log1p((evidence.deviations(self.marker, self._anchors, points=own) / scale) ** 2 / freedom)
-            for own in (points, points - displacement)
+            evidence.deviations(self.marker, self._anchors, points=own) for own in (points, points - displacement)
         )
+        return self._of_distances(before, after, np.broadcast_to(scale, before.shape))
+
+    def _of_distances(self, before: np.ndarray, after: np.ndarray, scale: np.ndarray) -> float:
+        """The part of distances that deviate (n, k), mm, as they are and less a displacement, with standard deviations."""
+        freedom = self._shape.degrees_of_freedom
+        before, after = (np.log1p((deviation / scale) ** 2 / freedom) for deviation in (before, after))
         ratio = (freedom + 1) / 2 * (before - after)
         weight = np.where(np.isnan(ratio), 0.0, scale**-2)
         mean = (np.nan_to_num(ratio) * weight).sum(axis=1) / np.maximum(weight.sum(axis=1), 1e-12)

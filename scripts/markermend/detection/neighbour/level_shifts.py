@@ -192,7 +192,8 @@ class Explanations:
 
     def _level_ratio(self, displacement: np.ndarray, first: int, last: int) -> float:
         """What the level says for a displacement between two edges or ends, and against it beyond an end."""
-        ratio = self.evidence.log_ratio(displacement, np.arange(self.frames[first], self.frames[last]))
+        inside = np.arange(self.frames[first], self.frames[last])
+        ratio = self.evidence.log_ratio(displacement, inside) + self.evidence.recurrence(displacement, inside)
         for end, edge, beyond in ((first, last, self.beyond[0]), (last, first, self.beyond[1])):
             if end in (0, len(self.frames) - 1):
                 if len(beyond):

@@ -9,6 +9,7 @@ from markermend.options.declaration import (
     Above,
     AtLeast,
     AtMost,
+    Count,
     CountOrNone,
     Factor,
     Laboratory,
@@ -26,6 +27,32 @@ from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.detection.published import PublishedStepsOptions
 from markermend.options.detection.residual_windows import ResidualWindowOptions
 from markermend.options.shape import ShapeOptions
+
+
+@dataclass(frozen=True)
+class SimilarPosesOptions:
+    """Compare the distances of a marker with those at similar poses at other times: what recurs with the pose is motion."""
+
+    neighbours: Count = 8
+    """Nearest neighbours to which the distances of a marker are compared, and whose distances among each other are the pose."""
+
+    poses: Count = 9
+    """The most similar poses from which the distances are predicted."""
+
+    min_poses: Annotated[int, AtLeast(1)] = 3
+    """Fewer of them predict nothing."""
+
+    sampling_interval_s: PositiveSeconds = 0.1
+    """Time from one pose that is looked at to the next."""
+
+    pose_tolerance_mm: PositiveMillimetres = 0.5
+    """Poses that differ by less are equally similar."""
+
+    distance_slope: NotNegative = 0.1
+    """By how much the distances of a marker may differ where the pose does, per mm of its root mean square difference."""
+
+    max_samples: Count = 8
+    """Frames of a stretch, evenly spaced, that are compared."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +146,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
 
     min_shape_deviation_mm: PositiveMillimetres = 0.5
     """No distance counts as steadier than this when levels are compared."""
+
+    similar_poses: SimilarPosesOptions = field(default_factory=SimilarPosesOptions)
+    """Comparison with similar poses at other times."""
 
     min_probability: Share = 0.95
     """Probability that a stretch is displaced rather than the stretches around it, or none, at least (0 to 1).

@@ -5,6 +5,7 @@ import pytest
 
 from markermend.core.shape import Shape
 from markermend.detection.neighbour.level_evidence import LevelEvidence
+from markermend.numerics import intervals
 from markermend.prediction.scene import Scene
 from support.residuals import STEPS
 
@@ -53,3 +54,17 @@ def test_nothing_is_said_of_what_is_missing():
     residual = nothing()
     residual[INSIDE] = np.nan
     assert LevelEvidence(scene, 0, residual, STEPS).log_ratio(SHIFT, INSIDE) == pytest.approx(0)
+
+
+@pytest.mark.parametrize(("times", "least", "most"), [(1, 0, 0), (4, -np.inf, -5)])
+def test_a_displacement_that_recurs_with_the_pose_is_motion(times, least, most):
+    frames = 4 * FRAMES
+    bend = np.sin(4 * np.pi * np.arange(frames) / frames) ** 2
+    noise = np.random.default_rng(5).normal(0, 0.1, (frames, *CORNERS.shape))
+    positions = np.broadcast_to(CORNERS, noise.shape) + noise
+    positions[:, 1, 0] += 40 * bend
+    displaced = [np.arange(*visit) for visit in intervals.runs(bend > 0.5)][:times]
+    positions[np.concatenate(displaced), 0] += SHIFT
+    scene = Scene(positions, 100.0, [np.arange(1, 5), *(np.zeros(0, int) for _ in range(4))])
+    recurrence = LevelEvidence(scene, 0, np.zeros((frames, 3)), STEPS).recurrence(SHIFT, displaced[0])
+    assert least <= recurrence <= most
