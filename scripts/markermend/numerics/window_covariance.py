@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -46,10 +47,7 @@ class WindowCovariance:
             Precision (size, size), 0 on polynomials, scaled such that the middle sample has a conditional standard
             deviation of 1 given the others.
         """
-        basis = _polynomial_complement(size, self.order)
-        inverse = basis @ np.linalg.inv(basis.T @ self.covariance[:size, :size] @ basis) @ basis.T
-        precision: np.ndarray = inverse / inverse[size // 2, size // 2]
-        return precision
+        return _precision(self, size)
 
     def degrees_of_freedom(self, size: int) -> int:
         """Count the degrees of freedom that polynomials leave to a window.
@@ -65,6 +63,16 @@ class WindowCovariance:
             Degrees of freedom of one axis.
         """
         return size - self.order - 1
+
+
+@lru_cache(maxsize=256)
+def _precision(covariance: WindowCovariance, size: int) -> np.ndarray:
+    """Precision of windows of a size, read-only; see `WindowCovariance.precision`."""
+    basis = _polynomial_complement(size, covariance.order)
+    inverse = basis @ np.linalg.inv(basis.T @ covariance.covariance[:size, :size] @ basis) @ basis.T
+    precision: np.ndarray = inverse / inverse[size // 2, size // 2]
+    precision.setflags(write=False)
+    return precision
 
 
 def sliding_windows(values: np.ndarray, size: int) -> np.ndarray:

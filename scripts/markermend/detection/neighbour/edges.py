@@ -71,9 +71,13 @@ def step_filters(covariance: WindowCovariance, size: int, offsets: tuple[int, ..
     step = np.clip((np.arange(size) - np.array(offsets)[:, None] + 1) / (ramp + 1), 0, 1)
     across = step @ precision
     information = (across * step).sum(axis=1)
-    rest = precision - across[:, :, None] * across[:, None, :] / information[:, None, None]
-    misfit_form = rest / (covariance.degrees_of_freedom(size) - 1)
-    return WindowFilters(np.array(offsets), across / information[:, None], information**-0.5, misfit_form)
+    return WindowFilters(
+        offsets=np.array(offsets),
+        weights=across / information[:, None],
+        deviation=information**-0.5,
+        precision=precision,
+        degrees_of_freedom=covariance.degrees_of_freedom(size) - 1,
+    )
 
 
 def find_edges(

@@ -39,8 +39,29 @@ class Pulse:
     deviation: np.ndarray
 
 
+@dataclass(frozen=True, eq=False)
+class PulseFilters(WindowFilters):
+    """Matched filters of a half wave, whose misfit is that of the samples outside of it, whatever its shape.
+
+    Attributes
+    ----------
+    inside : np.ndarray
+        The samples of the half wave (c, length).
+    """
+
+    inside: np.ndarray
+
+    def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
+        """Compute what samples of any size in place of the half wave explain; see `WindowFilters.explained`."""
+        inside = self.inside[filters] if len(self.inside) > 1 else self.inside
+        across = windows @ self.precision[inside].swapaxes(1, 2)
+        root = np.linalg.cholesky(self.precision[inside[:, :, None], inside[:, None]])
+        square: np.ndarray = (np.linalg.solve(root, across.swapaxes(1, 2)) ** 2).sum(axis=(1, 2))
+        return square
+
+
 @lru_cache(maxsize=512)
-def pulse_filters(covariance: WindowCovariance, length: int, size: int, offsets: tuple[int, ...]) -> WindowFilters:
+def pulse_filters(covariance: WindowCovariance, length: int, size: int, offsets: tuple[int, ...]) -> PulseFilters:
     """Make the matched filters of a half wave of sine.
 
     Parameters
@@ -56,21 +77,22 @@ def pulse_filters(covariance: WindowCovariance, length: int, size: int, offsets:
 
     Returns
     -------
-    WindowFilters
-        A filter for each offset. The misfit is that of the samples outside of the half wave, whatever its shape.
+    PulseFilters
+        A filter for each offset.
     """
     precision = covariance.precision(size)
     wave = np.sin(np.pi * (np.arange(length) + 0.5) / length)
-    weights, deviations, forms = [], [], []
-    for offset in offsets:
-        inside = slice(offset, offset + length)
-        across = precision[:, inside]
-        information = wave @ across[inside] @ wave
-        weights.append(across @ wave / information)
-        deviations.append(information**-0.5)
-        rest = precision - across @ np.linalg.solve(across[inside], across.T)
-        forms.append(rest / (covariance.degrees_of_freedom(size) - length))
-    return WindowFilters(np.array(offsets), np.array(weights), np.array(deviations), np.array(forms))
+    inside = np.array(offsets)[:, None] + np.arange(length)
+    across, block = precision[inside], precision[inside[:, :, None], inside[:, None]]
+    information = wave @ block @ wave
+    return PulseFilters(
+        offsets=np.array(offsets),
+        weights=wave @ across / information[:, None],
+        deviation=information**-0.5,
+        precision=precision,
+        degrees_of_freedom=covariance.degrees_of_freedom(size) - length,
+        inside=inside,
+    )
 
 
 @lru_cache(maxsize=512)

@@ -30,19 +30,60 @@ class WindowFilters:
         Generalised least-squares weights (c, n) that estimate the amplitude of the pattern.
     deviation : np.ndarray
         Standard deviation of the amplitude (c,) where the residual mean square is 1.
-    misfit_form : np.ndarray
-        Quadratic forms (c, n, n) that give the mean square remaining after the fit of the pattern.
+    precision : np.ndarray
+        Precision of the windows (n, n).
+    degrees_of_freedom : int
+        Those of one axis of a window after the fit.
     """
 
     offsets: np.ndarray
     weights: np.ndarray
     deviation: np.ndarray
-    misfit_form: np.ndarray
+    precision: np.ndarray
+    degrees_of_freedom: int
 
     @property
     def length(self) -> int:
         """Samples in a window."""
         return int(self.weights.shape[1])
+
+    def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
+        """Compute what the fit of the pattern explains of windows.
+
+        Parameters
+        ----------
+        windows : np.ndarray
+            Windows (i, axes, n), mm.
+        filters : np.ndarray
+            Index of the filter (i,) of each.
+
+        Returns
+        -------
+        np.ndarray
+            Square (i,) in units of the residual mean square.
+        """
+        amplitude = np.einsum("ian,in->ia", windows, self.weights[filters])
+        square: np.ndarray = ((amplitude / self.deviation[filters, None]) ** 2).sum(axis=1)
+        return square
+
+    def misfit(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
+        """Compute what remains of windows after the fit of the pattern.
+
+        Parameters
+        ----------
+        windows : np.ndarray
+            Windows (i, axes, n), mm.
+        filters : np.ndarray
+            Index of the filter (i,) of each.
+
+        Returns
+        -------
+        np.ndarray
+            Root mean square (i,), mm.
+        """
+        rest = ((windows @ self.precision) * windows).sum(axis=(1, 2)) - self.explained(windows, filters)
+        misfit: np.ndarray = np.sqrt(np.maximum(rest, 0) / (windows.shape[1] * self.degrees_of_freedom))
+        return misfit
 
 
 @dataclass(frozen=True)
@@ -100,49 +141,29 @@ class Exceedances:
     misfit: np.ndarray
 
 
-def window_misfit(residual: np.ndarray, window: int, form: np.ndarray) -> np.ndarray:
+def window_misfit(residual: np.ndarray, filters: WindowFilters) -> np.ndarray:
     """Compute the misfit of the window about each frame of one marker.
 
     Parameters
     ----------
     residual : np.ndarray
         Residual (frames, 3), mm, NaN = missing.
-    window : int
-        Samples in a window.
-    form : np.ndarray
-        Quadratic form (window, window).
+    filters : WindowFilters
+        One filter, of the pattern in the middle of the window.
 
     Returns
     -------
     np.ndarray
         Root mean square (frames,), mm: near a gap that of the nearest whole window, NaN in runs shorter than a window.
     """
+    window = filters.length
     misfit = np.full(len(residual), np.nan)
     for start, stop in runs(~np.isnan(residual[:, 0])):
         if stop - start >= window:
-            own = root_mean_form(sliding_windows(residual[start:stop], window), form)
+            windows = sliding_windows(residual[start:stop], window)
+            own = filters.misfit(windows, np.zeros(len(windows), int))
             misfit[start:stop] = own[np.clip(np.arange(stop - start) - window // 2, 0, len(own) - 1)]
     return misfit
-
-
-def root_mean_form(windows: np.ndarray, form: np.ndarray) -> np.ndarray:
-    """Take the root of a quadratic form of windows, averaged over the axes.
-
-    Parameters
-    ----------
-    windows : np.ndarray
-        Windows (i, 3, n), mm.
-    form : np.ndarray
-        One form (n, n) or one of each window (i, n, n).
-
-    Returns
-    -------
-    np.ndarray
-        Roots (i,), mm.
-    """
-    square = ((windows @ form) * windows).sum(axis=(1, 2)) / windows.shape[1]
-    root: np.ndarray = np.sqrt(np.maximum(square, 0))
-    return root
 
 
 def context_samples(rate: float, options: ResidualWindowOptions, *, min_samples: int) -> int:
@@ -251,7 +272,7 @@ def exceedances(
     at, which = np.nonzero((amplitude**2).sum(axis=2) > (fraction * options.floor_mm) ** 2)
     amplitude = amplitude[at, which]
     own = recorded_part(np.einsum("ian,in->ia", positions[at], filters.weights[which]), amplitude)
-    misfit = root_mean_form(residual[at], filters.misfit_form[which])
+    misfit = filters.misfit(residual[at], which)
     frame = span.start + at + filters.offsets[which]
     noise = np.hypot(misfit, statistics.local_scale[frame, marker])
     score = own / np.maximum(options.threshold_sigmas * noise * filters.deviation[which], options.floor_mm)

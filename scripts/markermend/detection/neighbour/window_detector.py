@@ -108,9 +108,9 @@ class WindowDetector(ABC):
         self, residual: np.ndarray, covariance: WindowCovariance, misfit: np.ndarray, markers: Sequence[int]
     ) -> ResidualStatistics:
         """Statistics with the misfits (frames, markers) of some markers written anew."""
-        form = self.central_filter(covariance).misfit_form[0]
+        central = self.central_filter(covariance)
         for m in markers:
-            misfit[:, m] = residual_windows.window_misfit(residual[:, m], self.window, form)
+            misfit[:, m] = residual_windows.window_misfit(residual[:, m], central)
         local_scale = residual_scale.local_scale(
             misfit,
             self.scene.neighbours,

@@ -73,16 +73,19 @@ def test_the_misfit_about_a_frame_is_that_of_the_window_around_it_or_of_the_near
     residual[20:22] = np.nan
     residual[40] = np.nan
     size = 12
-    form = WindowCovariance(np.eye(size), 2).precision(size) / 9
-    misfit = residual_windows.window_misfit(residual, size, form)
+    covariance = WindowCovariance(np.eye(size), 2)
+    filters = pulses.pulse_filters(covariance, 2, size, (5,))
+    misfit = residual_windows.window_misfit(residual, filters)
     assert np.array_equal(np.isnan(misfit), np.isnan(residual[:, 0]))
     for start, stop in ((0, 20), (22, 40), (41, 60)):
         for frame in range(start, stop):
             first = min(max(frame - size // 2, start), stop - size)
             window = residual[first : first + size]
-            expected = np.sqrt(np.mean([axis @ form @ axis for axis in window.T]))
+            pattern = np.zeros(size)
+            pattern[5:7] = np.sin(np.pi * np.array([0.25, 0.75]))
+            expected = naive.statistic(window, window, pattern, covariance, free=range(5, 7))[2]
             assert misfit[frame] == pytest.approx(expected)
-    assert np.isnan(residual_windows.window_misfit(residual[:11], size, form)).all()
+    assert np.isnan(residual_windows.window_misfit(residual[:11], filters)).all()
 
 
 @pytest.mark.parametrize(("start", "stop"), [(0, 30), (7, 19)])
