@@ -144,16 +144,29 @@ class ForeignSearch:
         off = np.nan_to_num(self.evidence.usual_likelihood[m] - likelihood, nan=np.inf)
         fitting = np.flatnonzero(off < options.max_onset_misfit)
         departed = int(fitting[-1]) + 1 if len(fitting) else 0
-        moving = self._speed_misfit(m, start, start + departed + 1) >= options.max_onset_misfit
-        # It may have come to rest by now.
-        return next((start + first for first, _ in reversed(list(runs(moving)))), start + departed)
+        moving = runs(self._speed_misfit(m, start, start + departed + 1) >= options.max_onset_misfit)
+        # It may have come to rest by now; by noise alone it does not come to another place.
+        falls = [begin for begin, end in moving if end > departed or self._moved(m, start, (begin, end), departed)]
+        return start + (falls[-1] if falls else departed)
+
+    def _moved(self, m: int, start: int, run: tuple[int, int], stop: int) -> bool:
+        """Whether a marker is elsewhere after a run of frames than before, by its distances; frames are counted from start."""
+        distances = self._distances(m)[start : start + stop]
+        before, after = distances[: run[0]], distances[run[1] :]
+        known = ~np.isnan(before).all(axis=0) & ~np.isnan(after).all(axis=0)
+        change = np.abs(np.nanmedian(after[:, known], axis=0) - np.nanmedian(before[:, known], axis=0))
+        return not known.any() or bool(np.median(change) > self.evidence.options.max_still_mm)
+
+    def _distances(self, m: int) -> np.ndarray:
+        """Distances (frames, anchors) of a marker to those by which it is judged, mm."""
+        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, self.evidence.options.shape).anchors(m)
+        distances: np.ndarray = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)
+        return distances
 
     def _speed_misfit(self, m: int, start: int, stop: int) -> np.ndarray:
         """Loss of log likelihood (stop - start,) of the speeds at which the distances of a marker change, against usual ones."""
         options = self.evidence.options
-        anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
-        distance = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)
-        speed = np.abs(np.diff(distance, axis=0, prepend=np.nan)) * self.rate
+        speed = np.abs(np.diff(self._distances(m), axis=0, prepend=np.nan)) * self.rate
         known = ~np.isnan(speed).all(axis=0)
         scale = robust.MAD_TO_STD * np.nanmedian(speed[:, known], axis=0)
         square = (speed[start:stop, known] / np.maximum(scale, options.min_onset_speed)) ** 2

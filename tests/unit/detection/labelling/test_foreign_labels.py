@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.recording import Recording
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
@@ -51,6 +52,19 @@ def test_a_marker_that_falls_and_lies_on_the_floor_to_the_end(walker, name):
     ((found, start, stop, kind),) = find(walker.recording, positions)
     assert (found, stop, kind) == (name, 1200, "foreign")
     assert 770 <= start <= 815
+
+
+@pytest.mark.parametrize("seed", [1, 4])
+def test_a_marker_that_stays_where_it_was_while_the_others_move_on(seed):
+    """What is taken away begins when its distances change, not when noise changed them last."""
+    rng, frame = np.random.default_rng(seed), np.arange(300)
+    body, path = rng.uniform(-200, 200, (10, 3)), np.stack([1.5 * frame, 300 * np.sin(frame / 40), 0 * frame], axis=1)
+    positions = body + path[:, None] + rng.normal(0, 0.8, (300, 10, 3))
+    positions[250:, 4] = positions[250, 4]
+    recording = Recording(tuple(f"M{i}" for i in range(10)), positions, 100.0)
+    ((found, start, stop, kind),) = find(recording, positions)
+    assert (found, stop, kind) == ("M4", 300, "foreign")
+    assert 249 <= start <= 253
 
 
 @pytest.mark.parametrize("name", ["LTHI", "RWRA", "CLAV"])
