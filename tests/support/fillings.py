@@ -53,11 +53,11 @@ def fill_options(averaging=None, **changed):
     return replace(default, **changed)
 
 
-def fill(recording, near, *, decisions=(), **changed):
+def fill(recording, near, *, decisions=(), repairs=(), **changed):
     """Fill a recording with given neighbours, with some options of filling or of the averaging changed."""
     options = fill_options(**changed)
     seen = Scene(recording.positions, recording.rate, near)
-    return fill_scene(recording, seen, make_ensembles(options, decisions), options, decisions)
+    return fill_scene(recording, seen, make_ensembles(options, decisions), options, decisions, repairs)
 
 
 def neighbours(positions):

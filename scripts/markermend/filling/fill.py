@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from markermend.core.changes import GAP, Change, MemberWeight, Outcome, TreatedRecording, largest
 from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
@@ -14,6 +16,7 @@ from markermend.filling.fill_ensembles import Ensembles, make_ensembles
 from markermend.filling.fill_plan import FillPlan, plan_filling
 from markermend.filling.gap_filler import FilledGaps, GapFiller
 from markermend.filling.growing_scene import GrowingScene
+from markermend.numerics.intervals import samples
 from markermend.options.filling import FillOptions
 from markermend.prediction.scene import Scene
 
@@ -81,6 +84,7 @@ def fill_scene(
     TreatedRecording
         The recording after filling, and the outcome of every gap.
     """
+    scene = replace(scene, near_jumps=_near_jumps(restored, repairs, options.ensemble.jump_margin_s))
     blanked = frozenset(change.marker for change in repairs if change.outcome is Outcome.BLANKED)
     plan = plan_filling(restored, options, decisions=decisions, methods=ensembles.single, blanked=blanked)
     ensembles.default.train([(scene, marker) for marker in sorted({gap.marker for gap in plan.ordinary})])
@@ -96,6 +100,17 @@ def fill_scene(
         batches.append(filler(ensemble, None).fill(growing.copy(), gaps))
     recording = _write(restored, batches)
     return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
+
+
+def _near_jumps(restored: Restored, repairs: Sequence[Change], margin_s: float) -> np.ndarray | None:
+    """Bool (frames, markers): frames near the borders of findings that were left; None where none was."""
+    left = [change for change in repairs if change.outcome is Outcome.LEFT]
+    margin = samples(margin_s, restored.rate)
+    near = np.zeros((restored.frames, len(restored.markers)), bool)
+    for change in left:
+        for border in (change.start, change.stop):
+            near[max(0, border - margin) : border + margin, restored.markers.index(change.marker)] = True
+    return near if left else None
 
 
 def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:

@@ -60,8 +60,8 @@ def pseudo_gaps(scene: Scene, gap: Gap, *, count: int, hidden_share: float, neig
     """Hide stretches as long as a gap, spread over the frames where the marker is seen.
 
     A pseudo-gap lies where the marker is seen at both borders. Where the marker is nowhere seen for as long as the gap,
-    pseudo-gaps are two thirds as long as the longest stretch. Where there is room, they lie where no nearest neighbour
-    is missing that is seen throughout the gap.
+    pseudo-gaps are two thirds as long as the longest stretch. Where there is room, they lie where the marker is not known to
+    jump nearby, and where no nearest neighbour is missing that is seen throughout the gap.
 
     Samples of other markers that are missing during the gap are missing at the same offsets of a pseudo-gap. Samples
     that were filled earlier are displaced at random by their inherited standard deviation. A gap at an end of the
@@ -155,11 +155,15 @@ def scene_count(starts: np.ndarray, *, distance: int, max_per_scene: int) -> int
 
 
 def _possible_starts(scene: Scene, marker: int, length: int) -> np.ndarray:
-    """First frames of the stretches of a length over which, and at whose borders, the marker is seen."""
+    """First frames of the stretches of a length over which, and at whose borders, the marker is seen, not near a jump if possible."""
     seen = np.concatenate([[0], np.cumsum(scene.present[:, marker])])
     starts = np.arange(1, len(scene.positions) - length)
     free: np.ndarray = starts[seen[starts + length + 1] - seen[starts - 1] == length + 2]
-    return free
+    if scene.near_jumps is None:
+        return free
+    near = np.concatenate([[0], np.cumsum(scene.near_jumps[:, marker])])
+    smooth = free[near[free + length] == near[free]]
+    return smooth if len(smooth) else free
 
 
 def _equally_seen(scene: Scene, gap: Gap, starts: np.ndarray, length: int, neighbours: int) -> np.ndarray:

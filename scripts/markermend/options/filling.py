@@ -108,6 +108,9 @@ class EnsembleOptions:
 
     Change it when you trade time for accuracy (higher is slower)."""
 
+    jump_margin_s: Seconds = 0.1
+    """Time that these keep from the borders of findings that were left as measured, at which a marker may jump."""
+
     max_hidden_share: Share = 0.2
     """Share of a marker's samples that is hidden at once for pseudo-gaps, which then share one training (0 to 1; smaller is slower)."""
 

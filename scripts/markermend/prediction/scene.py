@@ -44,6 +44,9 @@ class Scene:
         For each segment the indices of its markers; None without a mesh.
     unlabelled : Mapping[str, np.ndarray] | None
         Positions of the unlabelled trajectories (frames, 3), mm, NaN = missing, by name; None without a mesh.
+    near_jumps : np.ndarray | None
+        Frames near those at which a marker is known to jump, bool (frames, markers): about the borders of what was found and
+        left; None where nothing was left.
     """
 
     positions: np.ndarray
@@ -55,6 +58,7 @@ class Scene:
     shape: Shape | None = None
     segments: Mapping[str, np.ndarray] | None = None
     unlabelled: Mapping[str, np.ndarray] | None = None
+    near_jumps: np.ndarray | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.core.changes import Outcome
+from markermend.core.changes import Change, Outcome
 from markermend.core.decisions import EVER, Decision
 from markermend.core.reasons import Cause
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS
@@ -286,3 +286,18 @@ class TestDecisions:
         result = fill_decided(person, recording, accept, max_error_mm=limit)
         assert (result.origin[GAP[1] : GAP[2], MARKER] == FILLED).all()
         assert (result.origin[400:430, MARKER] == MISSING).all()
+
+
+def test_jumps_that_were_left_do_not_make_other_gaps_uncertain(person):
+    """All markers jump at one frame, which is reported and left; a gap elsewhere is no less certain for it."""
+    recording = gapped(person, *((m, 150, 152) for m in range(len(person[1]))))
+    usual = changes_of(recording, person[2])
+    recording.positions[300:] += [0.0, 40.0, 0.0]
+    left = [
+        Change(marker, 300, len(recording.positions), ("shift",), Outcome.LEFT, 1.0, "y", None)
+        for marker in recording.markers
+    ]
+    result = changes_of(recording, person[2], repairs=left).recording
+    missing = recording.missing
+    assert np.nanmax(result.error[missing]) < 2 * np.nanmax(usual.recording.error[missing])
+    assert not np.isnan(result.positions).any()

@@ -142,3 +142,17 @@ def test_trials_share_a_scene_only_while_they_leave_enough_to_learn_from(walker)
             own = [trial for trial in trials if trial.scene is each]
             assert np.count_nonzero(~each.present[:, 7]) == 40 * len(own)
             assert share == 0 or 40 * len(own) <= share * 500
+
+
+def test_pseudo_gaps_keep_from_jumps_where_there_is_room(walker):
+    positions = walker.recording.positions[:400].copy()
+    positions[200:203, 7] = np.nan
+    near = np.zeros(positions.shape[:2], bool)
+    near[100:300, 7] = True
+    trials = pseudo_gaps(
+        replace(scene(positions), near_jumps=near), Gap(7, 200, 203), count=20, hidden_share=0.2, neighbours=3
+    )
+    assert not any(near[trial.gap.start : trial.gap.stop, 7].any() for trial in trials)
+    near[:, 7] = True
+    everywhere = replace(scene(positions), near_jumps=near)
+    assert pseudo_gaps(everywhere, Gap(7, 200, 203), count=5, hidden_share=0.2, neighbours=3)

@@ -13,7 +13,7 @@ from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.pieces import Piece, assigned
 from markermend.detection.labelling.unlabelled import UnlabelledSearch
-from markermend.numerics.intervals import runs
+from markermend.numerics.intervals import runs, samples
 
 
 def find_misplaced_pieces(
@@ -63,7 +63,7 @@ def _broken_pieces(search: UnlabelledSearch, markers: Sequence[str]) -> Iterator
     """Pieces between gaps whose distances go on on neither side, as recorded, with the index of the label of each."""
     options, frames = search.evidence.options, len(search.positions)
     under = search.evidence.tracks.under
-    shortest = round(options.unlabelled.min_duration_s * search.rate)
+    shortest = samples(options.unlabelled.min_duration_s, search.rate)
     for m, marker in enumerate(markers):
         for start, stop in runs(search.seen[:, m]):
             inside = start > 0 and stop < frames and stop - start >= shortest
