@@ -3,8 +3,8 @@
 Jitter changes from frame to frame, wobble is an oscillation of several Hz. Both are too small for any single change to be
 conspicuous, so the root mean square over a window is judged: by how much it exceeds what is usual of this marker while its
 neighbours move and fit as they do now, and by how much it exceeds the motion of the neighbours in the same band. At an impact
-the neighbours are shaken as well. How much of either is usual is estimated from the recording, as a quantile over all markers.
-Only what is in the trajectory as recorded counts: the artifact of a neighbour is in the residual alone.
+the neighbours are shaken as well. How much of either is usual is estimated from the recording, as a quantile over all markers; the
+threshold rises with the number of windows in the recording, as the largest of many does (Coles 2001, section 3.1). Only what is in the trajectory as recorded counts: the artifact of a neighbour is in the residual alone.
 """
 
 from __future__ import annotations
@@ -103,29 +103,26 @@ class BandDetector:
 
     def _score(self, residual_size: np.ndarray, size: np.ndarray) -> np.ndarray:
         """Size of shaking (frames, markers) in units of its threshold, 0 where there is none."""
-        options = self._options
+        options, scene = self._options, self._scene
         # In the residuals of neighbours the artifact of the marker itself must not count as their own.
-        level = np.array(
-            [np.median(own[~np.isnan(own)]) if (~np.isnan(own)).any() else MIN_SIZE for own in residual_size.T]
+        level = residual_scale.low_levels(residual_size, options.level_quantile, min_level=MIN_SIZE)
+        rise = residual_scale.fitted_rise(
+            np.maximum(size, level) / level, scene.neighbours, self._motion[None], count=options.scale_neighbours
         )
-        usual = residual_scale.fitted_scale(
-            np.maximum(size, np.maximum(level, MIN_SIZE)),
-            self._scene.neighbours,
-            self._motion[None],
-            count=options.scale_neighbours,
-            window=1,
-            min_scale=MIN_SIZE,
-        )
-        score = size / np.maximum(options.floor_mm, options.min_motion_ratio * self._motion)
+        usual = level * rise
         known = ~np.isnan(size)
+        relative = np.full(size.shape, np.inf)
         for reference in (usual, np.maximum(self._motion, usual)):
-            relative = size / reference
-            often = float(np.quantile(relative[known], options.tail_quantile)) if known.any() else 1.0
-            score = np.minimum(score, relative / (options.threshold_factor * max(often, 1e-9)))
-        score[
-            seen_share(self._scene.present, self._scene.neighbours, options.scale_neighbours) < options.min_seen_share
-        ] = 0
-        return np.nan_to_num(score)
+            often = float(np.quantile((size / reference)[known], options.tail_quantile)) if known.any() else 1.0
+            relative = np.minimum(relative, size / reference / max(often, 1e-9))
+        windows = max(1.0, known.sum() / samples(options.min_duration_s, scene.rate))
+        score = np.minimum(
+            size / np.maximum(options.floor_mm, options.min_motion_ratio * self._motion),
+            relative / (options.threshold_factor * windows**options.tail_index),
+        )
+        score[seen_share(scene.present, scene.neighbours, options.scale_neighbours) < options.min_seen_share] = 0
+        found: np.ndarray = np.nan_to_num(score)
+        return found
 
     def _stretches(
         self, size: np.ndarray, score: np.ndarray, shaking: np.ndarray, residual: np.ndarray

@@ -52,6 +52,31 @@ def local_scale(
     return scale
 
 
+def low_levels(size: np.ndarray, quantile: float, *, min_level: float) -> np.ndarray:
+    """Estimate the usual size of each marker from a low quantile: in a short recording an artifact may last half of the time.
+
+    Parameters
+    ----------
+    size : np.ndarray
+        Sizes (frames, markers), NaN = missing.
+    quantile : float
+        The quantile (0 to 1).
+    min_level : float
+        Smallest level, in the unit of the sizes.
+
+    Returns
+    -------
+    np.ndarray
+        Levels (markers,): the quantile, times what the median usually is in units of it.
+    """
+    low, median = np.full((2, size.shape[1]), min_level)
+    for m, own in enumerate(size.T):
+        if (~np.isnan(own)).any():
+            low[m], median[m] = np.maximum(np.quantile(own[~np.isnan(own)], (quantile, 0.5)), min_level)
+    levels: np.ndarray = low * np.median(median / low)
+    return levels
+
+
 def neighbour_motion(
     positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, count: int, smoothing: int
 ) -> np.ndarray:
@@ -125,25 +150,54 @@ def fitted_scale(
     np.ndarray
         Scale (frames, markers), in the unit of the sizes.
     """
-    from scipy.optimize import nnls  # slow to import
-
     if not size.size:
         return np.full(size.shape, min_scale)
     local = np.sqrt(np.maximum(moving_mean(size**2, window), 1e-6))
     level = np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in local.T)])
-    relative = np.nan_to_num(local / level, nan=1.0)
-    kinds = [np.ones(size.shape), *(moving_mean(kind, window) + 1.0 for kind in motion)]
+    smoothed = np.array([moving_mean(kind, window) for kind in motion])
+    rise = fitted_rise(local / level, neighbours, smoothed, count=count, step=max(1, window // 2))
+    scale: np.ndarray = np.maximum(level * rise, min_scale)
+    return scale
+
+
+def fitted_rise(
+    relative: np.ndarray, neighbours: Sequence[np.ndarray], motion: np.ndarray, *, count: int, step: int = 1
+) -> np.ndarray:
+    """Fit how sizes rise above the level of each marker with the motion of the neighbours and with their own rise.
+
+    Parameters
+    ----------
+    relative : np.ndarray
+        Sizes in units of the level of each marker (frames, markers), NaN = missing.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    motion : np.ndarray
+        Kinds of motion (kinds, frames, markers), see `neighbour_motion`.
+    count : int
+        Number of nearest neighbours.
+    step : int
+        Every nth frame is used for the fit.
+
+    Returns
+    -------
+    np.ndarray
+        Expected size in units of the level (frames, markers).
+    """
+    from scipy.optimize import nnls  # slow to import
+
+    known = np.nan_to_num(relative, nan=1.0)
+    kinds = [np.ones(relative.shape), *(kind + 1.0 for kind in motion)]
     for m, around in enumerate(neighbours):
         if len(around):
-            kinds[0][:, m] = np.quantile(relative[:, np.asarray(around, int)[:count]], NEIGHBOUR_QUANTILE, axis=1)
+            kinds[0][:, m] = np.quantile(known[:, np.asarray(around, int)[:count]], NEIGHBOUR_QUANTILE, axis=1)
     regressors = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
-    some = slice(None, None, max(1, window // 2))
-    seen = ~np.isnan(local[some])
-    exponents, _ = (
-        nnls(regressors[some][seen], np.log(relative[some][seen])) if seen.any() else (np.zeros(len(kinds)), 0)
-    )
-    scale: np.ndarray = np.maximum(level * np.exp(regressors @ exponents), min_scale)
-    return scale
+    some = slice(None, None, step)
+    seen = ~np.isnan(relative[some])
+    if not seen.any():
+        return np.ones(relative.shape)
+    exponents, _ = nnls(regressors[some][seen], np.log(known[some][seen]))
+    rise: np.ndarray = np.exp(regressors @ exponents)
+    return rise
 
 
 def moving_mean(values: np.ndarray, window: int) -> np.ndarray:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import Annotated
 
 from markermend.options.declaration import (
-    AtLeast,
     Count,
     CountOrNone,
     Factor,
@@ -79,13 +78,19 @@ class ExcessVarianceOptions:
 
     Change it when shaking too small to matter to you is reported (higher)."""
 
-    threshold_factor: Annotated[float, AtLeast(1)] = 1.8
-    """Smallest root mean square, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours.
+    threshold_factor: Positive = 0.55
+    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours.
 
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
-    tail_quantile: Share = 0.95
+    tail_index: Share = 0.2
+    """The threshold rises with this power of the number of windows in the recording, as the largest of many does."""
+
+    tail_quantile: Share = 0.9
     """Share of the recording's samples that do not exceed that size (0 to 1)."""
+
+    level_quantile: Share = 0.25
+    """The quantile of a marker's root mean squares from which its usual one is estimated (0 to 1): it may shake half of the time."""
 
     scale_neighbours: Count = 6
     """Nearest neighbours whose residuals set what is usual at the time."""
@@ -119,11 +124,11 @@ class WobbleOptions(ExcessVarianceOptions):
     window_s: PositiveSeconds = 0.3
     """Window of the root mean square."""
 
-    min_duration_s: PositiveSeconds = 0.6
+    min_duration_s: PositiveSeconds = 0.5
     """Shortest time for which the threshold is exceeded."""
 
-    threshold_factor: Annotated[float, AtLeast(1)] = 1.4
-    """Smallest root mean square, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours."""
+    threshold_factor: Positive = 0.4
+    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours."""
 
     band_hz: tuple[Positive, Positive] = (5, 13)
     """The band of frequencies: one for all, since a wobble that varies has its power at several at a time.

@@ -81,6 +81,20 @@ def test_wobble_is_found_in_its_band(still):
     assert found[1][0].axes.argmax() == 2
 
 
+def test_wobble_is_found_that_lasts_more_than_half_of_a_short_recording(still):
+    still[30:150, 1, 2] += 2 * np.sin(2 * np.pi * 8.0 * np.arange(120) / RATE)
+    assert [len(own) for own in find_wobble(still[:200])] == [0, 1, 0, 0, 0, 0]
+
+
+def test_the_threshold_rises_with_the_length_of_the_recording(still):
+    wobble = np.concatenate([np.zeros(100), np.sin(2 * np.pi * 8.0 * np.arange(120) / RATE), np.zeros(100)])
+    longer = np.random.default_rng(2).normal(0, 0.2, (20000, 6, 3))
+    still[:320, 1, 2] += 1.5 * wobble
+    longer[:320] = still[:320]
+    (short,), (long,) = find_wobble(still[:320])[1], find_wobble(longer)[1]
+    assert long.score < short.score
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_wobble_of_several_frequencies_along_all_axes_is_found(still, seed):
     """Waves of different frequencies beat: their size varies, and no frequency has most of the power."""

@@ -48,3 +48,17 @@ def test_motion_is_that_of_the_neighbours():
     assert speed[100, 0] == pytest.approx(150) and acceleration[100, 0] == pytest.approx(0, abs=1e-6)
     assert acceleration[100, 1] == pytest.approx(2000 / np.sqrt(2))
     assert not speed[:, 2].any() and np.isfinite(speed).all()
+
+
+def test_low_levels_do_not_follow_an_artifact_of_half_of_the_recording():
+    size = np.abs(np.random.default_rng(4).normal(0, 1.0, (400, 5)))
+    size[100:340, 2] += 8.0
+    size[:50, 3] = np.nan
+    levels = residual_scale.low_levels(size, 0.25, min_level=0.01)
+    np.testing.assert_allclose(levels[[0, 1, 3, 4]], 0.67, atol=0.2)
+    assert levels[2] < 3 < np.median(size[:, 2])
+
+
+def test_low_levels_of_markers_that_are_never_seen_or_fit_exactly_are_the_smallest():
+    size = np.stack([np.full(50, np.nan), np.zeros(50)], axis=1)
+    np.testing.assert_array_equal(residual_scale.low_levels(size, 0.25, min_level=0.01), 0.01)
