@@ -43,6 +43,8 @@ def repair_finding(
     if reason:
         if reason.cause in (Cause.SEVERAL_CLASSES, Cause.TOO_LONG) and not ruling.confirmed:
             reason, blank = _unless_as_expected(reason, event, maker, result)
+        elif (end := _end_lost(finding, maker)) and not ruling.confirmed:
+            reason, blank = replace(reason, text=f"{reason.text}; kept: nothing fills the recording's {end}"), False
         else:
             blank = True
         result.leave(event, names_of(finding.classes), reason, ruling, blank=blank)
@@ -60,6 +62,15 @@ def _not_to_be_repaired(finding: Finding, ruling: Ruling) -> Reason | None:
     if len(finding.members) > 1 and not ruling.method:
         return Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once")
     return None
+
+
+def _end_lost(finding: Finding, maker: CandidateMaker) -> str | None:
+    """The end of the recording at which all markers would be missing; gaps there are not filled."""
+    if any(artifact.scope != "recording" for artifact in finding.classes):
+        return None
+    if finding.event.start <= 1:
+        return "start"
+    return "end" if finding.event.stop == len(maker.positions) else None
 
 
 def _too_long(event: Event, maker: CandidateMaker) -> Reason | None:

@@ -232,3 +232,19 @@ def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
     assert np.array_equal(result.positions[~covered], recording.positions[~covered])
     (left,) = result.repairs_left
     assert left.kind == "peak+slow" and left.outcome == "blanked"
+
+
+@pytest.mark.parametrize(("where", "kept"), [("start", True), ("end", True), ("middle", False)])
+def test_frames_that_repeat_at_an_end_stay_as_recorded(clean, where, kept):
+    """No gap is filled there: all markers would be lost."""
+    frames = len(clean.positions)
+    start, stop = {"start": (1, 4), "end": (frames - 3, frames), "middle": (500, 503)}[where]
+    recording = bodies.recording(clean.markers, clean.positions.copy())
+    recording.positions[start:stop] = recording.positions[start - 1]
+    events = [Event(marker, start, stop, 1.0, kind="repeat", group="all markers") for marker in clean.markers]
+    result = mend(recording, {"frames": events})
+    assert np.array_equal(result.positions, recording.positions) == kept
+    assert {(left.kind, left.outcome) for left in result.repairs_left} == {("repeat", "left" if kept else "blanked")}
+    assert (f"nothing fills the recording's {where}" in result.repairs_left[0].reason.text) == kept
+    decided = mend(recording, {"frames": events}, decisions=[Decision("*", start, stop, "accept", "repeat")])
+    assert np.isnan(decided.positions[start:stop]).all()
