@@ -20,7 +20,7 @@ from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.foreign_labels import ForeignSearch
 from markermend.detection.labelling.levels import relabel_by_level
 from markermend.detection.labelling.misplaced_pieces import find_misplaced_pieces
-from markermend.detection.labelling.one_spot import OneSpotSearch
+from markermend.detection.labelling.one_spot import OneSpotSearch, shared_spots
 from markermend.detection.labelling.open_exchanges import (
     long_exchanges,
     open_exchanges,
@@ -158,6 +158,7 @@ def label_warnings(
     warnings = open_exchanges(scene, found.events, markers=markers, options=options)
     warnings += long_exchanges(found.events, scene=scene, limit=options.max_exchanged_share)
     warnings += undecided_exchanges(found.undecided, warned=warnings, scene=scene)
+    warnings += shared_spots(scene.positions, markers=markers, options=options)
     return warnings + unlabelled_samples(found.events, first_frame=first_frame)
 
 

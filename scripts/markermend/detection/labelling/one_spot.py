@@ -13,6 +13,7 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.numerics.intervals import runs
+from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.shape_evidence import ShapeEvidence
 
 
@@ -97,3 +98,34 @@ class OneSpotSearch:
             return None
         first, second = np.nanmean(misfit, axis=0)
         return a if first > second else b
+
+
+def shared_spots(positions: np.ndarray, *, markers: Sequence[str], options: LabelsOptions) -> list[str]:
+    """Warn of labels that are on one marker nearly throughout a recording, so that nothing says which of them is right.
+
+    Parameters
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing.
+    markers : Sequence[str]
+        Names of the markers.
+    options : LabelsOptions
+        How near to each other, and for how long, no two markers are.
+
+    Returns
+    -------
+    list[str]
+        One sentence at most, with the pairs.
+    """
+    rows = positions[:: max(1, len(positions) // options.open_frames)]
+    pairs = []
+    for a in range(len(markers) - 1):
+        distance = np.linalg.norm(rows[:, a + 1 :] - rows[:, a, None], axis=2)
+        together = np.count_nonzero(distance < options.max_one_spot_mm, axis=0)
+        seen = np.count_nonzero(~np.isnan(distance), axis=0)
+        shared = (together >= options.min_one_spot_frames) & (together >= options.min_one_spot_share * seen)
+        pairs += [f"{markers[a]} and {markers[b]}" for b in (a + 1 + np.flatnonzero(shared)).tolist()]
+    if not pairs:
+        return []
+    near = f"nearer to each other than {options.max_one_spot_mm:g} mm throughout"
+    return [f"labels that may be on one marker, {near}: {', '.join(pairs)}"]

@@ -176,6 +176,10 @@ class LabelsOptions:
     min_one_spot_frames: Count = 3
     """Frames in a row in which two labels are on one marker, at least."""
 
+    min_one_spot_share: Share = 0.9
+    """Share of the frames in which both are seen (0 to 1) from which two labels on one marker are only warned of: nothing says which
+    of them is right."""
+
     fall_s: Seconds = 0.7
     """Longest time in which a marker falls off."""
 

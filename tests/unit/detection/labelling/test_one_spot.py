@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.detection.labelling.one_spot import shared_spots
 from markermend.detection.labels import detect_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
@@ -56,3 +57,16 @@ def test_points_that_are_always_on_one_spot_are_no_fault(walker):
         positions=np.concatenate([positions, positions[:, [walker.recording.markers.index("LTHI")]]], axis=1),
     )
     assert find(doubled, doubled.positions) == []
+
+
+@pytest.mark.parametrize(("share", "warned"), [(1.0, True), (0.95, True), (0.6, False), (0.0, False)])
+def test_labels_on_one_marker_throughout_are_warned_of(walker, share, warned):
+    markers, positions = walker.recording.markers, walker.recording.positions.copy()
+    a, b = markers.index("LTHI"), markers.index("LKNE")
+    positions[: int(share * len(positions)), b] = positions[: int(share * len(positions)), a] + 0.5
+    positions[100:110, a] = np.nan
+    warnings = shared_spots(positions, markers=markers, options=LabelsOptions())
+    assert warnings == warned * [
+        "labels that may be on one marker, nearer to each other than 3 mm throughout: "
+        + " and ".join(sorted(("LTHI", "LKNE"), key=markers.index))
+    ]
