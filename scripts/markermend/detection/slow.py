@@ -22,6 +22,7 @@ from markermend.detection.neighbour.drifts.matched import MatchedDrifts
 from markermend.detection.neighbour.drifts.regression import DriftRegression
 from markermend.detection.neighbour.drifts.scores import DriftScorer
 from markermend.detection.neighbour.drifts.smallest import SmallestDriftPredictor
+from markermend.detection.neighbour.lasting.creeps import EstimatedCreeps
 from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.slow import SlowOptions
 from markermend.prediction.interface import ScaledResidualSource
@@ -61,7 +62,9 @@ def detect_slow(
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
     changes = SlowChanges.fit(rest, options, source)
-    lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers)
+    estimated = EstimatedCreeps(changes.estimated, options.displacement)
+    proposed = {m: course for m in range(len(markers)) if (course := estimated.course(m)) is not None}
+    lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers, proposed)
     drifts = not_explained(
         changes.find(markers), lasting, frames=len(earlier), moments=True, options=options.displacement
     )

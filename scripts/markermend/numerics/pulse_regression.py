@@ -40,8 +40,8 @@ class PulseResponses:
 
     @property
     def statistic(self) -> np.ndarray:
-        """Lengths of the heights in standard deviations (places,)."""
-        statistic: np.ndarray = np.linalg.norm(self.height, axis=1) / self.deviation
+        """Lengths of the heights in standard deviations, like these."""
+        statistic: np.ndarray = np.linalg.norm(self.height, axis=-1) / self.deviation
         return statistic
 
 

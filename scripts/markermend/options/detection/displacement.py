@@ -57,6 +57,15 @@ class DisplacementOptions:
     min_creep_explained_share: Annotated[float, Above(0), Below(1)] = 0.8
     """The same of a creep, which a slow change of pose resembles (0 to 1)."""
 
+    estimated_rise_durations_s: Annotated[tuple[PositiveSeconds, ...], NotEmpty] = (1, 1.5, 2, 3, 4)
+    """Durations of creeps whose height is estimated together with the regression."""
+
+    creep_threshold_sigmas: Positive = 7
+    """Such a creep stands out if its height is so many of its standard deviations, at least."""
+
+    min_estimated_explained_share: Annotated[float, Above(0), Below(1)] = 0.65
+    """Share of the variance that the pose leaves unexplained which such a creep must explain, at least (0 to 1)."""
+
     min_independent_variance: NotNegative = 0.015
     """Variance of the course of the displacement (0 before, 1 after) that the pose does not explain, at least: where poses
     before and after are unlike, there is nothing to compare."""
