@@ -108,3 +108,15 @@ def test_the_other_recordings_say_that_most_of_a_trial_is_exchanged(data, pairs,
     damaged, clean = exchange(trial, pairs, start, trial.frames, gap=gap)
     found, others = undone(damaged, *session)
     assert np.array_equal(found, clean, equal_nan=True) and not others
+
+
+@pytest.mark.data
+def test_close_markers_are_not_exchanged_throughout_on_little_evidence(data):
+    names = [path.stem for path in sorted((data / "sessions" / "expert1").iterdir())]
+    session = {name: api.read(data / "sessions" / "expert1" / f"{name}.trc", subject="expert1") for name in names}
+    trial = session.pop("DJ2")
+    found = api.detect(trial, api.infer_mesh([trial, *session.values()]), api.Options.read(LABELS))["labels"]
+    spans = {event.marker: (event.start, event.stop) for event in found}
+    # The two pass to each other in the last frame alone; those on the thigh are exchanged throughout.
+    assert spans["R_wrist_radius"] == spans["R_wrist_ulna"] == (trial.frames - 1, trial.frames)
+    assert spans["r_thigh3"] == spans["r_thigh5"] == (0, trial.frames)

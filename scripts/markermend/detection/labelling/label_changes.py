@@ -39,7 +39,9 @@ def best_change(evidence: LabelEvidence, relabelling: Relabelling, gain: np.ndar
         if len(seen):
             mean, number = float(value[seen].sum() / count[seen].sum()), float(count[seen].sum())
             total = mean * (1 + (number - 1) * independent)
-            if mean >= options.min_mean_gain and total >= options.min_gain:
+            long = number > options.max_exchanged_share * count.sum()
+            floor = options.min_long_mean_gain if long else options.min_mean_gain
+            if mean >= floor and total >= options.min_gain:
                 stop = int(starts[seen[-1] + 1]) if seen[-1] + 1 < len(starts) else len(evidence.tracks.under)
                 changes.append(LabelChange(relabelling, int(starts[seen[0]]), stop, total))
     changes.sort(key=lambda change: -change.evidence)

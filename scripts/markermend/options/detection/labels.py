@@ -196,6 +196,12 @@ class LabelsOptions:
 
     Change it when labels are right in a smaller part of a recording than this (higher)."""
 
+    min_long_mean_gain: NotNegative = 2
+    """Smallest mean gain of log likelihood with other labels over more than `max_exchanged_share` of a recording: the labels of
+    the longer part are right unless the subject's other recordings clearly say otherwise.
+
+    Change it when labels that are wrong throughout a recording are left (lower), or close markers are exchanged (higher)."""
+
     min_open_share: Share = 0.3
     """Smallest share of a recording in which the distances of two counterparts are interchanged, to warn of it (0 to 1)."""
 

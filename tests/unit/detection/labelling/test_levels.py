@@ -167,3 +167,15 @@ def test_nothing_where_markers_are_lost_but_labels_are_right(walker):
         m, start = rng.integers(positions.shape[1]), rng.integers(0, 1150)
         positions[start : start + rng.integers(3, 80), m] = np.nan
     assert find(replace(walker.recording, positions=positions)) == []
+
+
+def test_more_than_the_usual_share_is_exchanged_only_on_clear_evidence(walker):
+    recording, _, expected = relabelled(
+        walker.recording, ("LTHI", "LKNE"), 300, 1200, gaps=shared(("LTHI", "LKNE"), (280, 300))
+    )
+    strict = replace(OPTIONS, min_long_mean_gain=1e6)
+    named = [replace(one, facts={"recording": f"r{k}"}) for k, one in enumerate((recording, walker.recording))]
+    scene = Scene.of(recording, infer_mesh(named, options=MeshOptions()))
+    found, left = (detect_labels(scene, markers=recording.markers, options=options) for options in (OPTIONS, strict))
+    assert intervals(found) == expected
+    assert intervals(left) != expected
