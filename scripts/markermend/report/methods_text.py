@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 from markermend.core.artifacts import ARTIFACTS
@@ -16,6 +17,12 @@ REFERENCES = {
     "constraints and model averaging. PLoS ONE 2018; 13(7): e0199744. https://doi.org/10.1371/journal.pone.0199744",
 }
 """What is cited, by the key that a sentence uses."""
+
+PLACES = {
+    "labels": "by the continuity of trajectories and the distances between markers",
+    "frames": "in the motion that markers share",
+}
+"""Where the detectors without presets look."""
 
 PRESETS = {
     "default": "in the residual of each marker from a prediction by its neighbours on the body",
@@ -129,6 +136,27 @@ def limits(options: Mapping[str, Any]) -> str:
     return f" {' and '.join(phrases)}" if phrases else ""
 
 
+def enumeration(words: Sequence[str]) -> str:
+    """Join words as a sentence does.
+
+    Parameters
+    ----------
+    words : sequence of str
+        The words.
+
+    Returns
+    -------
+    str
+        Such as `a, b and c`.
+    """
+    return " and ".join([", ".join(words[:-1]), *words[-1:]] if len(words) > 1 else words)
+
+
+def _place(stage: str, stages: Stages) -> str:
+    """Where a detector looks; empty where that is not known."""
+    return PRESETS.get(stages[stage].get("preset", ""), PLACES.get(stage, ""))
+
+
 def _mesh(stages: Stages, citations: Citations) -> Iterator[str]:
     """How the mesh was inferred."""
     if "mesh" in stages:
@@ -147,10 +175,11 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     ]
     if not sought:
         return
-    classes = ", ".join(artifact.plural for artifact in sought)
-    places = dict.fromkeys(PRESETS.get(stages[artifact.stage].get("preset", ""), "") for artifact in sought)
-    where = " or ".join(place for place in places if place)
-    yield f"Artifacts were detected in the order {classes} {citations.cite('artifacts')}{', ' if where else ''}{where}."
+    parts = [
+        f"{enumeration([own.plural for own in group])}{f' ({place})' if place else ''}"
+        for place, group in groupby(sought, key=lambda own: _place(own.stage, stages))
+    ]
+    yield f"Artifacts were detected in the order {'; '.join(parts)} {citations.cite('artifacts')}."
     if "repair" in stages:
         yield (
             f"They were repaired by class{limits(stages['repair'])}, where the repair brought the distances to neighbouring "
@@ -166,7 +195,7 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
         and stages.get(own.stage, {"preset": ""}).get("preset", "default") == "default"
     ]
     if left:
-        text = " and ".join(artifact.plural for artifact in left)
+        text = enumeration([artifact.plural for artifact in left])
         yield f"{text[0].upper()}{text[1:]} were reported, and left as measured unless their repair was asked for."
 
 
@@ -174,7 +203,7 @@ def _unmeasured(stages: Stages) -> Iterator[str]:
     """Which samples counted as missing because they were not measured."""
     found = [f"{a.plural} ({a.unmeasured})" for a in ARTIFACTS if a.unmeasured and a.stage in stages]
     if found:
-        text = " and ".join(found)
+        text = enumeration(found)
         yield f"{text[0].upper()}{text[1:]} were treated as missing."
     if _adopts(stages):
         yield (

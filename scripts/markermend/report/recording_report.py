@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from markermend import __version__
-from markermend.core.changes import Change
+from markermend.core.changes import Change, Outcome
 from markermend.core.recording import SetAside
 from markermend.options.reporting import AttentionOptions, QcOptions
 from markermend.report import rendering, sample_statistics, timeline
@@ -140,7 +140,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         for number, finding in enumerate(dict.fromkeys(chosen))
     }
     rows = sample_statistics.per_marker(seen.before, seen.after)
-    marks = timeline.lines(seen.before, seen.after)
+    marks = timeline.lines(seen.before, seen.after, [*_each_left(seen.record), *artifacts])
     busy = [{**row, **mark} for row, mark in zip(rows, marks, strict=True) if any(mark.values())]
     return rendering.page(
         summary=summary,
@@ -158,9 +158,15 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         certificate=seen.certificate,
         methods=summary["methods"],
         stages=seen.stages,
+        found=sample_statistics.per_class(seen.found, seen.before),
         smallest_drifts=seen.smallest_drifts,
         notable_drift_mm=options.notable_drift_mm,
     )
+
+
+def _each_left(record: Sequence[Change]) -> list[Change]:
+    """The artifacts that were left, one for each marker."""
+    return [change for change in record if change.outcome is Outcome.LEFT and not change.is_gap]
 
 
 def plot_of(seen: Evidence, finding: Change, options: QcOptions) -> dict[str, Any]:

@@ -16,7 +16,6 @@ from urllib.parse import quote
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from markermend import __version__
-from markermend.core.artifacts import ARTIFACTS, DETECTORS
 from markermend.planning.run_summary import STATUSES
 from markermend.report.dataset_summary import distinct_methods, motion_advice, ordered, totals
 from markermend.report.methods_text import REFERENCES
@@ -39,11 +38,8 @@ def page(**parts: Any) -> str:
         HTML.
     """
     summary = parts["summary"]
-    detectors = {
-        stage: "; ".join(f"{own.plural}: {own.text}" for own in ARTIFACTS if own.stage == stage) for stage in DETECTORS
-    }
     shown = {"rate": summary["rate"], "first_frame": summary["first_frame"]}
-    return render("page.html.j2", detectors=detectors, references=REFERENCES, shown=shown, **parts)
+    return render("page.html.j2", references=REFERENCES, shown=shown, **parts)
 
 
 def page_aside(summary: Mapping[str, Any]) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from markermend.core.artifacts import ARTIFACTS, class_of
 from markermend.core.events import Event, count_findings, mask
 from markermend.core.recording import FILLED, MEASURED, MISSING, Recording, Restored, changed, gaps
 
@@ -111,6 +112,33 @@ def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:
         Under the keys `events` and `samples`.
     """
     return {"events": count_findings(events), "samples": int(mask(events, recording.frames, recording.markers).sum())}
+
+
+def per_class(found: Mapping[str, Sequence[Event]], recording: Recording) -> list[dict[str, Any]]:
+    """Count the findings of each class, for the detectors that ran.
+
+    Parameters
+    ----------
+    found : mapping of str to sequence of Event
+        The findings by detector.
+    recording : Recording
+        The recording that they are in.
+
+    Returns
+    -------
+    list of dict
+        For each class, in detector order: `artifact`, its entry in the table of classes, and what `extent` gives.
+    """
+    return [
+        {
+            "artifact": artifact,
+            **extent(
+                [event for event in found[artifact.stage] if class_of(artifact.stage, event) is artifact], recording
+            ),
+        }
+        for artifact in ARTIFACTS
+        if artifact.stage in found
+    ]
 
 
 def share(where: np.ndarray) -> float:

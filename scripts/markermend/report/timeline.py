@@ -1,12 +1,14 @@
-"""A map of a recording, one line per marker: where samples were missing and still are, were filled, or were repaired."""
+"""A map of a recording, one line per marker: where samples were missing and still are, were filled, repaired, or left."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from markermend.core.recording import FILLED, MEASURED, MISSING, Recording, Restored
+from markermend.core.changes import Change
+from markermend.core.recording import ADOPTED, FILLED, MEASURED, MISSING, Recording, Restored
 from markermend.numerics.intervals import runs
 
 WIDTH = 1000
@@ -16,25 +18,37 @@ VISIBLE = 3
 """Least width of a mark, in columns, so that one frame out of thousands can be seen."""
 
 
-def lines(before: Recording, after: Restored) -> list[dict[str, str]]:
+def lines(before: Recording, after: Restored, left: Sequence[Change] = ()) -> list[dict[str, str]]:
     """Draw one line per marker.
 
     Parameters
     ----------
     before, after : Recording
         The recording as ingested and as cleaned.
+    left : sequence of Change
+        The artifacts that were left as they are.
 
     Returns
     -------
     list[dict[str, str]]
-        For each marker SVG path data in units of WIDTH columns, under the keys `open`, `filled` and `repaired`.
+        For each marker SVG path data in units of WIDTH columns, under the keys `open`, `filled` (or adopted),
+        `repaired` and `left`.
     """
     states = {
         "open": after.missing,
-        "filled": (after.origin == FILLED) & before.missing,
+        "filled": ((after.origin == FILLED) | (after.origin == ADOPTED)) & before.missing,
         "repaired": (after.origin != MEASURED) & (after.origin != MISSING) & ~before.missing,
+        "left": _covered(left, before) & ~after.missing,
     }
     return [{name: path(where[:, m]) for name, where in states.items()} for m in range(len(before.markers))]
+
+
+def _covered(findings: Sequence[Change], recording: Recording) -> np.ndarray:
+    """Bool (frames, markers): the samples of findings."""
+    covered = np.zeros(recording.missing.shape, bool)
+    for finding in findings:
+        covered[finding.start : finding.stop, recording.markers.index(finding.marker)] = True
+    return covered
 
 
 def path(where: np.ndarray) -> str:

@@ -6,9 +6,10 @@ import shlex
 import pytest
 
 import fill
+from markermend.core.artifacts import ARTIFACTS
 from markermend.options.filling import FillOptions
 from markermend.options.flags import write_flags
-from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, limits, paragraph
+from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, enumeration, limits, paragraph
 from markermend.storage import change_file, stage_files
 from support.fillings import fill_options, restored, rigid_body
 
@@ -51,7 +52,7 @@ def test_the_text_follows_the_steps():
         "fill": {"ensemble": {"weights": "pma"}, "max_gap_s": None},
     }
     whole = paragraph(ran, "dynamic", "1.0")
-    assert "steps [2], in each coordinate separately, as published." in whole["text"]
+    assert "in the order steps (in each coordinate separately, as published) [2]." in whole["text"]
     assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
     assert "Gaps were filled with the weighted mean of several predictors [3]." in whole["text"]
     assert whole["references"] == ["mesh", "artifacts", "averaging"]
@@ -72,7 +73,7 @@ def test_unmeasured_samples_and_decisions_have_a_sentence_of_their_own():
 def test_classes_that_are_left_have_a_sentence_of_their_own(preset, said):
     text = paragraph({"steps": {"preset": preset}}, "dynamic", "1.0")["text"]
     assert ("Displaced markers were reported, and left as measured" in text) == said
-    assert "order steps [" in text
+    assert "order steps (" in text
 
 
 @pytest.mark.parametrize("adopting", [False, True])
@@ -85,7 +86,30 @@ def test_adopted_samples_are_said_where_they_were_asked_for(adopting):
 def test_several_presets_are_named_once_each():
     ran = {"peaks": {"preset": "default"}, "noise": {"preset": "default"}, "slow": {"preset": "coordinates"}}
     text = paragraph(ran, "dynamic", "1")["text"]
-    assert text.count("by its neighbours on the body or in each coordinate separately") == 1
+    assert text.count("isolated peaks and heavy noise (in the residual of each marker") == 1
+    assert text.count("; slow drifts (in each coordinate separately) [1].") == 1
+
+
+def test_all_classes_in_one_text():
+    """Every class is named once: as sought, as reported, or as missing."""
+    ran = {artifact.stage: {"preset": "default"} for artifact in ARTIFACTS} | {"labels": {}, "frames": {}, "repair": {}}
+    text = paragraph(ran, "dynamic", "1")["text"].lower()
+    assert all(text.count(own.plural) == 1 for own in ARTIFACTS if own.name not in ("adopted", "step"))
+    assert (
+        "samples under unlabelled trajectories, shifts of all markers, displaced markers and creeping markers were"
+        in text
+    )
+    adopting = paragraph(ran | {"labels": {"adopt_unlabelled": True}}, "dynamic", "1")["text"]
+    assert "under an unlabelled trajectory were given these samples" in adopting
+
+
+def test_enumerations():
+    assert [enumeration(words) for words in ([], ["a"], ["a", "b"], ["a", "b", "c"])] == [
+        "",
+        "a",
+        "a and b",
+        "a, b and c",
+    ]
 
 
 def test_limits_are_joined_and_absent_ones_left_out():

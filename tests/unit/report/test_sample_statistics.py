@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from markermend.core.events import Event
 from markermend.core.recording import changed
 from markermend.report import sample_statistics
 from support.small_result import PEAK
@@ -37,3 +38,15 @@ def test_per_marker(before, after):
     assert (rows["A"]["gaps"], rows["A"]["repaired"], rows["A"]["missing_share_before"]) == (0, 2, 0.0)
     assert (rows["B"]["gaps"], rows["B"]["filled"], rows["B"]["missing_share_after"]) == (1, 2, 0.2)
     assert (rows["B"]["longest_gap_before_s"], rows["B"]["longest_gap_after_s"]) == (0.3, 0.1)
+
+
+def test_findings_are_counted_by_class(before):
+    """One finding about several markers counts once; the classes of a detector that did not run are left out."""
+    together = [Event(marker, 1, 3, 1.0, kind="jump", group="all markers") for marker in before.markers]
+    found = {"frames": together, "steps": [Event("A", 0, 2, 1.0), Event("A", 3, 5, 1.0, kind="displaced")]}
+    counted = {
+        row["artifact"].name: (row["events"], row["samples"]) for row in sample_statistics.per_class(found, before)
+    }
+    assert counted["jump"] == (1, 2 * len(before.markers))
+    assert counted["step"] == counted["displaced"] == (1, 2)
+    assert counted["repeat"] == (0, 0) and "peak" not in counted

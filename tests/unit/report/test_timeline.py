@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.changes import Change, Outcome
+from markermend.core.recording import ADOPTED
 from markermend.numerics.intervals import runs
 from markermend.report import timeline
 
@@ -32,3 +34,13 @@ def test_ticks_are_round_times_with_the_capture_programs_frames(before):
     ticks = timeline.ticks(replace(before, first_frame=705), 5)
     assert [tick["second"] for tick in ticks] == [0.0, 0.2, 0.4, 0.6, 0.8]
     assert [tick["frame"] for tick in ticks] == [705, 707, 709, 711, 713]
+
+
+def test_what_was_adopted_and_what_was_left_is_on_the_map(before, after):
+    missing, origin = before.missing.copy(), after.origin.copy()
+    frame, marker = np.argwhere(missing & ~after.missing)[0]
+    origin[frame, marker] = ADOPTED
+    left = [Change(before.markers[0], 4, 5, ("shift",), Outcome.LEFT)]
+    drawn = timeline.lines(before, replace(after, origin=origin), left)
+    assert f"M{frame * timeline.WIDTH // before.frames} 0h" in drawn[marker]["filled"]
+    assert [line["left"] for line in drawn] == [timeline.path(np.arange(before.frames) == 4)] + [""] * (len(drawn) - 1)
