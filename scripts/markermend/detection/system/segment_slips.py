@@ -13,6 +13,7 @@ from markermend.detection.system.slip_pulses import (
     Pulse,
     best_pulse,
     impact_residual,
+    pulse_residual,
     pulse_sizes,
     residual_beside,
 )
@@ -140,7 +141,7 @@ class _SlipFinder:
             return None
         flat = courses[:, group].reshape(len(rows), -1)
         pulse = best_pulse(flat, options)
-        if residual_beside(flat, pulse, options) > options.max_impact_ratio * impact_residual(flat, options):
+        if self._is_impact(flat, pulse):
             return None
         group = self._together(courses, pulse)
         if group is None or not self._against_anchors(courses, group, pulse.weights):
@@ -151,6 +152,14 @@ class _SlipFinder:
         order = group[np.argsort(around[group])]
         displaced = np.tensordot(pulse.weights, courses[:, order], 1)
         return SegmentSlip(segment, around[order], first, last + 1, displaced, score)
+
+    def _is_impact(self, courses: np.ndarray, pulse: Pulse) -> bool:
+        """Whether a break of the velocity explains coordinates (n, d) nearly as well as a pulse, or the motion beside it."""
+        options, impact = self.options, impact_residual(courses, self.options)
+        whole = pulse_residual(courses, pulse, options)
+        smooth = residual_beside(courses, pulse, options) <= options.max_impact_ratio * impact
+        limit = options.max_pulse_ratio if smooth else options.clear_pulse_ratio
+        return whole > limit * impact
 
     def _together(self, courses: np.ndarray, pulse: Pulse) -> np.ndarray | None:
         """Which of some markers (n, k, 3) are displaced as a rigid body together with the first one; None where too few are."""

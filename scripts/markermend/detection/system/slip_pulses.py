@@ -79,7 +79,34 @@ def best_pulse(courses: np.ndarray, options: SegmentSlipOptions) -> Pulse:
 
 
 def residual_beside(courses: np.ndarray, pulse: Pulse, options: SegmentSlipOptions) -> float:
-    """Fit the motion beside a pulse, whatever its shape: a polynomial through all frames but its own.
+    """Fit the motion beside a pulse, whatever its shape: a polynomial through all frames but its own and the next ones.
+
+    Parameters
+    ----------
+    courses : np.ndarray
+        Coordinates (n, d) over n frames, mm, without NaN.
+    pulse : Pulse
+        The pulse.
+    options : SegmentSlipOptions
+        The order of the polynomial, and the frames on either side that a rounded slip may still move.
+
+    Returns
+    -------
+    float
+        Mean square that the polynomial leaves per degree of freedom, mm^2.
+    """
+    enough = options.fit_order + 1 + options.min_frames_beside
+    for border in range(options.border_frames, -1, -1):
+        beside = np.ones(len(courses), bool)
+        beside[max(0, pulse.start - border) : pulse.stop + border] = False
+        if np.count_nonzero(beside) >= enough:
+            break
+    basis = np.linalg.qr(_polynomials(len(courses), options.fit_order)[beside])[0]
+    return _mean_square(courses[beside], basis)
+
+
+def pulse_residual(courses: np.ndarray, pulse: Pulse, options: SegmentSlipOptions) -> float:
+    """Fit a pulse together with a polynomial.
 
     Parameters
     ----------
@@ -93,12 +120,11 @@ def residual_beside(courses: np.ndarray, pulse: Pulse, options: SegmentSlipOptio
     Returns
     -------
     float
-        Mean square that the polynomial leaves per degree of freedom, mm^2.
+        Mean square that they leave per degree of freedom, mm^2.
     """
-    beside = np.ones(len(courses), bool)
-    beside[pulse.start : pulse.stop] = False
-    basis = np.linalg.qr(_polynomials(len(courses), options.fit_order)[beside])[0]
-    return _mean_square(courses[beside], basis)
+    # The weights of the regression are proportional to the part of the pulse that no polynomial explains.
+    free = pulse.weights / np.linalg.norm(pulse.weights)
+    return _mean_square(courses, np.column_stack([_polynomials(len(courses), options.fit_order), free]))
 
 
 def impact_residual(courses: np.ndarray, options: SegmentSlipOptions) -> float:

@@ -113,8 +113,21 @@ class SegmentSlipOptions:
     """Order of the polynomial that it follows over the longer stretch in which a slip is fitted."""
 
     max_impact_ratio: Annotated[float, Above(0), AtMost(1)] = 0.1
-    """Departure of the motion beside a slip from a polynomial (mean square), as a part of that from an impact, a break of the
-    velocity, at most (0 to 1)."""
+    """The motion beside a slip is smooth if its departure from a polynomial (mean square) is at most this part of that from an
+    impact, a break of the velocity, in and beside it (0 to 1)."""
+
+    max_pulse_ratio: Annotated[float, Above(0), AtMost(1)] = 0.7
+    """What a slip and a polynomial leave of the motion in and beside it, as a part of what an impact leaves, at most, where the
+    motion beside it is smooth (0 to 1)."""
+
+    clear_pulse_ratio: Annotated[float, Above(0), AtMost(1)] = 0.4
+    """The same where it is not smooth (0 to 1)."""
+
+    border_frames: CountOrNone = 1
+    """Frames on either side of a slip that are not counted as beside it: where it is rounded they may be displaced a little."""
+
+    min_frames_beside: Count = 3
+    """Frames beside a slip, at least, besides as many as the polynomial has coefficients; with fewer, `border_frames` are counted, too."""
 
     max_disagreement: Annotated[float, Above(0), AtMost(1)] = 0.5
     """Distance of a marker's displacement from that of the others, as a part of it, at most (0 to 1)."""

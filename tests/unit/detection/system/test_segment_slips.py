@@ -52,6 +52,14 @@ def test_rounded_and_turning_ones_are_found(scene, segment, degrees):
     assert (found.start, found.stop, found.markers.tolist()) == (300, 306, sorted(members.tolist()))
 
 
+@pytest.mark.parametrize("shape", [[0.2, 0.6, 1, 0.7, 0.2], [0.1, 0.5, 1, 0.5, 0.1]])
+def test_uneven_ones_are_found(scene, segment, shape):
+    members = scene.segments[segment]
+    (found,) = find_segment_slips(slipped(scene, members, 300, 2 * np.array(shape)), OPTIONS)
+    assert abs(found.start - 300) <= 1 and abs(found.stop - 300 - len(shape)) <= 1
+    assert found.markers.tolist() == sorted(members.tolist())
+
+
 def test_motion_single_markers_and_impacts_are_none(scene, segment):
     members = scene.segments[segment]
     assert find_segment_slips(scene, OPTIONS) == []
