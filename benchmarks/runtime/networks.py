@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 import torch
 
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.neural_network.predictor import KINDS, Network
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import MeasurementErrors, walk

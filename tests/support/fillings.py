@@ -9,7 +9,8 @@ from markermend.filling.ensemble import Ensemble
 from markermend.filling.fill import fill_scene
 from markermend.filling.fill_ensembles import make_ensembles
 from markermend.options.filling import FillOptions
-from markermend.options.prediction import NeuralNetworkOptions, PredictorOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene
 

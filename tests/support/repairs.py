@@ -6,7 +6,7 @@ import numpy as np
 
 from markermend.core.decisions import Decision
 from markermend.core.shape import Shape
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.repair import RepairOptions, RepairRadiusOptions, SeparationOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.interpolation import Interpolation

@@ -15,7 +15,7 @@ from markermend.detection.steps import detect_steps
 from markermend.numerics import interpolation, intervals
 from markermend.numerics.intervals import runs
 from markermend.options.config import SECTIONS
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 

@@ -22,7 +22,7 @@ from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
 from markermend.options.reporting import NoOptions, QcOptions

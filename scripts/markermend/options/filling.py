@@ -22,7 +22,7 @@ from markermend.options.declaration import (
     Share,
     Shared,
 )
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 
 WEIGHTS = ("error", "pma", "both", "equal")
 """Weights by the error on pseudo-gaps; by the likelihood of distances (tits2018 eq 20-24); by both; or all equal."""

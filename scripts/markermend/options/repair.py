@@ -26,7 +26,8 @@ from markermend.options.declaration import (
     Shared,
 )
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
+from markermend.options.prediction.predictors import PredictorOptions
 
 USUAL_METHODS: Mapping[str, tuple[str, ...]] = {
     "labels": ("exchange",),

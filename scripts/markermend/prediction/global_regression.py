@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from markermend.numerics.patterns import group_by_pattern
-from markermend.options.prediction import GlobalRegressionOptions
+from markermend.options.prediction.global_regression import GlobalRegressionOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Scene

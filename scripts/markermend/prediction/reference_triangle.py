@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from markermend.numerics.rigid_alignment import LocalFrames
-from markermend.options.prediction import ReferenceTriangleOptions
+from markermend.options.prediction.reference_triangle import ReferenceTriangleOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Scene

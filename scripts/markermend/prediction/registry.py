@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.global_regression import GlobalRegression
 from markermend.prediction.interface import Predictor
 from markermend.prediction.interpolation import KINDS, Interpolation

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.repair import ShapeGuardOptions
 from markermend.prediction.scene import Scene
 

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from markermend.core.reasons import Cause, Reason
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.repair import ShapeGuardOptions
 from markermend.prediction.scene import Scene
 from markermend.repair.expected_distances import DistanceEstimator, ExpectedDistances, log_density, nan_mean

@@ -4,7 +4,7 @@ import pytest
 
 from markermend.core.decisions import Decision
 from markermend.filling.fill_ensembles import make_ensembles
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from support.fillings import fill_options
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.numerics.kriging import Covariance, autocovariance, fit_covariance, kernels, krige, white_noise_variance
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.marker_selection import pseudo_random_subset
 from support.naive import numerics as naive
 

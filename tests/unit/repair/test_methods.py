@@ -5,7 +5,7 @@ import pytest
 
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.registry import members

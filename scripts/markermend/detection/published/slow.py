@@ -14,7 +14,7 @@ from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection.published import PublishedSlowOptions
 from markermend.options.detection.slow import SlowOptions
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.lagged_regression.polynomial import Polynomial
 from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork

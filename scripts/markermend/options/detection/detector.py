@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
 from markermend.options.declaration import Laboratory, Shared
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 
 Preset = Annotated[Literal["default", "coordinates", "paper"], Laboratory]
 """The detector: against the neighbours, or coordinate by coordinate with robust thresholds, or as published."""

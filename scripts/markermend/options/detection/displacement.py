@@ -21,7 +21,7 @@ from markermend.options.declaration import (
     PositiveSeconds,
     Share,
 )
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,8 @@ from markermend.options.detection.detector import DetectorOptions
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.options.detection.published import PublishedSlowOptions
-from markermend.options.prediction import LocalRidgeOptions, PredictorOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.options.shape import ShapeOptions
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics.patterns import group_by_pattern
-from markermend.options.prediction import LaggedRegressionOptions
+from markermend.options.prediction.lagged_regression import LaggedRegressionOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene

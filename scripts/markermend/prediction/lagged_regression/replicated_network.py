@@ -12,7 +12,7 @@ import numpy as np
 
 from markermend.numerics import intervals
 from markermend.numerics.scaled_conjugate_gradient import DescentOptions, minimise
-from markermend.options.prediction import ReplicatedNetworkOptions
+from markermend.options.prediction.lagged_regression import ReplicatedNetworkOptions
 from markermend.prediction.lagged_regression.feed_forward import Stack, initial, mean_output
 from markermend.prediction.lagged_regression.polynomial import MIN_DEVIATION_MM, powers
 from markermend.prediction.lagged_regression.predictor import LaggedRegression, Regression, TrainingSet

@@ -8,7 +8,7 @@ import numpy as np
 
 from markermend.numerics.robust import MAD_TO_STD
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.inputs import InputSelection
 from markermend.prediction.local_ridge.model import TrainingSet, with_intercept
 from markermend.prediction.scene import Scene

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.options.prediction import GaussianProcessOptions, LocalRidgeOptions
+from markermend.options.prediction.local_ridge import GaussianProcessOptions, LocalRidgeOptions
 from markermend.prediction.local_ridge.model import Regression, TrainingSet
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.marker_selection import evenly_spaced

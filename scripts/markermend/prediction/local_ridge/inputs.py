@@ -10,7 +10,7 @@ import numpy as np
 
 from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import TrainingSet, robust_weights
 from markermend.prediction.marker_selection import pseudo_random_subset
 from markermend.prediction.scene import Scene

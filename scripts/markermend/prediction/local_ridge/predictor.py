@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.interface import LocalRegression, Prediction
 from markermend.prediction.local_ridge.inputs import Assignment, InputSelection
 from markermend.prediction.local_ridge.leverage import LeverageScale, fit_leverage_scale

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from markermend.numerics.low_rank import complete_matrix
-from markermend.options.prediction import IteratedSvdOptions
+from markermend.options.prediction.low_rank import IteratedSvdOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene

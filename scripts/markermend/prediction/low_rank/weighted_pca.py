@@ -6,7 +6,7 @@ import numpy as np
 
 from markermend.numerics.low_rank import components_for_share
 from markermend.numerics.patterns import group_by_pattern
-from markermend.options.prediction import WeightedPcaOptions
+from markermend.options.prediction.low_rank import WeightedPcaOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from markermend.numerics.intervals import runs
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced
 from markermend.prediction.neural_network.inputs import (

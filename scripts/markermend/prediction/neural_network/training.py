@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 
 GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
 """The recurrent kinds, and the number of weighted sums of a recurrent unit."""

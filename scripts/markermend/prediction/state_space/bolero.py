@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from markermend.options.prediction import BoleroOptions
+from markermend.options.prediction.state_space import BoleroOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import reference_markers
 from markermend.prediction.scene import Scene

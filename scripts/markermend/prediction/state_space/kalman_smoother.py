@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.numerics.low_rank import conditional_mean
-from markermend.options.prediction import KalmanSmootherOptions
+from markermend.options.prediction.state_space import KalmanSmootherOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, jointly_observed
 from markermend.prediction.scene import Scene

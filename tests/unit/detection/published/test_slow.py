@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core import events
 from markermend.detection.published import slow
-from markermend.options.prediction import PredictorOptions
+from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body

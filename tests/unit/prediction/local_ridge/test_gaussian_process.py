@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.options.prediction import GaussianProcessOptions
+from markermend.options.prediction.local_ridge import GaussianProcessOptions
 from markermend.prediction.local_ridge.gaussian_process import train
 from markermend.prediction.local_ridge.model import ridge_coefficients
 from support.fillings import predictor, scene

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.inputs import InputSelection
 from support.fillings import rigid_body, scene
 

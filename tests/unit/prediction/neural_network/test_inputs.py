@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.neural_network.inputs import choose_inputs, complete_inputs, features, sequences
 from support.fillings import neighbours, rigid_body, scene
 

@@ -7,7 +7,7 @@ import pytest
 import torch
 from torch import nn
 
-from markermend.options.prediction import NeuralNetworkOptions
+from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.neural_network.training import GATES, TrainingSet, evaluate, initial, train
 
 KINDS = ("linear", "tanh", "lstm", "gru", "bilstm")

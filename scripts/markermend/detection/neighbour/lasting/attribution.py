@@ -9,7 +9,7 @@ import numpy as np
 
 from markermend.detection.neighbour.lasting.search import DisplacementSearch
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.lasting_displacement.course import Course
 from markermend.prediction.lasting_displacement.displacement import Displacement, estimate
 from markermend.prediction.lasting_displacement.pose_regression import training_data

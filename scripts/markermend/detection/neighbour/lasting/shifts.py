@@ -15,7 +15,7 @@ from markermend.core.events import Event
 from markermend.detection.neighbour.lasting.attribution import LastingAttribution
 from markermend.detection.neighbour.lasting.level import displaced_parts, locate
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.lasting_displacement.course import Course
 from markermend.prediction.lasting_displacement.displacement import Displacement

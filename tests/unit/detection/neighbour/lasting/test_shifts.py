@@ -8,7 +8,7 @@ import pytest
 from markermend.core.events import Event
 from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.displacement import DisplacementOptions
-from markermend.options.prediction import LocalRidgeOptions
+from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.shape import ShapeOptions
 from support.displaced_bodies import BODY, FRAMES, NAMES, displaced, onset, scene
 

@@ -1,0 +1,1 @@
+"""Options of the predictors, one module per family of models."""

@@ -1,0 +1,78 @@
+"""Options of the models in the local frame of anchors: local_ridge and local_gp."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from markermend.options.declaration import (
+    Above,
+    AtLeast,
+    Count,
+    Millimetres,
+    NotEmpty,
+    NotNegative,
+    Positive,
+    PositiveSeconds,
+    Unit,
+)
+
+
+@dataclass(frozen=True)
+class LocalRidgeOptions:
+    """Ridge regression on the neighbours in a local frame: local_ridge."""
+
+    anchors: Annotated[int, AtLeast(3)] = 3
+    """Markers that carry the local frame."""
+
+    inputs: Count = 12
+    """Neighbours from which a marker is predicted, at most.
+
+    Change it when marker sets have fewer than ten markers (lower)."""
+
+    min_anchor_extent_mm: Millimetres = 15
+    """Anchors are added while their extent across their longest direction is below this."""
+
+    ridge_mm2: Annotated[float, Unit("mm^2", "square millimetres"), Above(0)] = 5
+    """Penalty of the regression: the variance of the noise on an input."""
+
+    max_training_frames: Count = 2500
+    """Training frames, at most; they are evenly spaced.
+
+    Change it when recordings are long and their motion is varied (higher, at the cost of time)."""
+
+    min_training_frames: Count = 60
+    """Frames on which marker and neighbours must be seen for a model."""
+
+    outlier_sigmas: Positive = 6
+    """Training residuals beyond this many robust standard deviations lose weight."""
+
+    correlation_times_s: tuple[PositiveSeconds, ...] = (0.02, 0.05, 0.1, 0.2, 0.5, 1, 3)
+    """Correlation times of the residual that are tried."""
+
+    max_lag_s: PositiveSeconds = 2
+    """Longest lag of the autocovariance of the residual."""
+
+    border_s: PositiveSeconds = 0.15
+    """Time on either side of a gap whose samples are used."""
+
+    max_leverage: Positive = 20
+    """Limit of the leverage of a pose, in units of its mean over the training; the expected error grows with it where poses
+    are unlike those of the training."""
+
+
+@dataclass(frozen=True)
+class GaussianProcessOptions:
+    """Gaussian process in the local frame, beyond the options of local_ridge: local_gp."""
+
+    max_training_frames: Annotated[int, AtLeast(2)] = 500
+    """Training frames, at most."""
+
+    length_scales: Annotated[tuple[Positive, ...], NotEmpty] = (0.5, 1, 2)
+    """Length scales of the radial kernel that are tried, in units of the typical distance of two poses."""
+
+    variance_ratios: Annotated[tuple[NotNegative, ...], NotEmpty] = (3, 30)
+    """Variances of the radial part that are tried, in units of the noise."""
+
+    validation_blocks: Annotated[int, AtLeast(2)] = 6
+    """Stretches that are left out in turn to choose among them."""
