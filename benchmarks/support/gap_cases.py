@@ -20,7 +20,8 @@ from markermend.core.recording import MEASURED, MISSING, Recording, Restored
 from markermend.filling.fill import fill_scene
 from markermend.filling.fill_ensembles import Ensembles, make_ensembles
 from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.options.values import Reader, plain
+from markermend.options.reader import Reader
+from markermend.options.values import plain
 from markermend.prediction.scene import Scene
 
 Gap = tuple[int, int, int]

@@ -57,8 +57,9 @@ from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
+from markermend.options.reader import BadOptions
 from markermend.options.repair import RepairOptions
-from markermend.options.values import BadOptions, text
+from markermend.options.values import text
 from markermend.planning import config as planning_config
 from markermend.planning import decision_cells
 from markermend.planning.contradictions import Line, find_contradictions

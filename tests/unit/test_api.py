@@ -10,7 +10,7 @@ from markermend import api
 from markermend.core.artifacts import DETECTORS
 from markermend.core.changes import Outcome
 from markermend.core.recording import Restored
-from markermend.options.values import BadOptions
+from markermend.options.reader import BadOptions
 from support.paths import PROJECT
 from support.workflow_runs import write_recording
 

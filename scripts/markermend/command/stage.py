@@ -23,8 +23,8 @@ from typing import Any, Literal, get_args, get_origin
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.declaration import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
+from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
-from markermend.options.values import BadOptions, parse
 from markermend.storage import atomic, stage_files
 from markermend.storage.folder_names import printable
 

@@ -23,11 +23,12 @@ from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
 from markermend.options.prediction.predictors import PredictorOptions
+from markermend.options.reader import Reader, inside
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
 from markermend.options.reporting import NoOptions, QcOptions
 from markermend.options.shape import ShapeOptions
-from markermend.options.values import Reader, inside, plain
+from markermend.options.values import plain
 
 ADVANCED = "advanced"
 """The top-level key of what a laboratory does not set."""

@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from markermend.options.config import read_config
-from markermend.options.values import BadOptions
+from markermend.options.reader import BadOptions
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.neural_network.predictor import cannot_train

@@ -7,8 +7,8 @@ import yaml
 
 from markermend.options.config import SECTIONS, find_place, own_options, read_config, write_config
 from markermend.options.flags import write_flags
+from markermend.options.reader import BadOptions
 from markermend.options.renamed import RENAMED, renamed
-from markermend.options.values import BadOptions
 from support.paths import PROJECT
 
 
