@@ -9,9 +9,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from markermend.command import detector
-from markermend.detection.labels import find_labels, label_warnings
+from markermend.detection.labels import detect_labels
 from markermend.options.detection.labels import LabelsOptions
-from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
 
 STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="faults of labels")
@@ -20,13 +19,9 @@ STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="faults of labels
 def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
     mesh = mesh_file.read(call.mesh, recording.facts["recording"])
-    scene = Scene.of(recording, mesh)
-    found = find_labels(scene, markers=recording.markers, options=call.options)
-    warnings = label_warnings(
-        scene, found, markers=recording.markers, options=call.options, first_frame=recording.first_frame
-    )
-    stage_files.write_events(call.events, found.events, {**call.facts, "warnings": warnings})
-    return detector.result(found.events)
+    found, warnings = detect_labels(**detector.labels_arguments(recording, mesh, call.options))
+    stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
+    return detector.result(found)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -24,7 +24,7 @@ from benchmarks.support import result_tables
 from benchmarks.support.defaults import OPTIONS
 from markermend import api
 from markermend.core.labels import undo_exchanges
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.prediction.scene import Scene
 
 LENGTHS = (1, 2, 3, 5, 10, 50, 200)
@@ -80,7 +80,7 @@ def main() -> None:
     false = in_clean = 0
     for path in arguments.recordings:
         markers, scene = read(path)
-        in_clean += len(detect_labels(scene, markers=markers, options=OPTIONS["labels"]))
+        in_clean += len(find_labels(scene, markers=markers, options=OPTIONS["labels"]).events)
         some = scene.positions[:: max(1, len(scene.positions) // 50)]
         distance = np.nanmedian(np.linalg.norm(some[:, :, None] - some[:, None], axis=3), axis=0)
         np.fill_diagonal(distance, np.nan)
@@ -92,9 +92,9 @@ def main() -> None:
                     if case is None:
                         continue
                     positions, original, ring, start, stop = case
-                    found = detect_labels(
+                    found = find_labels(
                         replace(scene, positions=positions), markers=markers, options=OPTIONS["labels"]
-                    )
+                    ).events
                     onward = [*ring[1:], ring[0]]
                     truth = {(markers[m], start, stop, markers[n]) for m, n in zip(ring, onward, strict=True)}
                     stated = {(event.marker, event.start, event.stop, event.partner) for event in found}

@@ -33,7 +33,7 @@ from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudge
 from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
 from markermend.detection.frozen import detect_frozen
-from markermend.detection.labels import detect_labels, find_labels, label_warnings
+from markermend.detection.labels import detect_labels
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
 from markermend.detection.slow import detect_slow
@@ -64,7 +64,6 @@ from markermend.planning import config as planning_config
 from markermend.planning import decision_cells
 from markermend.planning.contradictions import Line, find_contradictions
 from markermend.planning.decision_table import COLUMNS, in_order
-from markermend.prediction.scene import Scene
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, mesh_file, originals_file
 from markermend.storage.folder_names import printable
@@ -165,9 +164,9 @@ class Cleaned:
         The outcome of each finding and each gap, or why nothing was done.
     unjudged : mapping of str to str
         Why a marker could not be judged but for its labels, by marker.
-    label_warnings : sequence of str
-        Which exchanges may have been left, or undone in the wrong part of the recording, and which markers may lie under
-        unlabelled trajectories, one sentence each.
+    detector_warnings : sequence of str
+        Which exchanges may have been left, or undone in the wrong part of the recording, which markers may lie under unlabelled
+        trajectories, and whether frames repeat regularly, one sentence each.
     """
 
     measured: Recording
@@ -176,13 +175,13 @@ class Cleaned:
     findings: Mapping[str, list[Event]]
     changes: Sequence[Change]
     unjudged: Mapping[str, str] = field(default_factory=dict)
-    label_warnings: Sequence[str] = ()
+    detector_warnings: Sequence[str] = ()
 
     @property
     def warnings(self) -> list[str]:
-        """What a person should know, one sentence each: of the file, the mesh, labels, and markers that could not be judged."""
+        """What a person should know, one sentence each: of the file, the mesh, the detectors, and markers that could not be judged."""
         of_file = self.measured.facts.get("warnings", ())
-        return [*of_file, *self.mesh.warnings, *self.label_warnings, *unjudged_warnings(self.unjudged)]
+        return [*of_file, *self.mesh.warnings, *self.detector_warnings, *unjudged_warnings(self.unjudged)]
 
 
 def read(
@@ -303,28 +302,20 @@ def detect(recording: Recording, mesh: Mesh, options: Options | None = None) -> 
 
 
 def _detect(recording: Recording, own_mesh: Mesh, options: Options) -> tuple[dict[str, list[Event]], list[str]]:
-    """The findings of each detector, and warnings of labels that are left as recorded."""
+    """The findings of each detector, and their warnings."""
     findings: dict[str, list[Event]] = {}
     warnings: list[str] = []
     for stage in (stage for stage in DETECTORS if stage in options.general.detect):
-        if stage == "labels":
-            scene, markers = Scene.of(recording, own_mesh), recording.markers
-            labels = find_labels(scene, markers=markers, options=options.labels)
-            warnings = label_warnings(
-                scene, labels, markers=markers, options=options.labels, first_frame=recording.first_frame
-            )
-            findings[stage] = labels.events
-            continue
-        earlier = [event for events in findings.values() for event in events]
-        found = detector.find(
+        found, own = detector.find_and_warn(
             DETECTORS[stage],
             recording,
             own_mesh,
-            earlier,
+            [event for events in findings.values() for event in events],
             options=getattr(options, stage),
             published=PUBLISHED.get(stage),
         )
         findings[stage] = sorted(found, key=lambda event: event.order)
+        warnings += own
     return findings, warnings
 
 

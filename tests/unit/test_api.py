@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -168,3 +169,9 @@ def test_the_example_of_the_readme_runs(path, tmp_path, monkeypatch, capsys):
     exec(compile(example, "README.md", "exec"), {})
     assert capsys.readouterr().out.startswith("11 samples changed")
     assert {file.name for file in tmp_path.iterdir()} == {"walk.c3d", "walk_cleaned.c3d", "walk_changes.tsv"}
+
+
+def test_the_detectors_warnings_are_among_those_of_the_result(recording):
+    """Every second frame repeats: nothing is done about it, but it is said."""
+    still = replace(recording, positions=np.repeat(recording.positions[::2], 2, axis=0))
+    assert any(text.startswith("frames repeat regularly") for text in api.clean(still).warnings)

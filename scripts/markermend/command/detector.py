@@ -15,6 +15,7 @@ from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.options.detection.detector import DetectorOptions
+from markermend.options.detection.frames import FramesOptions
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
 from markermend.storage import mesh_file, stage_files
@@ -161,6 +162,19 @@ def find(
     options: DetectorOptions | LabelsOptions,
     published: Published | None = None,
 ) -> list[Event]:
+    """Find one class of artifacts as its stage does, without files; see `find_and_warn`, which gives its warnings, too."""
+    return find_and_warn(detect, recording, mesh, earlier, options=options, published=published)[0]
+
+
+def find_and_warn(
+    detect: Callable[..., Any],
+    recording: Recording,
+    mesh: Mesh,
+    earlier: Sequence[Event],
+    *,
+    options: DetectorOptions | LabelsOptions,
+    published: Published | None = None,
+) -> tuple[list[Event], list[str]]:
     """Find one class of artifacts as its stage does, without files.
 
     Parameters
@@ -180,15 +194,46 @@ def find(
 
     Returns
     -------
-    list of Event
+    found : list of Event
         The events, under the labels that the markers have after exchanges are undone.
+    warnings : list of str
+        What the stage warns of, one sentence each.
     """
     if isinstance(options, LabelsOptions):
-        exchanges: list[Event] = detect(Scene.of(recording, mesh), markers=recording.markers, options=options)
-        return exchanges
-    given, recorded_under = detector_arguments(recording, mesh, earlier, options=options)
-    found = preset_detector(detect, options, published)(**given)
-    return under_right_labels(found[0] if isinstance(found, tuple) else found, recorded_under)
+        given: dict[str, Any] = labels_arguments(recording, mesh, options)
+        recorded_under: Sequence[Event] = ()
+    else:
+        given, recorded_under = detector_arguments(recording, mesh, earlier, options=options)
+        detect = preset_detector(detect, options, published)
+    result = detect(**given)
+    found, stated = result if isinstance(result, tuple) else (result, [])
+    warnings = list(stated) if isinstance(options, LabelsOptions | FramesOptions) else []
+    return under_right_labels(found, recorded_under), warnings
+
+
+def labels_arguments(recording: Recording, mesh: Mesh, options: LabelsOptions) -> dict[str, Any]:
+    """Make the arguments of the detector of labels, the first, which needs no predictor.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording as ingested.
+    mesh : Mesh
+        Its functional body mesh.
+    options : LabelsOptions
+        The section of the detector.
+
+    Returns
+    -------
+    dict
+        Scene, names of markers, options and the number of the first frame.
+    """
+    return {
+        "scene": Scene.of(recording, mesh),
+        "markers": recording.markers,
+        "options": options,
+        "first_frame": recording.first_frame,
+    }
 
 
 def under_right_labels(found: list[Event], recorded_under: Sequence[Event]) -> list[Event]:

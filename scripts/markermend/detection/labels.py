@@ -56,7 +56,9 @@ class LabelFindings:
     undecided: list[Event] = field(default_factory=list)
 
 
-def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> list[Event]:
+def detect_labels(
+    scene: Scene, *, markers: Sequence[str], options: LabelsOptions, first_frame: int = 1
+) -> tuple[list[Event], list[str]]:
     """Find the exchanges of labels of a recording, labels on something else, and markers without their labels.
 
     Parameters
@@ -67,16 +69,21 @@ def detect_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOption
         Names of the markers.
     options : LabelsOptions
         Thresholds of a change of labels, and how clear the distances must be.
+    first_frame : int, optional
+        The capture program's number of row 0, for the warnings.
 
     Returns
     -------
-    list[Event]
+    found : list[Event]
         One event for each marker, sorted, with that under whose label it is recorded as partner. Two markers are each
         other's partners, three and more form a cycle of partners; all of these have the same interval. Events of the class
         `foreign`, and of samples under unlabelled trajectories, have no partner, and state labels as they are after the exchanges
         are undone.
+    warnings : list[str]
+        One sentence for each fault that is not undone, or that may be undone in the wrong part of the recording.
     """
-    return find_labels(scene, markers=markers, options=options).events
+    found = find_labels(scene, markers=markers, options=options)
+    return found.events, label_warnings(scene, found, markers=markers, options=options, first_frame=first_frame)
 
 
 def find_labels(scene: Scene, *, markers: Sequence[str], options: LabelsOptions) -> LabelFindings:

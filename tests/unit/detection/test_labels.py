@@ -22,7 +22,7 @@ OPTIONS = LabelsOptions()
 
 def find(recording):
     scene = Scene(recording.positions, recording.rate, neighbours(recording.positions))
-    return labels.detect_labels(scene, markers=recording.markers, options=OPTIONS)
+    return labels.find_labels(scene, markers=recording.markers, options=OPTIONS).events
 
 
 def intervals(found):

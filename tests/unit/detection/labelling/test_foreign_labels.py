@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.core.recording import Recording
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -16,7 +16,7 @@ from markermend.prediction.scene import Scene
 def find(recording, positions):
     changed = replace(recording, positions=positions, facts={"recording": "one"})
     mesh = infer_mesh([changed], options=MeshOptions())
-    found = detect_labels(Scene.of(changed, mesh), markers=changed.markers, options=LabelsOptions())
+    found = find_labels(Scene.of(changed, mesh), markers=changed.markers, options=LabelsOptions()).events
     return [(event.marker, event.start, event.stop, event.kind) for event in found]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.core.labels import undo_exchanges
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -19,7 +19,7 @@ SEGMENTS = ("THI", "KNE", "TIB", "ANK", "HEE", "TOE")
 def find(recording, *others):
     named = [replace(one, facts={"recording": f"r{k}"}) for k, one in enumerate((recording, *others))]
     mesh = infer_mesh(named, options=MeshOptions())
-    return detect_labels(Scene.of(recording, mesh), markers=recording.markers, options=OPTIONS)
+    return find_labels(Scene.of(recording, mesh), markers=recording.markers, options=OPTIONS).events
 
 
 def intervals(found):
@@ -176,6 +176,8 @@ def test_more_than_the_usual_share_is_exchanged_only_on_clear_evidence(walker):
     strict = replace(OPTIONS, min_long_mean_gain=1e6)
     named = [replace(one, facts={"recording": f"r{k}"}) for k, one in enumerate((recording, walker.recording))]
     scene = Scene.of(recording, infer_mesh(named, options=MeshOptions()))
-    found, left = (detect_labels(scene, markers=recording.markers, options=options) for options in (OPTIONS, strict))
+    found, left = (
+        find_labels(scene, markers=recording.markers, options=options).events for options in (OPTIONS, strict)
+    )
     assert intervals(found) == expected
     assert intervals(left) != expected

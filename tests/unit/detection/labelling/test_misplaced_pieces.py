@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.core.labels import undo_exchanges
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -16,7 +16,7 @@ from markermend.prediction.scene import Scene
 def find(recording, positions):
     named = replace(recording, positions=positions, facts={"recording": "r"})
     scene = Scene.of(named, infer_mesh([named], options=MeshOptions()))
-    return detect_labels(scene, markers=recording.markers, options=LabelsOptions())
+    return find_labels(scene, markers=recording.markers, options=LabelsOptions()).events
 
 
 @pytest.mark.parametrize(("marker", "other"), [("RWRA", "RWRB"), ("LKNE", "LTIB"), ("LHEE", "LTOE"), ("LSHO", "CLAV")])

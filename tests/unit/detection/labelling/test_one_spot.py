@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.labelling.one_spot import shared_spots
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -16,7 +16,7 @@ from markermend.prediction.scene import Scene
 def find(recording, positions):
     named = replace(recording, positions=positions, facts={"recording": "r"})
     scene = Scene.of(named, infer_mesh([named], options=MeshOptions()))
-    found = detect_labels(scene, markers=recording.markers, options=LabelsOptions())
+    found = find_labels(scene, markers=recording.markers, options=LabelsOptions()).events
     return [(event.marker, event.start, event.stop, event.kind) for event in found]
 
 

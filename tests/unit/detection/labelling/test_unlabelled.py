@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.labelling.unlabelled import unlabelled_samples
-from markermend.detection.labels import detect_labels
+from markermend.detection.labels import find_labels
 from markermend.mesh.inference import infer_mesh
 from markermend.options.detection.labels import LabelsOptions
 from markermend.options.mesh import MeshOptions
@@ -15,7 +15,7 @@ from markermend.prediction.scene import Scene
 
 def find(recording, **options):
     mesh = infer_mesh([replace(recording, facts={"recording": "r"})], options=MeshOptions())
-    return detect_labels(Scene.of(recording, mesh), markers=recording.markers, options=LabelsOptions(**options))
+    return find_labels(Scene.of(recording, mesh), markers=recording.markers, options=LabelsOptions(**options)).events
 
 
 def cut_out(recording, *stretches):
