@@ -162,7 +162,28 @@ def find(
     options: DetectorOptions | LabelsOptions,
     published: Published | None = None,
 ) -> list[Event]:
-    """Find one class of artifacts as its stage does, without files; see `find_and_warn`, which gives its warnings, too."""
+    """Find one class of artifacts as its stage does, without files and without its warnings.
+
+    Parameters
+    ----------
+    detect : callable
+        The default detector of the class.
+    recording : Recording
+        The recording as ingested.
+    mesh : Mesh
+        Its functional body mesh.
+    earlier : sequence of Event
+        Events of the detectors before; the detector of exchanged labels, the first, does not use them.
+    options : DetectorOptions or LabelsOptions
+        The section of the detector.
+    published : callable, optional
+        Imports the published detector of the class.
+
+    Returns
+    -------
+    list of Event
+        The events, under the labels that the markers have after exchanges are undone.
+    """
     return find_and_warn(detect, recording, mesh, earlier, options=options, published=published)[0]
 
 
