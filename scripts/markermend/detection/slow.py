@@ -57,7 +57,7 @@ def detect_slow(
         Events, sorted; those of one kind are disjoint, and a drift may lie within a creep.
     smallest : dict[str, float | None]
         Height of the smallest drift of each marker, of `estimated_drifts.stated_duration_s`, that would have been found, mm; None
-        where that cannot be said: the motion is too fast or too varied.
+        where that cannot be said: the motion of the marker, or of most of its neighbours, is too fast or too varied.
     """
     rest = inputs.without_claimed(scene, earlier)
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
@@ -70,10 +70,10 @@ def detect_slow(
     )
     creeps = [event for event in lasting if event.kind == "creep"]
     found = sorted([*drifts, *creeps], key=lambda event: event.order)
-    heights = [changes.smallest.height(m) for m in range(len(markers))]
+    heights = changes.smallest.heights(rest.neighbours)
     return found, {
         name: None if np.isnan(height) else round(height, STATED_DIGITS)
-        for name, height in zip(markers, heights, strict=True)
+        for name, height in zip(markers, heights.tolist(), strict=True)
     }
 
 

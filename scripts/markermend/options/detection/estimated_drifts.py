@@ -96,8 +96,12 @@ class EstimatedDriftOptions:
     stated_share: Share = 0.85
     """Share of the times at which a drift of the stated height would have been found."""
 
+    stated_neighbour_share: Share = 0.5
+    """Share of the nearest neighbours of a marker of which a height can be stated, too: with fewer, a drift could hardly be attributed
+    to the marker, and none is stated."""
+
     stated_places: Count = 2
     """Places over its duration at which such a drift is tried."""
 
-    stated_margin_sigmas: NotNegative = 1.5
+    stated_margin_sigmas: NotNegative = 2
     """Standard deviations of its estimate by which the stated height exceeds the threshold."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from markermend.numerics.matched_filter import raised_cosine
 
-LENGTH_FACTORS = (0.6, 0.72, 0.85, 1.0, 1.2, 1.45, 1.75, 2.1)
+LENGTH_FACTORS = (0.3, 0.36, 0.43, 0.5, 0.6, 0.72, 0.85, 1.0, 1.2, 1.45, 1.75, 2.1)
 """Multiples of the length of the template that are tried to fit where a drift begins and ends."""
 
 BASELINE_LENGTHS = 3

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,8 +36,29 @@ class SmallestDriftPredictor:
         """Bins of the drift of which the height is stated."""
         return self.drifts.regression.bins(self.drifts.own.stated_duration_s)
 
+    def heights(self, neighbours: Sequence[np.ndarray]) -> np.ndarray:
+        """Predict the smallest heights of drifts that would have been found at most times.
+
+        A drift is found if it can be attributed to its marker, which takes neighbours that are predicted well themselves.
+
+        Parameters
+        ----------
+        neighbours : Sequence[np.ndarray]
+            For each marker its neighbours, the nearest first.
+
+        Returns
+        -------
+        np.ndarray
+            The heights (markers,), mm; NaN where that cannot be said of the marker or of too many of its neighbours.
+        """
+        heights, options = np.array([self.height(m) for m in range(len(neighbours))]), self.drifts.options
+        known = ~np.isnan(heights)
+        near = [np.asarray(around, int)[: options.attribution_neighbours] for around in neighbours]
+        share = np.array([known[around].mean() if len(around) else 0.0 for around in near])
+        return np.where(share >= options.estimated_drifts.stated_neighbour_share, heights, np.nan)
+
     def height(self, marker: int) -> float:
-        """Predict the smallest height of a drift that would have been found at most times.
+        """Predict the smallest height of a drift of one marker that would stand out at most times.
 
         Parameters
         ----------

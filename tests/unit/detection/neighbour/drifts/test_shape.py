@@ -22,6 +22,12 @@ def test_the_extent_is_fitted_from_a_template_of_another_length(start, stop, len
     assert abs(last - stop) <= 0.16 * (stop - start)
 
 
+def test_a_drift_of_a_third_of_the_length_of_the_template_is_fitted_tightly():
+    first, last = drift_shape.fit_extent(drift(230, 255), 240, 77, flank=0.5)
+    assert abs(first - 230) <= 5
+    assert abs(last - 255) <= 5
+
+
 def test_gaps_do_not_disturb_the_fit():
     residual = drift(200, 280)
     residual[228:234] = np.nan

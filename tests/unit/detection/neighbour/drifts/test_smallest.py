@@ -73,3 +73,16 @@ def test_the_stated_duration_is_an_option(body):
     longer = replace(OPTIONS, estimated_drifts=replace(OPTIONS.estimated_drifts, stated_duration_s=2.0))
     own = {"markers": markers, "earlier": nothing, "predictor": RIDGE}
     assert detect_slow(scene, options=longer, **own)[1] != detect_slow(scene, options=OPTIONS, **own)[1]
+
+
+def test_none_is_stated_of_a_marker_of_whose_neighbours_most_cannot_be_judged(body):
+    positions = body[:600].copy()
+    positions[20:, 5:] = np.nan
+    near = neighbours(positions)
+    without = replace(OPTIONS, estimated_drifts=replace(OPTIONS.estimated_drifts, stated_neighbour_share=0.0))
+    own = {"markers": list("abcdefghijkl"), "earlier": np.zeros(positions.shape, bool), "predictor": RIDGE}
+    stated = [
+        detect_slow(Scene(positions, 100.0, near), options=options, **own)[1]["a"] for options in (without, OPTIONS)
+    ]
+    assert stated[0] is not None
+    assert stated[1] is None
