@@ -33,7 +33,7 @@ USUAL_METHODS: Mapping[str, tuple[str, ...]] = {
     "labels": ("exchange",),
     "frames": ("move_back", "spline", "local_ridge"),
     "peaks": ("spline", "local_ridge"),
-    "noise": ("separate_noise", "local_ridge"),
+    "noise": ("separate_levels", "separate_noise", "local_ridge"),
     "steps": ("separate_step", "local_ridge"),
     "slow": ("separate_slow",),
 }
@@ -69,6 +69,13 @@ class SeparationOptions:
 
     oscillation_coherence_s: PositiveSeconds = 0.15
     """Time over which amplitude and phase of wobble stay alike."""
+
+    max_level_error: Share = 0.2
+    """Flicker between two levels: what the levels leave of the changes from frame to frame (root mean square along an axis), as a part of their
+    distance, at most (0 to 1)."""
+
+    min_level_changes: Annotated[int, AtLeast(2)] = 4
+    """Changes between the two levels, at least."""
 
     step_ramps_frames: Annotated[tuple[CountOrNone, ...], NotEmpty] = (0, 2)
     """Frames, all of them tried, that a step takes to its level and back."""
@@ -129,6 +136,19 @@ class ShapeGuardOptions:
 
     max_loss: NotNegative = 0.5
     """The same, by which it makes the usual distances of the subject alone less likely, at most."""
+
+    shaking_window_s: PositiveSeconds = 0.2
+    """Motion within such a window is fast: what a repair of shaking changes."""
+
+    min_shaking_windows: Positive = 1.5
+    """A finding of shaking lasts for as many windows, at least."""
+
+    min_fast_share: Share = 0.7
+    """A repair takes shaking away if this share of its changes, by their squares, is fast, at least (0 to 1)."""
+
+    max_shaking_left: Share = 0.5
+    """A repair that leaves at most this part of the squares of the fast changes, in more than half of the distances, stands unless
+    it takes them away from the usual ones (0 to 1)."""
 
     max_misfit: NotNegative = 1
     """Mean logarithm of the factor by which distances are less likely than the expected ones: measured samples that no repair is
@@ -192,7 +212,7 @@ class RepairOptions:
     """Stretches that are hidden to measure the error of a method that does not state one."""
 
     separation: SeparationOptions = field(default_factory=SeparationOptions)
-    """Options of the methods separate_noise, separate_step and separate_slow, which separate the trajectory from the artifact."""
+    """Options of the methods separate_levels, separate_noise, separate_step and separate_slow, which separate the trajectory from the artifact."""
 
     guard: ShapeGuardOptions = field(default_factory=ShapeGuardOptions)
     """Guard against repairs that take a marker away from the subject's usual shape."""

@@ -14,6 +14,7 @@ from markermend.options.repair import RepairOptions
 from markermend.prediction.interface import Prediction, Predictor
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
+from markermend.repair.level_separation import separate_levels
 from markermend.repair.methods import Proposal, predicted, smoothed
 from markermend.repair.separation import SHAPE_COVARIANCES
 from markermend.repair.separator import Separator
@@ -215,6 +216,17 @@ class CandidateMaker:
         prediction = self.predictors["local_ridge"].predict(self.scene, m, start, stop)
         return Prediction(prediction.positions[1:-1], prediction.error[1:-1])
 
+    def _levels(self, m: int, start: int, stop: int) -> Proposal | None:
+        """The samples of marker m as if it flickered between two levels, see `separate_levels`."""
+        seen, ridge = self.scene.present[:, m], self.predictors.get("local_ridge")
+        if ridge is None or start < 1 or stop >= len(seen):
+            return None
+        expected = ridge.predict(self.scene, m, start, stop).positions
+        outside = bool(seen[start - 1]), bool(seen[stop])
+        return separate_levels(
+            self.positions[start - 1 : stop + 1, m], expected, outside=outside, options=self.options.separation
+        )
+
     def worse_exchanged(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> Reason | None:
         """Find the reason why markers would be no better with the samples of their partners.
 
@@ -251,6 +263,8 @@ class CandidateMaker:
             return smoothed(
                 original, self.flagged[:, m], start, stop, window=window, order=options.savitzky_golay_order
             )
+        if method == "separate_levels":
+            return self._levels(m, start, stop)
         if method in SHAPE_COVARIANCES:
             if not self._ridges:
                 return None

@@ -59,7 +59,7 @@ def _not_to_be_repaired(finding: Finding, ruling: Ruling) -> Reason | None:
         return Reason(Cause.UNMEASURED, "; ".join(f"not measured: {text}" for text in unmeasured))
     if ruling.method and ruling.method not in METHODS:
         return Reason(Cause.FILLED_INSTEAD, f"to be filled by {ruling.method}")
-    if len(finding.members) > 1 and not ruling.method:
+    if finding.mixed and not ruling.method:
         return Reason(Cause.SEVERAL_CLASSES, "several classes of artifacts at once")
     return None
 

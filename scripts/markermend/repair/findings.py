@@ -14,6 +14,9 @@ from markermend.repair.label_exchanges import concerned
 Member = tuple[str, Event]
 """A finding with the detector that made it."""
 
+SUDDEN_STAGES = ("peaks", "noise", "steps")
+"""Detectors of sudden artifacts."""
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -34,19 +37,36 @@ class Finding:
 
     @property
     def stage(self) -> str:
-        """The detector of the strongest member."""
-        return self._strongest[0]
+        """The detector of the noise that spans all others, or of the strongest member."""
+        return (self._noise or self._strongest)[0]
 
     @property
     def event(self) -> Event:
         """The strongest member, over the whole stretch: it stands for all."""
-        start = min(event.start for _, event in self.members)
-        return replace(self._strongest[1], start=start, stop=max(event.stop for _, event in self.members))
+        start, stop = self._span
+        return replace(self._strongest[1], start=start, stop=stop)
+
+    @property
+    def mixed(self) -> bool:
+        """Whether artifacts of different kinds overlap. The peaks and steps amid noise are part of it."""
+        return len(self.members) > 1 and self._noise is None
 
     @property
     def _strongest(self) -> Member:
         """The member with the largest score, the first of several."""
         return max(self.members, key=lambda member: member[1].score)
+
+    @property
+    def _noise(self) -> Member | None:
+        """Noise that lasts for the whole stretch, beside sudden artifacts only; None if there is none."""
+        sudden = all(stage in SUDDEN_STAGES for stage, _ in self.members)
+        whole = [own for own in self.members if own[0] == "noise" and (own[1].start, own[1].stop) == self._span]
+        return whole[0] if sudden and whole else None
+
+    @property
+    def _span(self) -> tuple[int, int]:
+        """The whole stretch, [start, stop)."""
+        return min(event.start for _, event in self.members), max(event.stop for _, event in self.members)
 
 
 def group_findings(found: Mapping[str, Sequence[Event]]) -> list[Finding]:

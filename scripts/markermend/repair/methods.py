@@ -18,6 +18,7 @@ METHODS = (
     "exchange",
     "move_back",
     *SHAPE_COVARIANCES,
+    "separate_levels",
     "savitzky_golay",
     "blank",
     "local_ridge",

@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from markermend.core.reasons import Cause, Reason
+from markermend.numerics import filters
+from markermend.numerics.intervals import samples
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.repair import ShapeGuardOptions
 from markermend.prediction.scene import Scene
@@ -57,7 +59,7 @@ class ShapeGuard:
         Reason or None
             The reason, with the distance that speaks most clearly against it. None where the repair brings all of them together
             clearly nearer to what is expected; where it brings them nearer as a right one would, weighted by their precision, too,
-            and not clearly away from usual; and where too few of them are known and vary by less than the repair changes.
+            or takes a shaking out of them, and not clearly away from usual; and where too few of them are known and vary by less than the repair changes.
         """
         local = self.distances.expected(marker, start, start + len(measured))
         if local is None:
@@ -66,7 +68,8 @@ class ShapeGuard:
         gain = self._log_densities(local, seen) - self._log_densities(local, measured)
         if np.isnan(gain).all() or nan_mean(gain, axis=None) >= options.clear_gain:
             return None
-        if self._decide(local, seen - measured) and not self._nearer(local, gain, measured, seen):
+        nearer = self._nearer(local, gain, measured, seen) or self._calmer(local, measured, seen)
+        if self._decide(local, seen - measured) and not nearer:
             return self._against(local, gain, measured, seen)
         usual = self.distances.usual(marker, local)
         gain = self._log_densities(usual, seen) - self._log_densities(usual, measured)
@@ -89,6 +92,23 @@ class ShapeGuard:
         right = -nan_mean(log_density(change, self.options.degrees_of_freedom), axis=None)
         enough = nan_mean(gain, axis=None) >= self.options.min_gain_share * right
         return bool(enough and expected.by_precision(gain) > self.options.min_gain)
+
+    def _calmer(self, expected: ExpectedDistances, measured: np.ndarray, proposed: np.ndarray) -> bool:
+        """Whether a repair changes fast motion only, for long enough, and leaves little of it in the distances.
+
+        Distances that vary by more than a marker shakes say where it is too vaguely, but not how it shakes.
+        """
+        options = self.options
+        window = samples(options.shaking_window_s, self.scene.rate, odd=True)
+        if len(measured) < options.min_shaking_windows * window:
+            return False
+        change, before, after = (
+            np.stack([filters.high_pass(column, window, 1) for column in values.T], axis=1)
+            for values in (proposed - measured, expected.lengths(measured), expected.lengths(proposed))
+        )
+        fast = np.nansum(change**2) >= options.min_fast_share * np.nansum((proposed - measured) ** 2)
+        left = np.nansum(after**2, axis=0) <= options.max_shaking_left * np.nansum(before**2, axis=0)
+        return bool(fast and np.count_nonzero(left) > len(left) / 2)
 
     def _against(
         self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray

@@ -56,6 +56,15 @@ def test_findings_that_touch_are_not_one():
     assert len(group_findings({"peaks": [Event("A", 2, 4, 1.0)], "slow": [Event("A", 4, 9, 1.0)]})) == 2
 
 
+def test_peaks_and_steps_amid_noise_are_part_of_it():
+    noise = ("noise", Event("A", 3, 30, 2.0))
+    amid = Finding((noise, ("peaks", Event("A", 5, 7, 9.0)), ("steps", Event("A", 20, 30, 3.0))))
+    assert not amid.mixed and amid.stage == "noise" and (amid.event.start, amid.event.stop) == (3, 30)
+    assert Finding((noise, ("peaks", Event("A", 29, 33, 9.0)))).mixed
+    assert Finding((noise, ("slow", Event("A", 5, 20, 1.0)))).mixed
+    assert not Finding((noise,)).mixed
+
+
 def test_the_strongest_stands_for_all_over_the_whole_stretch():
     finding = Finding((("peaks", Event("A", 3, 5, 2.0, "x")), ("slow", Event("A", 4, 9, 7.0, "yz"))))
     assert (finding.stage, names_of(finding.classes)) == ("slow", ("peak", "slow"))

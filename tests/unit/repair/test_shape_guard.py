@@ -116,3 +116,27 @@ def test_missing_samples_and_mates_do_not_count(recording):
     assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
     measured[:] = np.nan
     assert guard.objection(m, START, measured, recording.positions[START:STOP, m]) is None
+
+
+def shaken(recording, true):
+    """A wobble of 8 Hz and 4 mm."""
+    time = np.arange(len(true)) / recording.rate
+    return true + 4.0 * np.sin(2 * np.pi * 8.0 * time)[:, None] * np.array([0.6, 0.64, 0.48])
+
+
+def test_a_repair_that_takes_shaking_out_of_vague_distances_stands(recording):
+    guard, m = guard_of(recording)
+    vague = replace(guard, options=replace(OPTIONS, min_deviation_mm=1.5, min_gain_share=1.0, min_gain=10.0))
+    true = recording.positions[START:STOP, m]
+    measured = shaken(recording, true)
+    assert vague.objection(m, START, measured, true) is None
+    assert vague.objection(m, START, true, measured) is not None
+    still = replace(vague, options=replace(vague.options, max_shaking_left=0.0))
+    assert still.objection(m, START, measured, true) is not None
+
+
+def test_a_repair_that_shifts_a_marker_takes_no_shaking_away(recording):
+    guard, m = guard_of(recording)
+    vague = replace(guard, options=replace(OPTIONS, min_deviation_mm=1.5, min_gain_share=1.0, min_gain=10.0))
+    true = recording.positions[START:STOP, m]
+    assert vague.objection(m, START, shaken(recording, true), true + 4.0) is not None
