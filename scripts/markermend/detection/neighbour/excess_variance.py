@@ -134,9 +134,10 @@ class BandDetector:
                 around = slice(max(0, start - self._window), stop + self._window)
                 enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
                 inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
-                lasting = ndimage.minimum_filter1d(score[start:stop], length).max() * evenness(residual[start:stop])
+                even = evenness(residual[start:stop])
+                lasting = ndimage.minimum_filter1d(score[start:stop], length).max() * even
                 rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
-                if lasting > 1:
+                if lasting > 1 and even >= self._options.min_evenness:
                     found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
         return found
 

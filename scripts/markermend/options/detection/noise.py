@@ -106,6 +106,10 @@ class ExcessVarianceOptions:
 
     Change it when impacts are taken for noise (higher)."""
 
+    min_evenness: Share = 0.5
+    """Smallest root mean square of the changes from frame to frame as their median suggests it, as a part of the real one (0 to 1):
+    where it is smaller, a few changes make up most of it, as at a jump of any size."""
+
     border_power_fraction: Share = 0.2
     """The stretch extends to the last sample whose square exceeds this part of the median mean square (0 to 1).
 

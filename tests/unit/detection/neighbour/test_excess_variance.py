@@ -72,6 +72,14 @@ def test_a_displacement_is_no_shaking_however_large(still, size, length):
     assert not any(find(still)) and not any(find_wobble(still))
 
 
+@pytest.mark.parametrize("size", [30.0, 300.0, 3000.0])
+def test_a_displacement_in_a_short_recording_is_no_shaking(still, size):
+    """The threshold is lowest there, and the prediction of the marker is worse while it is displaced."""
+    short = still[:150]
+    short[75:90, 2] += [size, 0.0, 0.0] + np.random.default_rng(3).normal(0, size / 40, (15, 3))
+    assert not any(find_wobble(short)) and not any(find(short))
+
+
 def test_wobble_is_found_in_its_band(still):
     wave = 4 * np.sin(2 * np.pi * 8.0 * np.arange(120) / RATE)
     still[400:520, 1, 2] += wave
