@@ -76,7 +76,7 @@ def test_a_displacement_is_no_shaking_however_large(still, size, length):
 def test_a_displacement_in_a_short_recording_is_no_shaking(still, size):
     """The threshold is lowest there, and the prediction of the marker is worse while it is displaced."""
     short = still[:150]
-    short[75:90, 2] += [size, 0.0, 0.0] + np.random.default_rng(3).normal(0, size / 40, (15, 3))
+    short[75:90, 2] += np.random.default_rng(3).normal([size, 0.0, 0.0], size / 40, (15, 3))
     assert not any(find_wobble(short)) and not any(find(short))
 
 
