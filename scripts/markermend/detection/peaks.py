@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -91,7 +92,15 @@ class PeakDetector(WindowDetector):
 
     def find_events(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
         """Find the pulses of one marker; see `Detector.find_events`."""
+        return self._pulses(statistics, marker, self.options)
+
+    def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
+        """Find the pulses of one marker, also where its velocity changes, as it does amid motion; see `Detector.find_candidates`."""
+        return self._pulses(statistics, marker, replace(self.options, max_kink_ratio=0.0))
+
+    def _pulses(self, statistics: ResidualStatistics, marker: int, options: PeaksOptions) -> list[Event]:
+        """The pulses of one marker as events."""
         covariance = statistics.covariance if self._dip_covariance is None else self._dip_covariance
-        found = pulses.find_pulses(statistics, marker, covariance, rate=self.scene.rate, options=self.options)
+        found = pulses.find_pulses(statistics, marker, covariance, rate=self.scene.rate, options=options)
         name = self.markers[marker]
         return [Event(name, one.start, one.stop, one.score, events.main_axes(one.deviation)) for one in found]

@@ -121,8 +121,8 @@ def innovation_map(covariance: WindowCovariance, length: int, size: int, offset:
 
 
 @lru_cache(maxsize=512)
-def whitened_steps(covariance: WindowCovariance, size: int) -> np.ndarray:
-    """Make the map from a window to the amplitudes of steps at each place, in units of their standard deviation.
+def whitened_changes(covariance: WindowCovariance, size: int, *, order: int) -> np.ndarray:
+    """Make the map from a window to the amplitudes of changes of level or velocity at each place, each in standard deviations.
 
     Parameters
     ----------
@@ -130,16 +130,19 @@ def whitened_steps(covariance: WindowCovariance, size: int) -> np.ndarray:
         Covariance of the residual windows.
     size : int
         Samples in a window.
+    order : int
+        0 for steps, changes of level; 1 for kinks, changes of velocity.
 
     Returns
     -------
     np.ndarray
-        Matrix (size - 1, size).
+        Matrix (size - 1 - order, size).
     """
     precision = covariance.precision(size)
-    step = np.arange(size) >= np.arange(1, size)[:, None]
-    across = step @ precision
-    whitened: np.ndarray = across / np.sqrt(np.maximum((across * step).sum(axis=1), 1e-12))[:, None]
+    after = np.arange(size) - np.arange(1 + order, size)[:, None] + 1
+    change = np.maximum(after, 0) ** order * (after > 0)
+    across = change @ precision
+    whitened: np.ndarray = across / np.sqrt(np.maximum((across * change).sum(axis=1), 1e-12))[:, None]
     return whitened
 
 
@@ -204,7 +207,7 @@ def _pulses(
     covariance: WindowCovariance,
     options: PeaksOptions,
 ) -> Iterator[Pulse]:
-    """The pulses of some windows, each trimmed to its outlying samples, without those that a level shift explains.
+    """The pulses of some windows, each trimmed to its outlying samples, without those that a change of level or velocity explains.
 
     extent: samples of the pattern, and how many on either side of it may belong to the pulse as well.
     """
@@ -221,14 +224,16 @@ def _pulses(
         low, high = int(inside[0]), int(inside[-1]) + 1
         # Up to the very border of a gap a level shift and a pulse are the same.
         enclosed = offset + low > 0 and offset + high < filters.length
-        if enclosed and _shift_misfit(over.residual[i], covariance) <= options.max_shift_ratio * over.misfit[i]:
+        ratios = (options.max_shift_ratio, options.max_kink_ratio) if enclosed else ()
+        left = (_misfit_of_change(over.residual[i], covariance, order=order) for order in range(len(ratios)))
+        if any(misfit <= ratio * over.misfit[i] for misfit, ratio in zip(left, ratios, strict=True)):
             continue
         yield Pulse(first + low, first + high, float(over.score[i]), deviation[low:high])
 
 
-def _shift_misfit(window: np.ndarray, covariance: WindowCovariance) -> float:
-    """Root mean square that the level shift which fits best leaves of a window (3, n), mm."""
+def _misfit_of_change(window: np.ndarray, covariance: WindowCovariance, *, order: int) -> float:
+    """Root mean square that the change of level or velocity which fits best leaves of a window (3, n), mm."""
     size = window.shape[1]
     whole = np.einsum("an,nm,am->", window, covariance.precision(size), window)
-    explained = ((window @ whitened_steps(covariance, size).T) ** 2).sum(axis=0).max()
+    explained = ((window @ whitened_changes(covariance, size, order=order).T) ** 2).sum(axis=0).max()
     return float(np.sqrt(max(whole - explained, 0) / (3 * (covariance.degrees_of_freedom(size) - 1))))

@@ -84,6 +84,11 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     Change it when the edges of steps are taken for peaks (higher)."""
 
+    max_kink_ratio: NotNegative = 1.5
+    """A finding is no peak if a change of velocity leaves at most this many times the residual that remains without its samples.
+
+    Change it when impacts are taken for peaks (higher)."""
+
     common_motion: CommonMotionOptions = field(default_factory=CommonMotionOptions)
     """Options by which common motion is distinguished from peaks."""
 

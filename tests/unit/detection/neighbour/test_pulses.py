@@ -67,12 +67,14 @@ def test_pulses_are_trimmed_to_the_samples_that_are_off(rate):
     )
 
 
-@pytest.mark.parametrize("shape", ["edge", "hump", "noise", "of the neighbour"])
+@pytest.mark.parametrize("shape", ["edge", "impact", "hump", "noise", "of the neighbour"])
 def test_what_is_no_pulse(shape):
     residual = rough(400, 3)
     positions = residual.copy()
     if shape == "edge":
         residual[200:] += 10
+    elif shape == "impact":
+        residual += 3 * np.maximum(np.arange(400) - 200, 0)[:, None]
     elif shape == "hump":
         residual += 10 * np.exp(-(((np.arange(400) - 200) / 8) ** 2))[:, None]
     elif shape == "noise":
