@@ -94,7 +94,9 @@ class SimilarPoses:
         weights /= np.maximum(weights.sum(axis=1, keepdims=True), 1e-12)
         mean = np.where(weights.any(axis=1), np.nansum(weights * own, axis=1), np.nan)
         variance = np.nansum(weights * (own - mean[:, None]) ** 2, axis=1)
-        farther = (weights * slope * apart[:, :, None]).sum(axis=1)
+        # Poses without a known distance in common have no weight.
+        known = np.where(np.isfinite(apart), apart, 0.0)
+        farther = (weights * slope * known[:, :, None]).sum(axis=1)
         return mean, np.sqrt(variance + farther**2)
 
     def _pose(self, frames: np.ndarray) -> np.ndarray:
