@@ -146,6 +146,9 @@ class ShapeGuardOptions:
     min_fast_share: Share = 0.7
     """A repair takes shaking away if this share of its changes, by their squares, is fast, at least (0 to 1)."""
 
+    max_shaking_mm: Millimetres = 10
+    """Root mean square of its changes, at most: larger ones the distances must bear out."""
+
     max_shaking_left: Share = 0.5
     """A repair that leaves at most this part of the squares of the fast changes, in more than half of the distances, stands unless
     it takes them away from the usual ones (0 to 1)."""

@@ -94,13 +94,14 @@ class ShapeGuard:
         return bool(enough and expected.by_precision(gain) > self.options.min_gain)
 
     def _calmer(self, expected: ExpectedDistances, measured: np.ndarray, proposed: np.ndarray) -> bool:
-        """Whether a repair changes fast motion only, for long enough, and leaves little of it in the distances.
+        """Whether a repair changes fast motion only, little and for long enough, and leaves little of it in the distances.
 
         Distances that vary by more than a marker shakes say where it is too vaguely, but not how it shakes.
         """
         options = self.options
         window = samples(options.shaking_window_s, self.scene.rate, odd=True)
-        if len(measured) < options.min_shaking_windows * window:
+        size = np.sqrt(nan_mean(((proposed - measured) ** 2).sum(axis=1), axis=None))
+        if len(measured) < options.min_shaking_windows * window or not size <= options.max_shaking_mm:
             return False
         change, before, after = (
             np.stack([filters.high_pass(column, window, 1) for column in values.T], axis=1)

@@ -131,8 +131,9 @@ def test_a_repair_that_takes_shaking_out_of_vague_distances_stands(recording):
     measured = shaken(recording, true)
     assert vague.objection(m, START, measured, true) is None
     assert vague.objection(m, START, true, measured) is not None
-    still = replace(vague, options=replace(vague.options, max_shaking_left=0.0))
-    assert still.objection(m, START, measured, true) is not None
+    for strict in ({"max_shaking_left": 0.0}, {"max_shaking_mm": 1.0}):
+        guard = replace(vague, options=replace(vague.options, **strict))
+        assert guard.objection(m, START, measured, true) is not None
 
 
 def test_a_repair_that_shifts_a_marker_takes_no_shaking_away(recording):
