@@ -110,7 +110,7 @@ class LevelEvidence:
         some = frames[np.unique(np.linspace(0, len(frames) - 1, count).astype(int))]
         near = intervals.samples(self.options.level_window_s, self.scene.rate)
         usual, deviation = poses.predict(some, excluded=(int(frames[0]) - near, int(frames[-1]) + 1 + near))
-        scale = np.hypot(deviation, self.options.min_shape_deviation_mm)
+        scale = np.hypot(deviation, self.options.similar_poses.min_deviation_mm)
         points = self.scene.positions[some, self.marker]
         before, after = (poses.distances(own, some) - usual for own in (points, points - displacement))
         return min(0.0, self._weight(frames) * self._of_distances(before, after, scale))

@@ -51,6 +51,11 @@ class SimilarPosesOptions:
     distance_slope: NotNegative = 0.1
     """By how much the distances of a marker may differ where the pose does, per mm of its root mean square difference."""
 
+    min_deviation_mm: PositiveMillimetres = 1.5
+    """Standard deviation of the distances at equal poses, at least: no pose is told by a few distances to the millimetre.
+
+    Change it when small steps are missed (higher), or motion that recurs is taken for steps (lower)."""
+
     max_samples: Count = 8
     """Frames of a stretch, evenly spaced, that are compared."""
 
