@@ -59,7 +59,8 @@ class ShapeGuard:
         Reason or None
             The reason, with the distance that speaks most clearly against it. None where the repair brings all of them together
             clearly nearer to what is expected; where it brings them nearer as a right one would, weighted by their precision, too,
-            or takes a shaking out of them, and not clearly away from usual; and where too few of them are known and vary by less than the repair changes.
+            or takes shaking out of them, and not clearly away from usual; and where too few of them are known, or vary by less
+            than the repair changes, and it does not take them clearly away from usual.
         """
         local = self.distances.expected(marker, start, start + len(measured))
         if local is None:
@@ -108,8 +109,10 @@ class ShapeGuard:
             for values in (proposed - measured, expected.lengths(measured), expected.lengths(proposed))
         )
         fast = np.nansum(change**2) >= options.min_fast_share * np.nansum((proposed - measured) ** 2)
-        left = np.nansum(after**2, axis=0) <= options.max_shaking_left * np.nansum(before**2, axis=0)
-        return bool(fast and np.count_nonzero(left) > len(left) / 2)
+        shaken = np.nansum(before**2, axis=0)
+        # Of a mate that is seen for single frames only, no fast change is known.
+        calmer = (shaken > 0) & (np.nansum(after**2, axis=0) <= options.max_shaking_left * shaken)
+        return bool(fast and np.count_nonzero(calmer) > len(calmer) / 2)
 
     def _against(
         self, expected: ExpectedDistances, gain: np.ndarray, measured: np.ndarray, proposed: np.ndarray

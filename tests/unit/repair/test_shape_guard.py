@@ -141,3 +141,18 @@ def test_a_repair_that_shifts_a_marker_takes_no_shaking_away(recording):
     vague = replace(guard, options=replace(OPTIONS, min_deviation_mm=1.5, min_gain_share=1.0, min_gain=10.0))
     true = recording.positions[START:STOP, m]
     assert vague.objection(m, START, shaken(recording, true), true + 4.0) is not None
+
+
+def test_distances_to_mates_that_are_hardly_seen_do_not_say_that_a_marker_shakes_less(recording):
+    """Of five mates four are seen in one frame each; the marker shakes as much as before."""
+    guard, m = guard_of(recording)
+    vague = replace(OPTIONS, min_deviation_mm=1.5, min_gain_share=1.0, min_gain=10.0)
+    true = recording.positions[START:STOP, m]
+    measured = shaken(recording, true)
+    mates = guard.distances.expected(m, START, STOP).mates
+    positions = guard.scene.positions.copy()
+    for frame, mate in enumerate(mates[1:]):
+        positions[START : START + frame, mate] = np.nan
+        positions[START + frame + 1 : STOP, mate] = np.nan
+    guard = replace(guard, options=vague, scene=replace(guard.scene, positions=positions))
+    assert guard.objection(m, START, measured, 2 * true - measured) is not None
