@@ -70,10 +70,12 @@ def low_levels(size: np.ndarray, quantile: float, *, min_level: float) -> np.nda
         Levels (markers,): the quantile, times what the median usually is in units of it.
     """
     low, median = np.full((2, size.shape[1]), min_level)
-    for m, own in enumerate(size.T):
-        if (~np.isnan(own)).any():
-            low[m], median[m] = np.maximum(np.quantile(own[~np.isnan(own)], (quantile, 0.5)), min_level)
-    levels: np.ndarray = low * np.median(median / low)
+    seen = ~np.isnan(size).all(axis=0)
+    for m in np.flatnonzero(seen).tolist():
+        own = size[~np.isnan(size[:, m]), m]
+        low[m], median[m] = np.maximum(np.quantile(own, (quantile, 0.5)), min_level)
+    # Of a marker that is never seen no median is known.
+    levels: np.ndarray = low * (np.median(median[seen] / low[seen]) if seen.any() else 1.0)
     return levels
 
 

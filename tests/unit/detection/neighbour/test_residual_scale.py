@@ -62,3 +62,10 @@ def test_low_levels_do_not_follow_an_artifact_of_half_of_the_recording():
 def test_low_levels_of_markers_that_are_never_seen_or_fit_exactly_are_the_smallest():
     size = np.stack([np.full(50, np.nan), np.zeros(50)], axis=1)
     np.testing.assert_array_equal(residual_scale.low_levels(size, 0.25, min_level=0.01), 0.01)
+
+
+def test_markers_that_are_never_seen_do_not_lower_the_levels_of_others():
+    size = np.abs(np.random.default_rng(4).normal(0, 1.0, (400, 2)))
+    levels = residual_scale.low_levels(size, 0.25, min_level=0.01)
+    unseen = np.concatenate([size, np.full((400, 3), np.nan)], axis=1)
+    np.testing.assert_array_equal(residual_scale.low_levels(unseen, 0.25, min_level=0.01)[:2], levels)
