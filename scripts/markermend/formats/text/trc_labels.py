@@ -69,7 +69,8 @@ def labelled_columns(name: str, labels: Sequence[str], *, width: int, promised: 
     first = _first(_texts(labels, filled))
     own = filled[first:]
     in_place = filled[:first] == list(range(first)) and all((i - first) % 3 == 0 for i in own)
-    if own and in_place and own[-1] + 3 >= width:
+    # Several labels that stand above their columns are no accident, whatever blanks are in them.
+    if own and in_place and (len(own) > 1 or own[-1] + 3 >= width):
         return LabelledColumns(tuple(labels[i] for i in range(first, own[-1] + 1, 3)), first, ())
     if own and first + 3 * len(own) == width:
         return LabelledColumns(_texts(labels, own), first, (IN_ORDER,))

@@ -36,6 +36,13 @@ def test_a_label_of_several_words_is_one_where_the_header_states_no_more_markers
     assert found.names == ("left knee",)
 
 
+@pytest.mark.parametrize("width", [11, 14])
+def test_blanks_in_labels_above_their_columns_separate_nothing(width: int) -> None:
+    """Though the rows have more columns than labels."""
+    found = labelled_columns("a.trc", ["Frame#", "Time", "Left  knee", "", "", "B", "", ""], width=width, promised=2)
+    assert found.names == ("Left  knee", "B") and found.warnings == ()
+
+
 @pytest.mark.parametrize(
     ("line", "reason"),
     [
