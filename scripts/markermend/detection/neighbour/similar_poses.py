@@ -88,15 +88,15 @@ class SimilarPoses:
         nearest = np.argsort(apart, axis=1)[:, :count]
         apart = np.take_along_axis(apart, nearest, axis=1)
         own = self.distances(self.scene.positions[times, self.marker], times)[nearest]
-        slope = self.options.distance_slope
-        weight = 1 / (self.options.pose_tolerance_mm**2 + (slope * apart) ** 2)
+        # Poses without a known distance in common have no weight.
+        comparable = np.isfinite(apart)
+        differing = self.options.distance_slope * np.where(comparable, apart, 0.0)
+        weight = np.where(comparable, 1 / (self.options.pose_tolerance_mm**2 + differing**2), 0.0)
         weights = np.where(np.isnan(own), 0.0, weight[:, :, None])
         weights /= np.maximum(weights.sum(axis=1, keepdims=True), 1e-12)
         mean = np.where(weights.any(axis=1), np.nansum(weights * own, axis=1), np.nan)
         variance = np.nansum(weights * (own - mean[:, None]) ** 2, axis=1)
-        # Poses without a known distance in common have no weight.
-        known = np.where(np.isfinite(apart), apart, 0.0)
-        farther = (weights * slope * known[:, :, None]).sum(axis=1)
+        farther = (weights * differing[:, :, None]).sum(axis=1)
         return mean, np.sqrt(variance + farther**2)
 
     def _pose(self, frames: np.ndarray) -> np.ndarray:

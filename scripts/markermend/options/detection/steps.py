@@ -46,7 +46,7 @@ class SimilarPosesOptions:
     """Time from one pose that is looked at to the next."""
 
     pose_tolerance_mm: PositiveMillimetres = 0.5
-    """Poses that differ by less are equally similar."""
+    """Poses are equally similar where the distances of the marker would differ by less, see `distance_slope`."""
 
     distance_slope: NotNegative = 0.1
     """By how much the distances of a marker may differ where the pose does, per mm of its root mean square difference."""

@@ -59,12 +59,13 @@ def test_a_marker_without_neighbours_has_no_distances():
 
 
 @pytest.mark.filterwarnings("error")
-def test_poses_without_a_distance_in_common_do_not_count():
+@pytest.mark.parametrize("distance_slope", [0.0, OPTIONS.distance_slope])
+def test_poses_without_a_distance_in_common_do_not_count(distance_slope):
     """Half of the frames lack three of the four neighbours, so that no distance of theirs is known."""
     scene = bending()
     scene.positions[:200, 2:] = np.nan
-    frames = np.array([250, 350])
-    predicted, deviation = SimilarPoses(scene, 0, replace(OPTIONS, poses=FRAMES)).predict(frames, (240, 260))
+    frames, options = np.array([250, 350]), replace(OPTIONS, poses=FRAMES, distance_slope=distance_slope)
+    predicted, deviation = SimilarPoses(scene, 0, options).predict(frames, (240, 260))
     assert np.isfinite(predicted).all() and np.isfinite(deviation).all()
     unknown = SimilarPoses(scene, 0, OPTIONS).predict(np.array([50]), (0, 10))
     assert np.isnan(unknown[0]).all()
