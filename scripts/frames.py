@@ -6,18 +6,18 @@ Writes: 02_frames.parquet, with warnings of a regular repetition of frames among
 
 from collections.abc import Sequence
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.detection.frames import detect_frames
 from markermend.options.detection.frames import FramesOptions
 
-STAGE = detector.stage("frames", __doc__, FramesOptions, finds="faults of the capture system")
+STAGE = detector_stage.command("frames", __doc__, FramesOptions, finds="faults of the capture system")
 
 
-def work(call: detector.DetectorCall) -> str:
-    given, recorded_under = detector.arguments(call)
+def work(call: detector_stage.DetectorCall) -> str:
+    given, recorded_under = detector_stage.arguments(call)
     found, warnings = detect_frames(**given)
-    detector.write(call, found, recorded_under, {"warnings": warnings})
-    return detector.result(found)
+    detector_stage.write(call, found, recorded_under, {"warnings": warnings})
+    return detector_stage.result(found)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

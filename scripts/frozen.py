@@ -6,15 +6,15 @@ Writes: 02_frozen.parquet.
 
 from collections.abc import Sequence
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.detection.frozen import detect_frozen
 from markermend.options.detection.frozen import FrozenOptions
 
-STAGE = detector.stage("frozen", __doc__, FrozenOptions, finds="frozen stretches")
+STAGE = detector_stage.command("frozen", __doc__, FrozenOptions, finds="frozen stretches")
 
 
-def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_frozen)
+def work(call: detector_stage.DetectorCall) -> str:
+    return detector_stage.search(call, detect_frozen)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

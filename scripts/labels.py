@@ -8,12 +8,12 @@ lie under unlabelled trajectories, among its facts.
 from collections.abc import Sequence
 from typing import Any
 
-from markermend.command import detector
+from markermend.command import detector, detector_stage
 from markermend.detection.labels import detect_labels
 from markermend.options.detection.labels import LabelsOptions
 from markermend.storage import mesh_file, stage_files
 
-STAGE = detector.stage("labels", __doc__, LabelsOptions, finds="faults of labels")
+STAGE = detector_stage.command("labels", __doc__, LabelsOptions, finds="faults of labels")
 
 
 def work(call: Any) -> str:
@@ -21,7 +21,7 @@ def work(call: Any) -> str:
     mesh = mesh_file.read(call.mesh, recording.facts["recording"])
     found, warnings = detect_labels(**detector.labels_arguments(recording, mesh, call.options))
     stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
-    return detector.result(found)
+    return detector_stage.result(found)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

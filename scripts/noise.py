@@ -7,11 +7,11 @@ Writes: 03_noise.parquet.
 from collections.abc import Sequence
 from typing import Any
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.detection.noise import detect_noise
 from markermend.options.detection.noise import NoiseOptions
 
-STAGE = detector.stage("noise", __doc__, NoiseOptions, finds="heavy noise")
+STAGE = detector_stage.command("noise", __doc__, NoiseOptions, finds="heavy noise")
 
 
 def published(options: NoiseOptions) -> Any:
@@ -20,8 +20,8 @@ def published(options: NoiseOptions) -> Any:
     return detect_published
 
 
-def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_noise, published)
+def work(call: detector_stage.DetectorCall) -> str:
+    return detector_stage.search(call, detect_noise, published)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -7,11 +7,11 @@ Writes: 02_peaks.parquet.
 from collections.abc import Sequence
 from typing import Any
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.detection.peaks import detect_peaks
 from markermend.options.detection.peaks import PeaksOptions
 
-STAGE = detector.stage("peaks", __doc__, PeaksOptions, finds="isolated peaks")
+STAGE = detector_stage.command("peaks", __doc__, PeaksOptions, finds="isolated peaks")
 
 
 def published(options: PeaksOptions) -> Any:
@@ -20,8 +20,8 @@ def published(options: PeaksOptions) -> Any:
     return detect_published
 
 
-def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_peaks, published)
+def work(call: detector_stage.DetectorCall) -> str:
+    return detector_stage.search(call, detect_peaks, published)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

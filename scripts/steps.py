@@ -7,12 +7,12 @@ Writes: 04_steps.parquet, with the jumps that have no counterpart among its fact
 from collections.abc import Sequence
 from typing import Any
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.command.presets import preset_detector
 from markermend.detection.steps import detect_steps
 from markermend.options.detection.steps import StepsOptions
 
-STAGE = detector.stage("steps", __doc__, StepsOptions, finds="steps")
+STAGE = detector_stage.command("steps", __doc__, StepsOptions, finds="steps")
 
 
 def published(options: StepsOptions) -> Any:
@@ -21,11 +21,11 @@ def published(options: StepsOptions) -> Any:
     return detect_published
 
 
-def work(call: detector.DetectorCall) -> str:
-    given, recorded_under = detector.arguments(call)
+def work(call: detector_stage.DetectorCall) -> str:
+    given, recorded_under = detector_stage.arguments(call)
     found, left = preset_detector(detect_steps, call.options, published)(**given)
-    detector.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
-    return f"{detector.result(found)}; {len(left)} open steps"
+    detector_stage.write(call, found, recorded_under, {"open_steps": [vars(step) for step in left]})
+    return f"{detector_stage.result(found)}; {len(left)} open steps"
 
 
 def main(argv: Sequence[str] | None = None) -> None:

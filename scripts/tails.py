@@ -6,15 +6,15 @@ Writes: 02_tails.parquet.
 
 from collections.abc import Sequence
 
-from markermend.command import detector
+from markermend.command import detector_stage
 from markermend.detection.tails import detect_tails
 from markermend.options.detection.tails import TailsOptions
 
-STAGE = detector.stage("tails", __doc__, TailsOptions, finds="noisy tails")
+STAGE = detector_stage.command("tails", __doc__, TailsOptions, finds="noisy tails")
 
 
-def work(call: detector.DetectorCall) -> str:
-    return detector.search(call, detect_tails)
+def work(call: detector_stage.DetectorCall) -> str:
+    return detector_stage.search(call, detect_tails)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

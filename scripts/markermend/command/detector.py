@@ -1,13 +1,11 @@
-"""What the commands of the detectors share: their files, what a detector is given, and the line of result."""
+"""What a detector is given, and what it finds: its arguments, and the labels under which events are stated."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from markermend.command.presets import Published, preset_detector, preset_of, preset_options, preset_predictor
-from markermend.command.stage import Stage
 from markermend.core import events, labels
 from markermend.core.adoption import adopt, is_adopted, without_adopted
 from markermend.core.artifacts import BY_NAME
@@ -18,87 +16,6 @@ from markermend.options.detection.detector import DetectorOptions
 from markermend.options.detection.frames import FramesOptions
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
-from markermend.storage import mesh_file, stage_files
-
-
-class DetectorCall(Protocol):
-    """One call of a detector's command.
-
-    Attributes
-    ----------
-    markers, mesh : Path
-        Trajectories as ingested, and the meshes of the subject.
-    earlier : sequence of Path
-        Events of the detectors before.
-    events : Path
-        Where the events go.
-    options : DetectorOptions
-        The section of the detector.
-    facts : dict of str to Any
-        Stage, options and checksums of the inputs, to be stored with the events.
-    """
-
-    markers: Path
-    mesh: Path
-    earlier: Sequence[Path]
-    events: Path
-    options: DetectorOptions
-    facts: dict[str, Any]
-
-
-def stage(name: str, description: str, options: type, *, finds: str) -> Stage:
-    """Make the command of a detector.
-
-    Parameters
-    ----------
-    name : str
-        Name of the stage.
-    description : str
-        What it does, reads and writes.
-    options : type
-        The class of its options.
-    finds : str
-        What it finds, in the plural.
-
-    Returns
-    -------
-    Stage
-        The command with its files.
-    """
-    command = Stage(name, description, options)
-    command.reads("markers", "trajectories as ingested")
-    command.reads("mesh", "functional body mesh of the subject")
-    command.reads(
-        "earlier", "events of the detectors before: labels to exchange, samples to leave out", many=True, optional=True
-    )
-    command.writes("events", f"the {finds} found")
-    return command
-
-
-def arguments(call: DetectorCall) -> tuple[dict[str, Any], list[Event]]:
-    """Read the files of a detector and make its arguments of them: see `detector_arguments`.
-
-    Parameters
-    ----------
-    call : DetectorCall
-        The files and options of the stage.
-
-    Returns
-    -------
-    given : dict
-        The arguments of the detector.
-    recorded_under : list of Event
-        The exchanges of labels that were not undone.
-
-    Raises
-    ------
-    SetAside
-        If an earlier stage set the recording aside.
-    """
-    recording = stage_files.read_recording(call.markers)
-    mesh = mesh_file.read(call.mesh, recording.facts["recording"])
-    earlier = [event for path in call.earlier for event in stage_files.read_events(path)]
-    return detector_arguments(recording, mesh, earlier, options=call.options)
 
 
 def detector_arguments(
@@ -107,7 +24,7 @@ def detector_arguments(
     """Make the arguments of a detector.
 
     The published detectors (preset `paper`) look at the trajectories as recorded, all others at trajectories on which
-    exchanged labels are undone and markers have their samples that lie under unlabelled trajectories, as far as these are adopted.
+    exchanged labels are undone and markers have those samples under unlabelled trajectories that are adopted.
 
     Parameters
     ----------
@@ -273,64 +190,3 @@ def under_right_labels(found: list[Event], recorded_under: Sequence[Event]) -> l
         The events with the right markers, split where an exchange begins or ends within them.
     """
     return labels.follow(found, found_under=(), stated_under=recorded_under) if recorded_under else found
-
-
-def write(call: DetectorCall, found: list[Event], recorded_under: Sequence[Event], facts: dict[str, Any]) -> None:
-    """Write events under the right labels.
-
-    Parameters
-    ----------
-    call : DetectorCall
-        The files and options of the stage.
-    found : list of Event
-        Events on the trajectories that the detector was given.
-    recorded_under : sequence of Event
-        The exchanges of labels that were not undone on them.
-    facts : dict of str to Any
-        Further facts to store with the events.
-    """
-    stage_files.write_events(call.events, under_right_labels(found, recorded_under), {**call.facts, **facts})
-
-
-def result(found: list[Event]) -> str:
-    """Write the line of result of a detector.
-
-    Parameters
-    ----------
-    found : list of Event
-        The events.
-
-    Returns
-    -------
-    str
-        How many findings on how many markers, and how many samples.
-    """
-    return f"{events.count_findings(found)} on {len({event.marker for event in found})} markers, {sum(e.stop - e.start for e in found)} samples"
-
-
-def search(call: DetectorCall, detect: Callable[..., list[Event]], published: Published | None = None) -> str:
-    """Detect one class of artifacts, and write the events.
-
-    Parameters
-    ----------
-    call : DetectorCall
-        The files and options of the stage.
-    detect : callable
-        The default detector of the class.
-    published : callable, optional
-        Imports the published detector of the class.
-
-    Returns
-    -------
-    str
-        The line of result.
-
-    Raises
-    ------
-    SetAside
-        If an earlier stage set the recording aside.
-    """
-    given, recorded_under = arguments(call)
-    found = preset_detector(detect, call.options, published)(**given)
-    write(call, found, recorded_under, {})
-    return result(found)
