@@ -36,9 +36,8 @@ from benchmarks.support.defaults import DATA
 from benchmarks.support.recording_folds import CROPS, GROUPS, Crop, load
 from markermend import api
 from markermend.core.recording import Recording
-from markermend.detection.neighbour import residual_scale
+from markermend.detection.neighbour import nearest_neighbours, residual_scale
 from markermend.detection.neighbour.drifts.regression import MIN_SCALE_MM
-from markermend.detection.neighbour.excess_variance import neighbour_maximum
 from markermend.detection.slow import SlowChanges
 from markermend.numerics import filters, intervals
 from markermend.numerics.pulse_regression import PulseResponses
@@ -164,7 +163,7 @@ def wobbles(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
         scale = residual_scale.fitted_scale(
             rms(residual, window),
             scene.neighbours,
-            neighbour_maximum(rms(motion, window), scene.neighbours, options.scale_neighbours)[None],
+            nearest_neighbours.maximum(rms(motion, window), scene.neighbours, options.scale_neighbours)[None],
             count=options.scale_neighbours,
             window=1,
             min_scale=MIN_SCALE_MM,

@@ -2,21 +2,22 @@
 
 Jitter changes from frame to frame, wobble is an oscillation of several Hz. Both are too small for any single change to be
 conspicuous, so the root mean square over a window is judged: by how much it exceeds what is usual of this marker while its
-neighbours move and fit as they do now, and by how much it exceeds the motion of the neighbours in the same band. At an impact
-the neighbours are shaken as well. How much of either is usual is estimated from the recording, as a quantile over all markers; the
-threshold rises with the number of windows in the recording, as the largest of many does (Coles 2001, section 3.1). Only what is in the trajectory as recorded counts: the artifact of a neighbour is in the residual alone.
+neighbours move and fit as they do now, and by how much it exceeds the motion of the neighbours in the same band: at an impact
+these are shaken as well. How much of either is usual is estimated from the recording, as a quantile over all markers; the
+threshold rises with the number of windows in the recording, as the largest of many does (Coles 2001, section 3.1). Only what
+is in the trajectory as recorded counts: the artifact of a neighbour is in the residual alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from scipy import ndimage, stats
 
-from markermend.detection.neighbour import residual_scale
+from markermend.detection.neighbour import nearest_neighbours, residual_scale
 from markermend.detection.neighbour.residual_scale import moving_mean
 from markermend.numerics import filters
 from markermend.numerics.intervals import runs, samples
@@ -71,7 +72,7 @@ class BandDetector:
         self._window = max(samples(options.window_s, scene.rate, odd=True), MIN_WINDOW)
         self._recorded = self._filtered(scene.positions)
         motion = np.sqrt(np.maximum(moving_mean((self._recorded**2).sum(axis=2), self._window), 0))
-        self._motion = neighbour_maximum(motion, scene.neighbours, options.motion_neighbours)
+        self._motion = nearest_neighbours.maximum(motion, scene.neighbours, options.motion_neighbours)
 
     def find(self, residual: np.ndarray) -> list[list[Shaking]]:
         """Find the stretches in which markers shake.
@@ -120,7 +121,8 @@ class BandDetector:
             size / np.maximum(options.floor_mm, options.min_motion_ratio * self._motion),
             relative / (options.threshold_factor * windows**options.tail_index),
         )
-        score[seen_share(scene.present, scene.neighbours, options.scale_neighbours) < options.min_seen_share] = 0
+        seen = nearest_neighbours.seen_share(scene.present, scene.neighbours, options.scale_neighbours)
+        score[seen < options.min_seen_share] = 0
         found: np.ndarray = np.nan_to_num(score)
         return found
 
@@ -204,53 +206,3 @@ def wobble_detector(scene: Scene, options: WobbleOptions) -> BandDetector | None
     half_length = samples(options.filter_s / 2, scene.rate)
     band = partial(filters.band_pass, band_hz=options.band_hz, rate=scene.rate, half_length=half_length)
     return BandDetector(scene, band, options)
-
-
-def neighbour_maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """Take the maximum over the nearest neighbours that are seen: with one that moves alike a marker does not shake alone.
-
-    Parameters
-    ----------
-    size : np.ndarray
-        Sizes (frames, markers), NaN = missing.
-    neighbours : Sequence[np.ndarray]
-        For each marker its neighbours, the nearest first.
-    count : int
-        Number of nearest neighbours among those that are seen in a frame.
-
-    Returns
-    -------
-    np.ndarray
-        The maximum (frames, markers), 0 where no neighbour is seen.
-    """
-    largest, seen = np.zeros_like(size), ~np.isnan(size)
-    for m, around in enumerate(neighbours):
-        if len(around):
-            ranked = np.asarray(around, int)
-            nearest = seen[:, ranked] & (np.cumsum(seen[:, ranked], axis=1) <= count)
-            largest[:, m] = np.where(nearest, size[:, ranked], 0.0).max(axis=1)
-    return largest
-
-
-def seen_share(present: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """Compute which share of the nearest neighbours of each marker is seen: without them its residual is larger than usual.
-
-    Parameters
-    ----------
-    present : np.ndarray
-        Which markers are seen, bool (frames, markers).
-    neighbours : Sequence[np.ndarray]
-        For each marker its neighbours, the nearest first.
-    count : int
-        Number of nearest neighbours.
-
-    Returns
-    -------
-    np.ndarray
-        Shares (frames, markers), 0 to 1; 0 for a marker without neighbours.
-    """
-    share = np.zeros(present.shape)
-    for m, around in enumerate(neighbours):
-        if len(around):
-            share[:, m] = present[:, np.asarray(around, int)[:count]].mean(axis=1)
-    return share

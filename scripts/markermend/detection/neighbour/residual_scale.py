@@ -79,45 +79,6 @@ def low_levels(size: np.ndarray, quantile: float, *, min_level: float) -> np.nda
     return levels
 
 
-def neighbour_motion(
-    positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, count: int, smoothing: int
-) -> np.ndarray:
-    """Measure how the nearest neighbours of each marker move; its own trajectory does not count.
-
-    Parameters
-    ----------
-    positions : np.ndarray
-        Positions (frames, markers, 3), mm, NaN = missing: such neighbours do not count.
-    neighbours : Sequence[np.ndarray]
-        For each marker its neighbours, the nearest first.
-    rate : float
-        Sampling rate, Hz.
-    count : int
-        Number of nearest neighbours.
-    smoothing : int
-        Window of the moving mean of the positions, samples.
-
-    Returns
-    -------
-    np.ndarray
-        Root mean square speed about their mean velocity, mm/s, and acceleration, mm/s^2, (2, frames, markers); 0 where no
-        neighbour is observed.
-    """
-    if len(positions) < 2:
-        return np.zeros((2, *positions.shape[:2]))
-    smoothed = moving_mean(positions, smoothing)
-    velocity = np.gradient(smoothed, axis=0) * rate
-    acceleration = np.gradient(velocity, axis=0) * rate
-    motion = np.zeros((2, *positions.shape[:2]))
-    for m, around in enumerate(neighbours):
-        some = np.asarray(around, int)[:count]
-        if len(some):
-            about_mean = velocity[:, some] - _mean(velocity[:, some])[:, None]
-            motion[0, :, m] = np.sqrt(_mean((about_mean**2).sum(axis=2)))
-            motion[1, :, m] = np.sqrt(_mean((acceleration[:, some] ** 2).sum(axis=2)))
-    return motion
-
-
 def fitted_scale(
     size: np.ndarray,
     neighbours: Sequence[np.ndarray],
@@ -139,7 +100,7 @@ def fitted_scale(
     neighbours : Sequence[np.ndarray]
         For each marker its neighbours, the nearest first.
     motion : np.ndarray
-        Kinds of motion (kinds, frames, markers), see `neighbour_motion`.
+        Kinds of motion (kinds, frames, markers), see `nearest_neighbours.motion`.
     count : int
         Number of nearest neighbours.
     window : int
@@ -174,7 +135,7 @@ def fitted_rise(
     neighbours : Sequence[np.ndarray]
         For each marker its neighbours, the nearest first.
     motion : np.ndarray
-        Kinds of motion (kinds, frames, markers), see `neighbour_motion`.
+        Kinds of motion (kinds, frames, markers), see `nearest_neighbours.motion`.
     count : int
         Number of nearest neighbours.
     step : int
@@ -221,10 +182,3 @@ def moving_mean(values: np.ndarray, window: int) -> np.ndarray:
     total = ndimage.uniform_filter1d(np.where(known, values, 0.0), window, axis=0)
     share = ndimage.uniform_filter1d(known.astype(float), window, axis=0)
     return np.where(share > 0.5 / window, total / np.maximum(share, 0.5 / window), np.nan)
-
-
-def _mean(values: np.ndarray) -> np.ndarray:
-    """Mean along the second axis over what is not NaN; 0 where nothing is."""
-    known = ~np.isnan(values)
-    mean: np.ndarray = np.where(known, values, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
-    return mean

@@ -115,15 +115,3 @@ def test_wobble_of_several_frequencies_along_all_axes_is_found(still, seed):
 def test_there_is_no_wobble_above_half_of_the_rate():
     scene = Scene(np.zeros((300, 2, 3)), 25.0, [np.array([1]), np.array([0])])
     assert excess_variance.wobble_detector(scene, WobbleOptions()) is None
-
-
-def test_the_motion_of_the_nearest_neighbours_that_are_seen_counts():
-    size = np.array([[0.0, 5.0, 3.0, 2.0], [0.0, np.nan, 3.0, 4.0], [0.0, np.nan, np.nan, np.nan]])
-    largest = excess_variance.neighbour_maximum(size, [np.array([1, 2, 3]), *[np.array([0])] * 3], 2)
-    np.testing.assert_array_equal(largest[:, 0], [5.0, 4.0, 0.0])
-
-
-def test_the_share_of_the_nearest_neighbours_that_are_seen():
-    present = np.array([[True, True, True], [True, False, True]])
-    share = excess_variance.seen_share(present, [np.array([1, 2]), np.array([2, 0]), np.array([], int)], 1)
-    np.testing.assert_array_equal(share, [[1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])

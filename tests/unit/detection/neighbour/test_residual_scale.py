@@ -1,11 +1,8 @@
 """The local scale of residuals: how large they usually are there and then."""
 
 import numpy as np
-import pytest
 
 from markermend.detection.neighbour import residual_scale
-
-RATE = 100.0
 
 
 def test_the_local_scale_follows_the_marker_no_further_than_its_neighbours():
@@ -35,19 +32,6 @@ def test_the_fitted_scale_rises_where_the_neighbours_fit_badly_or_move_fast():
     assert (
         again[625, 0] < 1.5 * residual_scale.fitted_scale(size, near, moving, count=5, window=50, min_scale=0.1)[625, 0]
     )
-
-
-def test_motion_is_that_of_the_neighbours():
-    t = np.arange(200) / RATE
-    positions = np.zeros((200, 3, 3))
-    positions[:, 0, 0] = 1000 * t**2
-    positions[:, 1, 1] = 300 * t
-    positions[50:60, 2] = np.nan
-    near = [np.array([1, 2]), np.array([0, 2]), np.array([], int)]
-    speed, acceleration = residual_scale.neighbour_motion(positions, near, rate=RATE, count=2, smoothing=5)
-    assert speed[100, 0] == pytest.approx(150) and acceleration[100, 0] == pytest.approx(0, abs=1e-6)
-    assert acceleration[100, 1] == pytest.approx(2000 / np.sqrt(2))
-    assert not speed[:, 2].any() and np.isfinite(speed).all()
 
 
 def test_low_levels_do_not_follow_an_artifact_of_half_of_the_recording():

@@ -146,7 +146,7 @@ class DriftRegression:
         residual : np.ndarray
             Residuals (frames, markers, 3), mm, NaN = missing.
         motion : np.ndarray
-            Motion of the neighbours (kinds, frames, markers), see residual_scale.neighbour_motion.
+            Motion of the neighbours (kinds, frames, markers), see nearest_neighbours.motion.
 
         Returns
         -------

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.detection.neighbour import residual_scale
+from markermend.detection.neighbour import nearest_neighbours, residual_scale
 from markermend.numerics import interpolation, intervals, matched_filter
 from markermend.numerics.intervals import runs
 from markermend.options.detection.slow import SlowOptions
@@ -69,7 +69,7 @@ class DriftScorer:
         return [max(MIN_TEMPLATE, intervals.samples(length, self.rate)) for length in self.options.durations_s]
 
     def motion(self, scene: Scene) -> np.ndarray:
-        """Measure how the neighbours of each marker move, see residual_scale.neighbour_motion.
+        """Measure how the neighbours of each marker move, see nearest_neighbours.motion.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class DriftScorer:
             Speed, mm/s, and acceleration, mm/s^2, (2, frames, markers).
         """
         smoothing = max(3, intervals.samples(self.options.bridged_gap_s, self.rate, odd=True))
-        return residual_scale.neighbour_motion(
+        return nearest_neighbours.motion(
             scene.positions,
             scene.neighbours,
             rate=self.rate,

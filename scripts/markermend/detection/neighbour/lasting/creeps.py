@@ -1,7 +1,7 @@
 """Creeps by generalised least squares: rises to another level, estimated together with the regression on the neighbours.
 
-Which share of the variance a creep explains says little where the marker moves much: the error of its regression is coloured,
-and as large as the motion at the time. What is measured in its standard deviations stands out there all the same.
+The share of the variance that a creep explains says little where the marker moves much: the error of its regression is coloured,
+and as large as the motion at the time. In units of its standard deviation the height of a creep stands out there all the same.
 """
 
 from __future__ import annotations

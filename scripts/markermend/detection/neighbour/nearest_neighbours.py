@@ -1,0 +1,105 @@
+"""What the nearest neighbours of each marker do, whatever its own trajectory is: how they move, and whether they are seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from markermend.detection.neighbour.residual_scale import moving_mean
+
+
+def motion(
+    positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, count: int, smoothing: int
+) -> np.ndarray:
+    """Measure how the nearest neighbours of each marker move; its own trajectory does not count.
+
+    Parameters
+    ----------
+    positions : np.ndarray
+        Positions (frames, markers, 3), mm, NaN = missing: such neighbours do not count.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    rate : float
+        Sampling rate, Hz.
+    count : int
+        Number of nearest neighbours.
+    smoothing : int
+        Window of the moving mean of the positions, samples.
+
+    Returns
+    -------
+    np.ndarray
+        Root mean square speed about their mean velocity, mm/s, and acceleration, mm/s^2, (2, frames, markers); 0 where no
+        neighbour is observed.
+    """
+    if len(positions) < 2:
+        return np.zeros((2, *positions.shape[:2]))
+    smoothed = moving_mean(positions, smoothing)
+    velocity = np.gradient(smoothed, axis=0) * rate
+    acceleration = np.gradient(velocity, axis=0) * rate
+    moved = np.zeros((2, *positions.shape[:2]))
+    for m, around in enumerate(neighbours):
+        some = np.asarray(around, int)[:count]
+        if len(some):
+            about_mean = velocity[:, some] - _mean(velocity[:, some])[:, None]
+            moved[0, :, m] = np.sqrt(_mean((about_mean**2).sum(axis=2)))
+            moved[1, :, m] = np.sqrt(_mean((acceleration[:, some] ** 2).sum(axis=2)))
+    return moved
+
+
+def maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """Take the maximum over the nearest neighbours that are seen: with one that moves alike a marker does not shake alone.
+
+    Parameters
+    ----------
+    size : np.ndarray
+        Sizes (frames, markers), NaN = missing.
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    count : int
+        Number of nearest neighbours among those that are seen in a frame.
+
+    Returns
+    -------
+    np.ndarray
+        The maximum (frames, markers), 0 where no neighbour is seen.
+    """
+    largest, seen = np.zeros_like(size), ~np.isnan(size)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            ranked = np.asarray(around, int)
+            nearest = seen[:, ranked] & (np.cumsum(seen[:, ranked], axis=1) <= count)
+            largest[:, m] = np.where(nearest, size[:, ranked], 0.0).max(axis=1)
+    return largest
+
+
+def seen_share(present: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """Compute which share of the nearest neighbours of each marker is seen: without them its residual is larger than usual.
+
+    Parameters
+    ----------
+    present : np.ndarray
+        Which markers are seen, bool (frames, markers).
+    neighbours : Sequence[np.ndarray]
+        For each marker its neighbours, the nearest first.
+    count : int
+        Number of nearest neighbours.
+
+    Returns
+    -------
+    np.ndarray
+        Shares (frames, markers), 0 to 1; 0 for a marker without neighbours.
+    """
+    share = np.zeros(present.shape)
+    for m, around in enumerate(neighbours):
+        if len(around):
+            share[:, m] = present[:, np.asarray(around, int)[:count]].mean(axis=1)
+    return share
+
+
+def _mean(values: np.ndarray) -> np.ndarray:
+    """Mean along the second axis over what is not NaN; 0 where nothing is."""
+    known = ~np.isnan(values)
+    mean: np.ndarray = np.where(known, values, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    return mean
