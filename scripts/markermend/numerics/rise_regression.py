@@ -1,6 +1,6 @@
 """Changes of level in a signal that regressors explain: rises of all lengths and places, with or without a return.
 
-Steps, ramps and their differences are sums of steps, so that what generalised least squares need of all of them follows from
+Steps, ramps and their differences are sums of steps, so that what generalised least squares needs for all of them follows from
 cumulative sums of one precision matrix.
 """
 
@@ -71,7 +71,7 @@ class RiseRegression:
         Returns
         -------
         PulseResponses
-            For all pairs: heights (i, j, axes) and deviations (i, j). They mean nothing where a change returns before it has risen.
+            For all pairs: heights (i, j, axes) and deviations (i, j), without meaning where a change returns before it has risen.
         """
         begun, ended = starts[:, None], stops
         both = self.blocks[starts + length, starts + length] - 2 * self.blocks[starts, starts + length]

@@ -71,8 +71,8 @@ class SeparationOptions:
     """Time over which amplitude and phase of wobble stay alike."""
 
     max_level_error: Share = 0.2
-    """Flicker between two levels: what the levels leave of the changes from frame to frame (root mean square along an axis), as a part of their
-    distance, at most (0 to 1)."""
+    """Flicker between two levels: what the levels leave of the changes from frame to frame (root mean square along an axis), as a
+    part of their distance, at most (0 to 1)."""
 
     min_level_changes: Annotated[int, AtLeast(2)] = 4
     """Changes between the two levels, at least."""
@@ -215,7 +215,8 @@ class RepairOptions:
     """Stretches that are hidden to measure the error of a method that does not state one."""
 
     separation: SeparationOptions = field(default_factory=SeparationOptions)
-    """Options of the methods separate_levels, separate_noise, separate_step and separate_slow, which separate the trajectory from the artifact."""
+    """Options of the methods separate_levels, separate_noise, separate_step and separate_slow, which separate the trajectory from
+    the artifact."""
 
     guard: ShapeGuardOptions = field(default_factory=ShapeGuardOptions)
     """Guard against repairs that take a marker away from the subject's usual shape."""

@@ -49,7 +49,8 @@ class DisplacementOptions:
     """The shortest time at either of the two places as a share of the recording (0 to 1)."""
 
     min_stay_s: PositiveSeconds = 1
-    """A creep that ends stays at the second place for this long, at least, and for as long as it rose: else it is a drift."""
+    """A creep that ends, or whose height is estimated, stays at the second place for this long, at least, and for as long as it
+    rose: else it is a drift."""
 
     min_explained_share: Annotated[float, Above(0), Below(1)] = 0.7
     """Share of the variance that the pose leaves unexplained which a sudden displacement must explain, at least (0 to 1)."""

@@ -43,7 +43,8 @@ class RepeatedFramesOptions:
     """It moves just before and after at this part of its usual speed there, at least: motion that comes to rest is no fault (0 to 1)."""
 
     min_regular_share: Annotated[float, Above(0), AtMost(1)] = 0.8
-    """If this share of the frames with motion lies between regular repetitions, the recording has frames of a lower rate, and stays as it is (0 to 1)."""
+    """If this share of the frames with motion lies between regular repetitions, the recording has frames of a lower rate, and stays
+    as it is (0 to 1)."""
 
     max_frames_share: Share = 0.2
     """If more of all frames repeat, the recording stays as it is: too little would be left to fill them from (0 to 1)."""
@@ -127,7 +128,8 @@ class SegmentSlipOptions:
     """Frames on either side of a slip that are not counted as beside it: where it is rounded they may be displaced a little."""
 
     min_frames_beside: Count = 3
-    """Frames beside a slip, at least, besides as many as the polynomial has coefficients; with fewer, `border_frames` are counted, too."""
+    """Frames beside a slip, at least, that exceed the number of coefficients of the polynomial; with fewer, `border_frames` are
+    counted, too."""
 
     max_disagreement: Annotated[float, Above(0), AtMost(1)] = 0.5
     """Distance of a marker's displacement from that of the others, as a part of it, at most (0 to 1)."""

@@ -79,7 +79,8 @@ class ExcessVarianceOptions:
     Change it when shaking too small to matter to you is reported (higher)."""
 
     threshold_factor: Positive = 0.55
-    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours.
+    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of
+    the marker, and to the motion of its neighbours.
 
     Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
 
@@ -132,7 +133,8 @@ class WobbleOptions(ExcessVarianceOptions):
     """Shortest time for which the threshold is exceeded."""
 
     threshold_factor: Positive = 0.4
-    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of the marker, and to the motion of its neighbours."""
+    """Smallest root mean square in a recording of one window, in units of that at `tail_quantile`: relative to what is usual of
+    the marker, and to the motion of its neighbours."""
 
     band_hz: tuple[Positive, Positive] = (5, 13)
     """The band of frequencies: one for all, since a wobble that varies has its power at several at a time.

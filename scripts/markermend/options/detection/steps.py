@@ -52,7 +52,7 @@ class SimilarPosesOptions:
     """By how much the distances of a marker may differ where the pose does, per mm of its root mean square difference."""
 
     min_deviation_mm: PositiveMillimetres = 1.5
-    """Standard deviation of the distances at equal poses, at least: no pose is told by a few distances to the millimetre.
+    """Standard deviation of the distances at equal poses, at least: a few distances do not fix a pose to the millimetre.
 
     Change it when small steps are missed (higher), or motion that recurs is taken for steps (lower)."""
 
