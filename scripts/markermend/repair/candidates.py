@@ -217,7 +217,10 @@ class CandidateMaker:
         return Prediction(prediction.positions[1:-1], prediction.error[1:-1])
 
     def _levels(self, m: int, start: int, stop: int) -> Proposal | None:
-        """The samples of marker m as if it flickered between two levels, see `separate_levels`."""
+        """The samples of marker m as if it flickered between two levels, see `separate_levels`; None at an end of the recording.
+
+        The one side there says too little: flicker may go on, unfound, beyond the finding.
+        """
         seen, ridge = self.scene.present[:, m], self.predictors.get("local_ridge")
         if ridge is None or start < 1 or stop >= len(seen):
             return None
