@@ -60,7 +60,7 @@ def separate_levels(
 def _jumps(changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The jumps between two levels, -1, 0 or 1 at each of some changes (n, 3), and the vector from the one to the other, mm."""
     size = np.linalg.norm(changes, axis=1)
-    vector = changes[int(np.argsort(size)[-max(1, len(size) // 10)])]
+    vector = changes[int(np.argsort(size, kind="stable")[-max(1, len(size) // 10)])]
     jumps = np.zeros(len(changes), int)
     for _ in range(ESTIMATION_ROUNDS):
         jumps = np.clip(np.rint(changes @ vector / max(float(vector @ vector), 1e-12)), -1, 1).astype(int)

@@ -85,7 +85,7 @@ class SimilarPoses:
             unknown = np.full((len(frames), len(self.neighbours)), np.nan)
             return unknown, unknown
         apart = _root_mean_square_difference(self._pose(frames), self._pose(times))
-        nearest = np.argsort(apart, axis=1)[:, :count]
+        nearest = np.argsort(apart, axis=1, kind="stable")[:, :count]
         apart = np.take_along_axis(apart, nearest, axis=1)
         own = self.distances(self.scene.positions[times, self.marker], times)[nearest]
         # Poses without a known distance in common have no weight.
