@@ -42,7 +42,7 @@ class LocalFrames:
         if points.ndim == 2:
             local = np.einsum("ni,nij->nj", points - self.origin, self.axes)
         else:
-            local = np.einsum("nki,nij->nkj", points - self.origin[:, None], self.axes)
+            local = (points - self.origin[:, None]) @ self.axes
         return local
 
     def laboratory(self, local: np.ndarray) -> np.ndarray:
@@ -82,7 +82,7 @@ def align(points: np.ndarray, template: np.ndarray) -> LocalFrames:
     Kabsch (1976), Acta Crystallographica A 32(5).
     """
     origin = points.mean(axis=1)
-    return LocalFrames(nearest_rotations(np.einsum("nki,kj->nij", points - origin[:, None], template)), origin)
+    return LocalFrames(nearest_rotations((points - origin[:, None]).swapaxes(1, 2) @ template), origin)
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:

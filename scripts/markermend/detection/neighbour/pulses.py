@@ -53,10 +53,12 @@ class PulseFilters(WindowFilters):
 
     def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
         """Compute what samples of any size in place of the half wave explain; see `WindowFilters.explained`."""
-        inside = self.inside[filters] if len(self.inside) > 1 else self.inside
-        across = windows @ self.precision[inside].swapaxes(1, 2)
+        used, which = np.unique(filters, return_inverse=True)
+        inside = self.inside[used]
         root = np.linalg.cholesky(self.precision[inside[:, :, None], inside[:, None]])
-        square: np.ndarray = (np.linalg.solve(root, across.swapaxes(1, 2)) ** 2).sum(axis=(1, 2))
+        maps = np.linalg.solve(root, self.precision[inside])
+        each = maps if len(used) == 1 else maps[which]
+        square: np.ndarray = ((windows @ each.swapaxes(1, 2)) ** 2).sum(axis=(1, 2))
         return square
 
 

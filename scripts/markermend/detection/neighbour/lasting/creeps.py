@@ -73,6 +73,7 @@ class EstimatedCreeps:
             statistic = sums.rises(length, starts, stops).statistic
             statistic[stops - starts[:, None] - length < max(stay, length)] = 0.0
             i, j = np.unravel_index(int(statistic.argmax()), statistic.shape)
-            begin_s, rise_s = (first + int(starts[i])) * self.bin_s, length * self.bin_s
+            # The ramp is sampled in the middles of bins: it has begun half a bin before its first sample.
+            begin_s, rise_s = (first + int(starts[i]) - 0.5) * self.bin_s, length * self.bin_s
             stop_s = np.inf if stops[j] == bins else (first + int(stops[j])) * self.bin_s
             yield float(statistic[i, j]), Course(begin_s + rise_s / 2, rise_s, stop_s)
