@@ -71,7 +71,7 @@ def describe_sequence(positions: np.ndarray, rate: float) -> SequenceDescriptors
     velocity, acceleration, jerk = (derivative_magnitude(positions, rate, order) for order in (1, 2, 3))
     return SequenceDescriptors(
         entropy=entropy(positions),
-        deviation=float(_mean(_deviations(positions.reshape(len(positions), -1)))),
+        deviation=float(_mean(_deviations(_columns(positions)))),
         velocity=velocity,
         acceleration=acceleration,
         jerk=jerk,
@@ -96,10 +96,8 @@ def entropy(positions: np.ndarray, *, bin_mm: float = BIN_MM) -> float:
     float
         Entropy in bits.
     """
-    frames, markers = positions.shape[:2]
-    if not frames:
-        return np.nan
-    columns = positions.reshape(frames, -1)
+    markers = positions.shape[1]
+    columns = _columns(positions)
     seen = ~np.isnan(columns)
     _, bins = np.unique(np.floor(columns[seen] / bin_mm), return_inverse=True)
     column = np.nonzero(seen)[1]
@@ -149,7 +147,7 @@ def rank_correlations(positions: np.ndarray) -> np.ndarray:
     ----------
     skurowski2021, eq 13.
     """
-    columns = positions.reshape(len(positions), -1)
+    columns = _columns(positions)
     seen = ~np.isnan(columns)
     ranks = rankdata(columns, axis=0, nan_policy="omit")
     time = np.where(seen, np.cumsum(seen, axis=0), np.nan)
@@ -178,13 +176,18 @@ def complexity(positions: np.ndarray, *, eigenposes: int = EIGENPOSES) -> float:
     ----------
     skurowski2021, eq 14.
     """
-    columns = positions.reshape(len(positions), -1)
+    columns = _columns(positions)
     columns = columns[:, ~np.isnan(columns).all(axis=0)]
     poses = columns[~np.isnan(columns).any(axis=1)]
     if not poses.size:
         return np.nan
     variances = np.linalg.svd(poses - poses.mean(axis=0), compute_uv=False) ** 2
     return float(variances[eigenposes:].sum() / variances.sum()) if variances.any() else np.nan
+
+
+def _columns(positions: np.ndarray) -> np.ndarray:
+    """Coordinates as columns (frames, 3 * markers)."""
+    return positions.reshape(len(positions), 3 * positions.shape[1])
 
 
 def _mean(values: np.ndarray) -> np.ndarray:
