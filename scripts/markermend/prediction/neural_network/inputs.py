@@ -83,7 +83,8 @@ class Standardisation:
 def choose_inputs(scene: Scene, marker: int, observed: np.ndarray, options: NeuralNetworkOptions) -> np.ndarray:
     """Choose the markers from which a marker is predicted.
 
-    The candidates are the segment mates and the parent marker, then the other neighbours in the mesh's order. They do
+    The candidates are the segment mates and the parent marker, then, unless the number of inputs is not limited, the other
+    neighbours in the mesh's order; all neighbours if the scene has no segments. They do
     not depend on the gap, so that one network serves all gaps of a marker, unless too few of them are observed in it:
     then those that are come first, if they are enough.
 
@@ -106,7 +107,8 @@ def choose_inputs(scene: Scene, marker: int, observed: np.ndarray, options: Neur
     near = np.asarray(scene.neighbours[marker], int)
     if scene.segment_mates is not None:
         mates = np.asarray(scene.segment_mates[marker], int)
-        near = np.concatenate([mates, near[~np.isin(near, mates)]])
+        others = near[~np.isin(near, mates)] if options.inputs is not None else near[:0]
+        near = np.concatenate([mates, others])
     choices = []
     for ranked in (near, near[observed[near]]):
         together, _ = jointly_observed(

@@ -17,6 +17,7 @@ from markermend.numerics.intervals import runs
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced
+from markermend.prediction.neural_network.architecture import GATES
 from markermend.prediction.neural_network.inputs import (
     Standardisation,
     choose_inputs,
@@ -160,7 +161,7 @@ class Network:
         self, source: Scene, marker: int, inputs: np.ndarray
     ) -> tuple[TrainingSet, Standardisation, Standardisation]:
         """What a network is trained on, as z-scores, and the standardisations of its inputs and targets."""
-        from markermend.prediction.neural_network.training import GATES, TrainingSet
+        from markermend.prediction.neural_network.training import TrainingSet
 
         options = self.options
         observed = source.present[:, marker] & source.present[:, inputs].all(axis=1)
@@ -170,6 +171,8 @@ class Network:
             if options.max_sequence_s is not None:
                 longest = max(2, round(options.max_sequence_s * source.rate))
             parts = sequences(observed, longest=longest, frames=options.max_training_frames)
+            if options.joined_sequences:
+                parts = [np.concatenate(parts)]
         frames = np.concatenate(parts)
         columns, centre = features(source.positions[:, inputs], frames, centred=options.centred)
         targets = source.positions[frames, marker] - centre

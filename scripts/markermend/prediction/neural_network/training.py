@@ -14,14 +14,12 @@ import numpy as np
 import torch
 
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
-
-GATES = {"lstm": 4, "bilstm": 4, "gru": 3}
-"""The recurrent kinds, and the number of weighted sums of a recurrent unit."""
+from markermend.prediction.neural_network.architecture import GATES, directions, has_hidden_layer
 
 Weights = list[np.ndarray]
 """Recurrent kinds begin, for each direction, with weights of the inputs (inputs, gates * units), weights of the former
 outputs (units, gates * units) and constants (1, gates * units); all kinds end with weights and constants of two dense
-layers."""
+layers, recurrent ones with `recurrent_head: direct` of one."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,7 @@ def train(kind: str, data: Sequence[TrainingSet], options: NeuralNetworkOptions)
     """Train one network per training set by gradient descent with momentum on all frames at once.
 
     The loss is half the squared error, summed over the outputs and averaged over the frames. The gradient of each
-    network is clipped on its own.
+    network, or of each array of its weights, is clipped on its own.
 
     Parameters
     ----------
@@ -121,20 +119,17 @@ def initial(kind: str, inputs: int, outputs: int, options: NeuralNetworkOptions)
     size = inputs
     if kind in GATES:
         units, width = options.recurrent_units, GATES[kind] * options.recurrent_units
-        for _ in range(_directions(kind)):
+        for _ in range(directions(kind)):
             former = np.linalg.qr(rng.standard_normal((width, units)))[0].T
             constants = np.zeros((1, width))
             if GATES[kind] == 4:
                 constants[:, units : 2 * units] = 1
             weights += [_glorot(rng, inputs, width), former, constants]
-        size = _directions(kind) * units
-    weights += [_glorot(rng, size, options.dense_units), np.zeros((1, options.dense_units))]
-    return [*weights, _glorot(rng, options.dense_units, outputs), np.zeros((1, outputs))]
-
-
-def _directions(kind: str) -> int:
-    """Number of directions in which a recurrent layer processes the frames."""
-    return 2 if kind == "bilstm" else 1
+        size = directions(kind) * units
+    if has_hidden_layer(kind, options):
+        weights += [_glorot(rng, size, options.dense_units), np.zeros((1, options.dense_units))]
+        size = options.dense_units
+    return [*weights, _glorot(rng, size, outputs), np.zeros((1, outputs))]
 
 
 def _glorot(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
@@ -181,9 +176,11 @@ def _descend(
 ) -> None:
     """One step of gradient descent with momentum, in place."""
     with torch.no_grad():
-        norm = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients]).sum(0).sqrt()
-        scale = options.max_gradient_norm / norm.clamp(min=options.max_gradient_norm)
-        for part, velocity, gradient in zip(weights, velocities, gradients, strict=True):
+        squares = torch.stack([part.square().sum((1, 2), keepdim=True) for part in gradients])
+        if options.clipping == "network":
+            squares = squares.sum(0).expand_as(squares)
+        scales = options.max_gradient_norm / squares.sqrt().clamp(min=options.max_gradient_norm)
+        for part, velocity, gradient, scale in zip(weights, velocities, gradients, scales, strict=True):
             velocity.mul_(options.momentum).add_(gradient * scale)
             part.sub_(rate * velocity)
 
@@ -193,15 +190,19 @@ def _forward(kind: str, weights: Sequence[torch.Tensor], x: torch.Tensor, backwa
 
     backwards: (networks, sequences, frames, 1), the frames of each sequence in reverse order.
     """
+    dense = weights
     if kind in GATES:
+        dense = weights[3 * directions(kind) :]
         layer = _gru if kind == "gru" else _lstm
         hidden = [layer(x, *weights[:3])]
-        if _directions(kind) == 2:
+        if directions(kind) == 2:
             turned = layer(torch.take_along_dim(x, backwards, 2), *weights[3:6])
             hidden.append(torch.take_along_dim(turned, backwards, 2))
         x = torch.cat(hidden, -1)
-    first = _dense(x, *weights[-4:-2])
-    return _dense(first if kind == "linear" else first.tanh(), *weights[-2:])
+    if len(dense) == 4:
+        x = _dense(x, *dense[:2])
+        x = x if kind == "linear" else x.tanh()
+    return _dense(x, *dense[-2:])
 
 
 def _dense(x: torch.Tensor, weights: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:

@@ -54,3 +54,10 @@ def test_segment_mates_are_the_first_inputs(walker):
     near = neighbours(person)[3]
     assert choose_inputs(related, 3, there, few).tolist() == [11, 9, *near[~np.isin(near, (9, 11))][:2]]
     assert choose_inputs(seen, 3, there, few).tolist() == near[:4].tolist()
+
+
+def test_without_a_limit_all_segment_mates_are_inputs_and_nothing_else(walker):
+    person = walker.recording.positions[:400, :12]
+    related = replace(scene(person), segment_mates=[np.array([11, 9, 1, 2, 0, 7, 8]) for _ in range(12)])
+    published = replace(NeuralNetworkOptions(), inputs=None)
+    assert choose_inputs(related, 3, np.ones(12, bool), published).tolist() == [11, 9, 1, 2, 0, 7, 8]

@@ -165,6 +165,24 @@ def test_recurrent_networks_look_beyond_the_gap(person):
             assert np.array_equal(usual, again) != bool(matters)
 
 
+@pytest.mark.parametrize("name", KINDS)
+def test_as_published_a_network_learns_from_all_frames_but_the_gap(name, person):
+    """One sequence without the gap; the former positions of the inputs are those of the recording."""
+    one = network(
+        name, centred=False, inputs=None, max_training_frames=10**6, max_sequence_s=None, joined_sequences=True
+    )
+    seen = replace(hidden(person, (3, 100, 140)), segment_mates=[np.array([1, 5, 8]) for _ in range(12)])
+    data, inputs, outputs = one._training_set(seen, 3, np.array([1, 5, 8]))
+    assert [len(part) for part in data.inputs] == [len(person) - 40]
+    trained = np.delete(np.arange(len(person)), np.s_[100:140])
+    assert np.allclose(outputs.columns(data.targets[0]), person[trained, 3])
+    now_and_before = np.stack(
+        [person[:, [1, 5, 8]], person[np.maximum(np.arange(len(person)) - 1, 0)][:, [1, 5, 8]]], axis=2
+    )
+    assert np.allclose(inputs.columns(data.inputs[0]), now_and_before[trained].reshape(len(trained), -1))
+    assert np.isfinite(one.predict(seen, 3, 100, 140).positions).all()
+
+
 def test_trials_train_for_fewer_epochs():
     full = members(["network_gru"], predictor_options())[0]
     brief = members(["network_gru"], predictor_options(), max_training_frames=100)[0]

@@ -8,7 +8,8 @@ import torch
 from torch import nn
 
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
-from markermend.prediction.neural_network.training import GATES, TrainingSet, evaluate, initial, train
+from markermend.prediction.neural_network.architecture import GATES
+from markermend.prediction.neural_network.training import TrainingSet, evaluate, initial, train
 
 KINDS = ("linear", "tanh", "lstm", "gru", "bilstm")
 OPTIONS = NeuralNetworkOptions(
@@ -61,6 +62,7 @@ class Twin(nn.Module):
     def __init__(self, kind, weights):
         super().__init__()
         self.kind = kind
+        recurrent = {"lstm": 3, "gru": 3, "bilstm": 6}.get(kind, 0)
         parts = [torch.from_numpy(part) for part in weights]
         size = parts[0].shape[0]
         if kind == "gru":
@@ -72,7 +74,7 @@ class Twin(nn.Module):
             self.recurrent = nn.LSTM(size, units, bidirectional=kind == "bilstm").double()
             # torch.nn has the gates in the order input, forget, candidate, output
             order = torch.cat([torch.arange(units) + units * gate for gate in (0, 1, 3, 2)])
-            for d, suffix in enumerate(("", "_reverse")[: len(parts) // 3 - 1 or 1]):
+            for d, suffix in enumerate(("", "_reverse")[: recurrent // 3]):
                 entry, former, constants = parts[3 * d : 3 * d + 3]
                 getattr(self.recurrent, f"weight_ih_l0{suffix}").data = entry.T[order].clone()
                 getattr(self.recurrent, f"weight_hh_l0{suffix}").data = former.T[order].clone()
@@ -81,17 +83,19 @@ class Twin(nn.Module):
                 second.data.zero_()
                 second.requires_grad_(False)
         dense = []
-        for entry, constants in (parts[-4:-2], parts[-2:]):
+        for entry, constants in zip(parts[recurrent::2], parts[recurrent + 1 :: 2], strict=True):
             layer = nn.Linear(*entry.shape).double()
             layer.weight.data, layer.bias.data = entry.T.clone(), constants[0].clone()
             dense.append(layer)
-        self.first, self.last = dense
+        *hidden, self.last = dense
+        self.hidden = nn.ModuleList(hidden)
 
     def forward(self, x):
         if self.kind in GATES:
             x = self.recurrent(x) if self.kind == "gru" else self.recurrent(x)[0]
-        hidden = self.first(x)
-        return self.last(hidden if self.kind == "linear" else torch.tanh(hidden))
+        for layer in self.hidden:
+            x = layer(x) if self.kind == "linear" else torch.tanh(layer(x))
+        return self.last(x)
 
 
 def trained_twin(kind, task, options):
@@ -106,22 +110,25 @@ def trained_twin(kind, task, options):
         pairs = zip(task.inputs, task.targets, strict=True)
         loss = sum((twin(torch.from_numpy(x)) - torch.from_numpy(y)).square().sum() for x, y in pairs) / count / 2
         loss.backward()
-        nn.utils.clip_grad_norm_(free, options.max_gradient_norm)
+        for group in [free] if options.clipping == "network" else [[part] for part in free]:
+            nn.utils.clip_grad_norm_(group, options.max_gradient_norm)
         optimiser.step()
         schedule.step()
     return twin
 
 
+@pytest.mark.parametrize("published", [{}, {"recurrent_head": "direct", "clipping": "array"}])
 @pytest.mark.parametrize("kind", KINDS)
-def test_networks_of_a_batch_equal_twins_trained_alone(kind):
+def test_networks_of_a_batch_equal_twins_trained_alone(kind, published):
     """Unlike numbers of inputs, of stretches and of frames; some gradients are clipped and some are not."""
     tasks = [
         training_set(1),
         training_set(2, inputs=9, lengths=(15,), size=0.2),
         training_set(3, inputs=3, lengths=(12, 7, 1)),
     ]
-    for task, weights in zip(tasks, train(kind, tasks, OPTIONS), strict=True):
-        twin = trained_twin(kind, task, OPTIONS)
+    options = replace(OPTIONS, **published)
+    for task, weights in zip(tasks, train(kind, tasks, options), strict=True):
+        twin = trained_twin(kind, task, options)
         with torch.no_grad():
             expected = twin(torch.from_numpy(task.inputs[0])).numpy()
         assert np.abs(evaluate(kind, weights, task.inputs[0]) - expected).max() < 1e-5
@@ -167,6 +174,14 @@ def test_the_gradient_of_each_network_is_clipped_on_its_own():
         steps.append(np.sqrt(sum(((a - b) ** 2).sum() for a, b in zip(weights, start, strict=True))))
     assert steps[0] == pytest.approx(options.learning_rate * options.max_gradient_norm)
     assert 0 < steps[1] < 0.5 * options.learning_rate * options.max_gradient_norm
+
+
+def test_each_array_of_weights_may_be_clipped_on_its_own():
+    options = replace(OPTIONS, epochs=1, max_gradient_norm=0.01, clipping="array")
+    start = initial("lstm", 6, 3, options)
+    (weights,) = train("lstm", [training_set(1, size=1000.0)], options)
+    steps = [np.sqrt(((a - b) ** 2).sum()) for a, b in zip(weights, start, strict=True)]
+    assert steps == pytest.approx([options.learning_rate * options.max_gradient_norm] * len(start))
 
 
 def test_weights_begin_as_the_sizes_say():
