@@ -60,3 +60,26 @@ def test_the_published_correlations_come_from_the_published_errors(length):
         assert len(printed) == 70
         assert difference[~rounded].max() < 0.002
         assert difference[rounded].max() < 0.02
+
+
+def test_the_published_mean_correlations_are_those_over_the_lengths():
+    """Table 5 from Tables A6 to A12."""
+    figures = read_published(PROJECT / "config/evaluate/published/skurowski2021.tsv")
+    each = figures[figures["table"].str.match("A[6-9]|A1[0-2]") & (figures["quantity"] == "correlation")]
+    printed = figures[figures["table"] == "5"].set_index(["descriptor", "method"])["value"]
+    mean = each.groupby(["descriptor", "method"])["value"].mean()
+    assert len(printed) == 70
+    assert (mean - printed).abs().max() < 0.0015
+
+
+def test_the_published_correlations_of_descriptors_come_from_the_published_descriptors():
+    """Table 6 from Table 2, but for complexity, of which too few digits are printed."""
+    figures = read_published(PROJECT / "config/evaluate/published/skurowski2021.tsv")
+    descriptors = published_descriptors(figures).drop(columns="complexity")
+    found = correlations(descriptors, descriptors.rename_axis(columns="other")).set_index(["descriptor", "other"])
+    printed = figures[figures["table"] == "6"].set_index(["descriptor", "quantity"])["value"]
+    for one, other in found.index:
+        for quantity in ("correlation", "p") if one != other else ("correlation",):
+            assert found.loc[(one, other), quantity] == pytest.approx(
+                printed[one, f"{quantity}_with_{other}"], abs=0.002
+            )
