@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from markermend.filling.constraints import constrain_time
 from markermend.filling.gap import Gap
-from markermend.prediction.interface import Predictor
+from markermend.numerics.intervals import samples
+from markermend.numerics.symmetric_smoothing import smooth_symmetrically
+from markermend.options.filling import EnsembleOptions
+from markermend.prediction.interface import LocallyContinuous, Predictor
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
@@ -35,8 +38,7 @@ def predict_candidates(
     scene: Scene,
     gap: Gap,
     *,
-    max_duration_s: Mapping[str, float],
-    fallback: Collection[str],
+    options: EnsembleOptions,
 ) -> Candidates:
     """Predict a gap with every member.
 
@@ -48,10 +50,8 @@ def predict_candidates(
         The recording, in which the gap is missing.
     gap : Gap
         The gap.
-    max_duration_s : mapping of str to float
-        Longest gap that a member predicts, s, by its name; members that are not named predict any.
-    fallback : collection of str
-        Members that predict only gaps that no other member predicts completely, interpolations aside.
+    options : EnsembleOptions
+        Which gaps each member predicts, and how its predictions are made continuous and smoothed.
 
     Returns
     -------
@@ -60,17 +60,29 @@ def predict_candidates(
     """
     positions = np.full((len(members), gap.length, 3), np.nan)
     errors = np.full((len(members), gap.length), np.nan)
-    borders = _borders(scene, gap)
     uses_neighbours = [member.name not in KINDS for member in members]
+    fallback = options.fallback_members
     for k, member in sorted(enumerate(members), key=lambda pair: pair[1].name in fallback):
-        if gap.length > max_duration_s.get(member.name, np.inf) * scene.rate:
+        if gap.length > options.max_gap_s_of_member.get(member.name, np.inf) * scene.rate:
             continue
         if member.name in fallback and not np.isnan(positions[uses_neighbours]).any(axis=(1, 2)).all():
             continue
-        predicted = member.predict(scene, gap.marker, gap.start, gap.stop)
-        path = predicted.positions if member.continuous else constrain_time(predicted.positions, borders)
-        positions[k], errors[k] = path[1:-1], predicted.error[1:-1]
+        path, error = _continuous_path(member, scene, gap, options.time_constraint)
+        if len(members) > 1:
+            path = smooth_symmetrically(path, samples(options.member_smoothing_s, scene.rate, odd=True))
+        positions[k], errors[k] = path[1:-1], error[1:-1]
     return Candidates(positions, errors)
+
+
+def _continuous_path(member: Predictor, scene: Scene, gap: Gap, time_constraint: str) -> tuple[np.ndarray, np.ndarray]:
+    """Prediction (n + 2, 3) of a gap and its borders after the time constraint, and the error (n + 2,) that the member states."""
+    if time_constraint == "local" and isinstance(member, LocallyContinuous):
+        predicted = member.predict_continuous(scene, gap.marker, gap.start, gap.stop)
+        return predicted.positions, predicted.error
+    predicted = member.predict(scene, gap.marker, gap.start, gap.stop)
+    if member.continuous or time_constraint == "off":
+        return predicted.positions, predicted.error
+    return constrain_time(predicted.positions, _borders(scene, gap)), predicted.error
 
 
 def _borders(scene: Scene, gap: Gap) -> np.ndarray:

@@ -11,7 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from markermend.filling.constraints import constrain_spacing
+from markermend.numerics.intervals import samples
 from markermend.numerics.kernel_density import Density, kernel_density
+from markermend.numerics.symmetric_smoothing import smooth_symmetrically
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
 from markermend.prediction.scene import Scene
@@ -57,7 +59,8 @@ class DistanceModel:
             Without references where none is seen often enough.
         """
         ranked, _ = reference_markers(scene, marker, max_frames=options.max_frames, min_frames=options.min_frames)
-        chosen = ranked[: max(options.references, options.spacing_references)]
+        steadiest = ranked[: max(options.references, options.spacing_references)]
+        chosen = ranked if options.reference_choice == "seen" else steadiest
         densities = []
         for reference in chosen:
             rows = evenly_spaced(
@@ -86,16 +89,20 @@ class DistanceModel:
         ----------
         tits2018, eq 20-23.
         """
-        if not self.densities:
+        options = self.options
+        references, densities = self._used(observed, options.references)
+        if not densities:
             return np.ones(positions.shape[:2])
-        first, options = self.options.references, self.options
-        return pma_likelihood(
+        likelihood = pma_likelihood(
             positions,
-            observed[:, self.references[:first]],
-            self.densities[:first],
-            window=round(options.smoothing_s * self.rate),
+            observed[:, references],
+            densities,
+            window=round(options.smoothing_s * self.rate) if options.smoothing_filter == "mean" else 1,
             floor=options.min_likelihood,
         )
+        if options.smoothing_filter == "mean":
+            return likelihood
+        return smooth_symmetrically(likelihood.T, samples(options.smoothing_s, self.rate, odd=True)).T
 
     def constrain(self, positions: np.ndarray, observed: np.ndarray) -> np.ndarray:
         """Move positions to where their distances to the references are usual.
@@ -116,17 +123,27 @@ class DistanceModel:
         ----------
         tits2018, eq 25-27.
         """
-        if not self.options.spacing_rounds or not self.densities:
+        options = self.options
+        references, densities = self._used(observed, options.spacing_references)
+        if not options.spacing_rounds or not densities:
             return positions
-        count, options = self.options.spacing_references, self.options
+        if options.spacing_order == "steadiest_last":
+            references, densities = references[::-1], densities[::-1]
         return constrain_spacing(
             positions,
-            observed[:, self.references[:count]],
-            self.densities[:count],
+            observed[:, references],
+            densities,
             low=options.spacing_lower_quantile,
             high=options.spacing_upper_quantile,
             rounds=options.spacing_rounds,
         )
+
+    def _used(self, observed: np.ndarray, count: int) -> tuple[np.ndarray, Sequence[Density]]:
+        """The references (k,) that count in some frames, at most `count`, and the densities of their distances."""
+        places = np.arange(len(self.references))
+        if self.options.reference_choice == "seen":
+            places = np.flatnonzero(~np.isnan(observed[:, self.references]).any(axis=(0, 2)))
+        return self.references[places[:count]], [self.densities[place] for place in places[:count].tolist()]
 
 
 def pma_likelihood(

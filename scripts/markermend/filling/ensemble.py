@@ -173,10 +173,7 @@ class Ensemble:
 
     def _candidates(self, members: Sequence[Predictor], scene: Scene, gap: Gap) -> Candidates:
         """Predict a gap with every member."""
-        options = self.options
-        return predict_candidates(
-            members, scene, gap, max_duration_s=options.max_gap_s_of_member, fallback=options.fallback_members
-        )
+        return predict_candidates(members, scene, gap, options=self.options)
 
     def _cross_validate(
         self,

@@ -17,6 +17,7 @@ from markermend.filling.fill_plan import FillPlan, plan_filling
 from markermend.filling.gap_filler import FilledGaps, GapFiller
 from markermend.filling.growing_scene import GrowingScene
 from markermend.numerics.intervals import samples
+from markermend.numerics.symmetric_smoothing import smooth_symmetrically
 from markermend.options.filling import FillOptions
 from markermend.prediction.scene import Scene
 
@@ -98,7 +99,7 @@ def fill_scene(
         # A person's gaps change no other, nor each other where their methods differ.
         ensemble = ensembles.single.get(method, ensembles.default)
         batches.append(filler(ensemble, None).fill(growing.copy(), gaps))
-    recording = _write(restored, batches)
+    recording = _write(restored, batches, samples(options.smoothing_s, restored.rate, odd=True))
     return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 
 
@@ -113,8 +114,8 @@ def _near_jumps(restored: Restored, repairs: Sequence[Change], margin_s: float) 
     return near if left else None
 
 
-def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:
-    """Write the accepted gaps into a copy of the recording."""
+def _write(restored: Restored, batches: Sequence[FilledGaps], window: int) -> Restored:
+    """Write the accepted gaps into a copy of the recording, smoothed over a window together with the samples beside them."""
     positions, origin = restored.positions.copy(), restored.origin.copy()
     error, error95 = restored.error.copy(), restored.error95.copy()
     for batch in batches:
@@ -124,6 +125,12 @@ def _write(restored: Restored, batches: Sequence[FilledGaps]) -> Restored:
             origin[gap.samples] = FILLED
             error[gap.samples] = inner * filling.deviation
             error95[gap.samples] = outer * filling.deviation
+    accepted = [gap for batch in batches for gap in batch.accepted]
+    for marker in sorted({gap.marker for gap in accepted} if window > 1 else ()):
+        smooth = smooth_symmetrically(positions[:, marker], window)
+        for gap in accepted:
+            if gap.marker == marker:
+                positions[gap.samples] = smooth[gap.start : gap.stop]
     return replace(restored, positions=positions, origin=origin, error=error, error95=error95)
 
 

@@ -41,8 +41,15 @@ class DistanceOptions:
     max_frames: Count = 500
     """Frames and samples from which distances are learned, at most."""
 
+    reference_choice: Literal["steadiest", "seen"] = "steadiest"
+    """Whether these are the markers whose distance varies least (`steadiest`; one that is missing does not count), or those of them that are
+    `seen` throughout the gap (tits2018)."""
+
     smoothing_s: Seconds = 0.07
     """Window of the moving average over the likelihoods of distances."""
+
+    smoothing_filter: Literal["mean", "median_mean"] = "mean"
+    """Filter over these likelihoods: a moving average, or a moving median before it (the program released with tits2018)."""
 
     min_likelihood: Positive = 1e-200
     """Smallest likelihood of a distance."""
@@ -55,6 +62,10 @@ class DistanceOptions:
 
     spacing_upper_quantile: Share = 0.99
     """Upper end of the interval in which a distance must lie (0 to 1)."""
+
+    spacing_order: Literal["steadiest_first", "steadiest_last"] = "steadiest_first"
+    """Order in which a position is moved to its usual distances from them; the last one holds exactly (in the program released with
+    tits2018 the steadiest)."""
 
     spacing_rounds: CountOrNone = 0
     """Rounds of the spacing constraint; 0 turns it off.
@@ -91,6 +102,16 @@ class EnsembleOptions:
     """Weights of the members: by their `error` on pseudo-gaps, by the likelihood of distances (`pma`), by `both`, or `equal`.
 
     Change it when you repeat tits2018 (`pma`)."""
+
+    time_constraint: Literal["laboratory", "local", "off"] = "laboratory"
+    """How predictions are made to meet the samples before and after a gap: by a ramp in `laboratory` axes (tits2018 eq 16-19), by a
+    ramp in the `local` frame of members that have one (its released program), or not (`off`); interpolations meet them by themselves.
+
+    Change it when you repeat tits2018 (`off`, to see its effect)."""
+
+    member_smoothing_s: Seconds = 0
+    """Window of a moving median, then a moving mean, over the prediction of each of several members; 0 for none (0.07 in the program
+    released with tits2018)."""
 
     max_gap_s_of_member: Mapping[str, Seconds] = field(
         default_factory=lambda: {"linear": 0.5, "spline": 0.5, "pchip": 0.5, "makima": 0.5}
@@ -204,6 +225,9 @@ class FillOptions:
 
     reuse_filled: bool = True
     """Whether filled markers are inputs for those that are filled later."""
+
+    smoothing_s: Seconds = 0
+    """Window of a moving median, then a moving mean, over what was filled; 0 for none (0.07 in the program released with tits2018)."""
 
     pseudo_gap_training_frames: CountOrNone = 400
     """Training frames of local_ridge and its variants on pseudo-gaps, at most."""

@@ -97,6 +97,30 @@ class Trainable(Protocol):
         ...
 
 
+@runtime_checkable
+class LocallyContinuous(Protocol):
+    """A predictor in a local frame of reference, in which its predictions can be made to meet the observed samples."""
+
+    def predict_continuous(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """Predict a marker, and subtract a ramp in the local frame so that the observed samples at the borders are met.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed; the marker's samples in the gap are not used.
+        marker : int
+            Index of the marker.
+        start, stop : int
+            The gap, [start, stop).
+
+        Returns
+        -------
+        Prediction
+            As `Predictor.predict` gives it; NaN where the local frame is not known at both borders.
+        """
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class LocalRegression:
     """The regression of a marker on its neighbours in one local frame, where it can be predicted.

@@ -7,14 +7,16 @@ the plane of the three. The triangle has three coordinates of its own (eq 11), t
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 
 import numpy as np
 
+from markermend.numerics.intervals import samples
 from markermend.numerics.rigid_alignment import LocalFrames
+from markermend.numerics.symmetric_smoothing import smooth_symmetrically
 from markermend.options.prediction.reference_triangle import ReferenceTriangleOptions
 from markermend.prediction.interface import Prediction
 from markermend.prediction.marker_selection import evenly_spaced, reference_markers
@@ -83,6 +85,30 @@ class _Case:
         """The triangle of the references at frames that show them."""
         return triangle(self.scene.positions[np.ix_(frames, self.references)])
 
+    def smoothed_triangle_at(self, frames: np.ndarray, window_s: float) -> Triangle:
+        """The same, of references that were smoothed over a window."""
+        window = samples(window_s, self.scene.rate, odd=True)
+        if window < 3:
+            return self.triangle_at(frames)
+        return triangle(
+            np.stack([self._smoothed(marker, window)[frames] for marker in self.references.tolist()], axis=1)
+        )
+
+    def _smoothed(self, marker: int, window: int) -> np.ndarray:
+        """Positions (frames, 3) of a marker, smoothed."""
+        smooth = partial(smooth_symmetrically, self.scene.positions[:, marker], window)
+        return self.scene.cached(("smoothed", marker, window), smooth)
+
+    def known_borders(self) -> np.ndarray:
+        """The frames before and after the gap, as far as they lie in the recording; none where one misses a reference or the marker."""
+        borders = np.array([frame for frame in (self.start - 1, self.stop) if 0 <= frame < len(self.observed)], int)
+        known = borders[self.observed[borders] & self.scene.present[borders, self.marker]]
+        return known if len(known) == len(borders) else known[:0]
+
+
+_Recovery = Callable[[_Case, np.ndarray], np.ndarray]
+"""Positions (n, 3) of the marker of a case at rows (n,)."""
+
 
 @dataclass(frozen=True, eq=False)
 class _TrainingSet:
@@ -105,6 +131,10 @@ class _TriangleModel(ABC):
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """Predict a marker; frames that miss a reference are left to the next triple. See `Predictor.predict`."""
+        return self._search(scene, marker, start, stop, self._recover)
+
+    def _search(self, scene: Scene, marker: int, start: int, stop: int, recover: _Recovery) -> Prediction:
+        """Predict with one triple of references after the other."""
         hidden = scene.without(marker, start, stop)
         prediction, first = Prediction.empty(start, stop), start - 1
         frames = hidden.bordered(start, stop)
@@ -116,7 +146,7 @@ class _TriangleModel(ABC):
             rows = left[observed[left]]
             if len(rows):
                 case = _Case(hidden, marker, references, observed, start, stop)
-                prediction.positions[rows - first] = self._recover(case, rows)
+                prediction.positions[rows - first] = recover(case, rows)
         return prediction
 
     def _triples(self, scene: Scene, marker: int) -> Iterator[np.ndarray]:
@@ -154,14 +184,16 @@ class LocalInterpolation(_TriangleModel):
     continuous = True
 
     def _recover(self, case: _Case, rows: np.ndarray) -> np.ndarray:
-        scene, observed = case.scene, case.observed
-        borders = np.array([frame for frame in (case.start - 1, case.stop) if 0 <= frame < len(observed)])
-        known = borders[observed[borders] & scene.present[borders, case.marker]]
-        if len(known) < len(borders) or len(self._training(case)) == 0:
+        known = case.known_borders()
+        if len(known) == 0 or len(self._training(case)) == 0:
             return np.full((len(rows), 3), np.nan)
-        local = case.triangle_at(known).frames.local(scene.positions[known, case.marker])
-        between = np.stack([np.interp(rows, known, axis) for axis in local.T], axis=1)
-        return case.triangle_at(rows).frames.laboratory(between)
+        local = case.triangle_at(known).frames.local(case.scene.positions[known, case.marker])
+        return case.triangle_at(rows).frames.laboratory(_interpolated(rows, known, local))
+
+
+def _interpolated(rows: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values (n, 3) at rows between those (k, 3) at known frames."""
+    return np.stack([np.interp(rows, known, axis) for axis in values.T], axis=1)
 
 
 class _TriangleRegression(_TriangleModel):
@@ -169,24 +201,41 @@ class _TriangleRegression(_TriangleModel):
 
     continuous = False
 
+    def predict_continuous(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
+        """Predict a marker and meet the borders by a ramp in the local frame. See `LocallyContinuous.predict_continuous`."""
+        return self._search(scene, marker, start, stop, self._recover_continuous)
+
     def _recover(self, case: _Case, rows: np.ndarray) -> np.ndarray:
+        return case.triangle_at(rows).frames.laboratory(self._local(case, rows))
+
+    def _recover_continuous(self, case: _Case, rows: np.ndarray) -> np.ndarray:
+        """See _recover; less the ramp between the offsets at the borders, in the local frame."""
+        known = case.known_borders()
+        if len(known) == 0:
+            return np.full((len(rows), 3), np.nan)
+        smoothed = case.smoothed_triangle_at(known, self.options.reference_smoothing_s)
+        observed = smoothed.frames.local(case.scene.positions[known, case.marker])
+        ramp = _interpolated(rows, known, self._local(case, known) - observed)
+        return case.triangle_at(rows).frames.laboratory(self._local(case, rows) - ramp)
+
+    def _local(self, case: _Case, rows: np.ndarray) -> np.ndarray:
+        """Position (n, 3) in the local frame at rows, where the references are observed; NaN where the model cannot be trained."""
         training = self._training(case)
         if len(training) == 0:
             return np.full((len(rows), 3), np.nan)
         key = "regression", self.options, case.marker, case.references.tobytes()
-        data = case.scene.cached(key, partial(_standardised, case, training))
-        found = case.triangle_at(rows)
-        local = self._regress(data.inputs, data.target, (found.shape - data.mean) / data.deviation)
-        return found.frames.laboratory(local)
+        data = case.scene.cached(key, partial(_standardised, case, training, self.options.reference_smoothing_s))
+        shape = case.smoothed_triangle_at(rows, self.options.reference_smoothing_s).shape
+        return self._regress(data.inputs, data.target, (shape - data.mean) / data.deviation)
 
     @abstractmethod
     def _regress(self, inputs: np.ndarray, target: np.ndarray, at: np.ndarray) -> np.ndarray:
         """Targets (m, 3) expected at inputs (m, 3), from training inputs (n, 3) and targets (n, 3)."""
 
 
-def _standardised(case: _Case, training: np.ndarray) -> _TrainingSet:
+def _standardised(case: _Case, training: np.ndarray, smoothing_s: float) -> _TrainingSet:
     """Training data at frames that show the marker and its references."""
-    known = case.triangle_at(training)
+    known = case.smoothed_triangle_at(training, smoothing_s)
     mean, deviation = known.shape.mean(axis=0), np.maximum(known.shape.std(axis=0), MIN_SHAPE_STD_MM)
     target = known.frames.local(case.scene.positions[training, case.marker])
     valid = ~np.isnan(target).any(axis=1)

@@ -42,6 +42,15 @@ WEIGHTS = {
 }
 """How the predictors are weighted, by the option `weights` of the averaging."""
 
+REPAIRS = {
+    "spline": "a cubic spline",
+    "linear": "linear interpolation",
+    "savitzky_golay": "a Savitzky-Golay filter",
+    "polynomial": "polynomial regression on neighbouring markers",
+    "replicated_network": "a feed-forward neural network",
+}
+"""The methods of repair that were published, by their names."""
+
 LIMITS = {
     "max_gap_s": "of at most {:g} s",
     "max_repair_s": "in stretches of at most {:g} s",
@@ -180,7 +189,9 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
         for place, group in groupby(sought, key=lambda own: _place(own.stage, stages))
     ]
     yield f"Artifacts were detected in the order {'; '.join(parts)} {citations.cite('artifacts')}."
-    if "repair" in stages:
+    if published := list(_published_repairs(stages)):
+        yield f"They were repaired by one method for each class, as published: {enumeration(published)}."
+    elif "repair" in stages:
         yield (
             f"They were repaired by class{limits(stages['repair'])}, where the repair brought the distances to neighbouring "
             "markers nearer to usual; samples without a reliable repair were set to missing where these distances "
@@ -197,6 +208,17 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     if left:
         text = enumeration([artifact.plural for artifact in left])
         yield f"{text[0].upper()}{text[1:]} were reported, and left as measured unless their repair was asked for."
+
+
+def _published_repairs(stages: Stages) -> Iterator[str]:
+    """The classes with the one published method that repairs each; nothing where any has another, or several."""
+    methods = stages.get("repair", {}).get("methods", {})
+    sought = [own for own in ARTIFACTS if own.stage in stages and methods.get(own.stage)]
+    if all(
+        stages[own.stage].get("preset") == "paper" and set(methods[own.stage]) <= set(REPAIRS) for own in sought
+    ) and all(len(methods[own.stage]) == 1 for own in sought):
+        for own in sought:
+            yield f"{own.plural} by {REPAIRS[methods[own.stage][0]]}"
 
 
 def _unmeasured(stages: Stages) -> Iterator[str]:
@@ -230,7 +252,32 @@ def _filling(stages: Stages, citations: Citations) -> Iterator[str]:
     )
     if (weights := options.get("ensemble", {}).get("weights")) in WEIGHTS:
         yield WEIGHTS[weights]
+    yield from _constraints(options)
     yield "The expected error of each filled sample was calibrated on pseudo-gaps."
+
+
+def _constraints(options: Mapping[str, Any]) -> Iterator[str]:
+    """The published constraints on what was filled, and smoothing, where the options of filling differ from the default."""
+    ensemble = options.get("ensemble", {})
+    distances = ensemble.get("distances", {})
+    if ensemble.get("time_constraint") == "off":
+        yield "Predictions were not made to meet the samples at the borders of a gap."
+    elif ensemble.get("weights") == "pma" and ensemble.get("time_constraint"):
+        frame = (
+            ", in the frame of the reference markers where there is one,"
+            if ensemble["time_constraint"] == "local"
+            else ""
+        )
+        yield f"A linear ramp{frame} made each prediction meet the samples at the borders of a gap."
+    if distances.get("spacing_rounds"):
+        quantiles = [f"{100 * distances[f'spacing_{end}_quantile']:g}" for end in ("lower", "upper")]
+        count = distances["spacing_references"]
+        yield (
+            f"The mean was moved to where its distance{'s' * (count > 1)} to the {f'{count} steadiest markers' if count > 1 else 'steadiest marker'} "
+            f"lie{'s' * (count == 1)} between the {quantiles[0]} and {quantiles[1]} % quantiles."
+        )
+    if options.get("smoothing_s"):
+        yield f"What was filled was smoothed by a moving median and a moving mean over {options['smoothing_s']:g} s."
 
 
 def _decisions(stages: Stages) -> Iterator[str]:

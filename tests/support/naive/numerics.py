@@ -230,3 +230,17 @@ def band_pass(values, band_hz, rate, half_length):
                 total += weight * values[j]
         out[i] = total
     return out
+
+
+def symmetric_smoothing(values, window):
+    """A moving median, then a moving mean, sample by sample; windows shrink near NaN and the ends, below two on a side they do nothing."""
+    missing = [-1, *np.flatnonzero(np.isnan(values).any(axis=1)).tolist(), len(values)]
+    for pick in (np.median, np.mean):
+        out = values.copy()
+        for n in range(len(values)):
+            reach = min(abs(n - place) for place in missing) - 1
+            half = min(reach, window // 2)
+            if half >= 0 and (half == window // 2 or half >= 2):
+                out[n] = pick(values[n - half : n + half + 1], axis=0)
+        values = out
+    return values

@@ -8,7 +8,8 @@ import pytest
 from markermend.filling.candidates import predict_candidates
 from markermend.filling.gap import Gap
 from markermend.prediction.interface import Prediction
-from support.fillings import rigid_body, scene
+from support.fillings import ensemble_options, predictor, rigid_body, scene
+from support.naive.numerics import symmetric_smoothing
 
 GAP = Gap(2, 100, 120)
 
@@ -38,7 +39,8 @@ def seen():
 
 
 def candidates(members, seen, gap=GAP, **changed):
-    return predict_candidates(members, seen, gap, **{"max_duration_s": {}, "fallback": [], **changed})
+    options = ensemble_options(**{"max_gap_s_of_member": {}, "fallback_members": (), **changed})
+    return predict_candidates(members, seen, gap, options=options)
 
 
 def test_members_predict_in_their_order(seen):
@@ -56,8 +58,8 @@ def test_members_that_are_not_continuous_meet_the_borders(seen):
 
 def test_a_member_predicts_no_longer_gaps_than_it_may(seen):
     short = Fixed("a", 1.0)
-    assert np.isfinite(candidates([short], seen, max_duration_s={"a": 0.2}).positions).all()
-    assert np.isnan(candidates([short], seen, max_duration_s={"a": 0.19}).positions).all()
+    assert np.isfinite(candidates([short], seen, max_gap_s_of_member={"a": 0.2}).positions).all()
+    assert np.isnan(candidates([short], seen, max_gap_s_of_member={"a": 0.19}).positions).all()
     assert len(short.asked) == 1
 
 
@@ -73,5 +75,33 @@ def test_a_member_predicts_no_longer_gaps_than_it_may(seen):
 )
 def test_a_fallback_predicts_only_where_no_other_predicts_all_from_neighbours(others, asked, seen):
     last = Fixed("a", 1.0)
-    candidates([last, *others], seen, fallback=["a"])
+    candidates([last, *others], seen, fallback_members=("a",))
     assert len(last.asked) == asked
+
+
+def test_without_the_time_constraint_predictions_stay_as_they_are(seen):
+    found = candidates([Fixed("a", 1.0, continuous=False)], seen, time_constraint="off").positions[0]
+    assert (found == 1).all()
+
+
+@pytest.mark.parametrize("name", ["local_quadratic", "local_grnn"])
+def test_the_ramp_is_subtracted_in_the_local_frame_of_members_that_have_one(name, seen):
+    member = predictor(name)
+    found = candidates([member, Fixed("b", 1.0, continuous=False)], seen, time_constraint="local").positions
+    assert np.array_equal(found[0], member.predict_continuous(seen, 2, 100, 120).positions[1:-1])
+    assert np.allclose(found[1], candidates([Fixed("b", 1.0, continuous=False)], seen).positions[0])
+
+
+def test_several_members_are_smoothed_each_and_one_alone_is_not(seen):
+    @dataclass
+    class Rough(Fixed):
+        def predict(self, scene, marker, start, stop):
+            shape = stop - start + 2, 3
+            return Prediction(np.random.default_rng(3).normal(size=shape), np.ones(shape[0]))
+
+    rough = Rough("a", 1.0)
+    raw = rough.predict(seen, 2, 100, 120).positions
+    alone = candidates([rough], seen, member_smoothing_s=0.07).positions[0]
+    together = candidates([rough, Fixed("b", 1.0)], seen, member_smoothing_s=0.07).positions[0]
+    assert np.array_equal(alone, raw[1:-1])
+    assert np.allclose(together, symmetric_smoothing(raw, 7)[1:-1])

@@ -10,6 +10,7 @@ from markermend.numerics.kernel_density import kernel_density
 from markermend.options.filling import DistanceOptions
 from markermend.prediction.marker_selection import reference_markers
 from support.fillings import scene
+from support.naive.numerics import symmetric_smoothing
 
 
 def options(**changed):
@@ -53,6 +54,40 @@ def test_without_references_nothing_is_judged(body):
     assert len(model.references) == 0
     assert (model.likelihood(body[None, :, 9] + 60, body) == 1).all()
     assert np.array_equal(model.constrain(body[:, 9] + 60, body), body[:, 9] + 60)
+
+
+def test_references_that_are_seen_take_the_place_of_missing_ones(body):
+    own = options(references=2, spacing_references=2, reference_choice="seen")
+    model = DistanceModel.estimate(scene(body), 9, own)
+    hidden = body[100:130].copy()
+    hidden[5:9, model.references[0]] = np.nan
+    used, densities = model._used(hidden, 2)
+    assert used.tolist() == model.references[1:3].tolist()
+    assert [id(each) for each in densities] == [id(each) for each in model.densities[1:3]]
+    likelihood = model.likelihood(body[None, 100:130, 9], hidden)
+    expected = pma_likelihood(
+        body[None, 100:130, 9], hidden[:, used], densities, window=round(own.smoothing_s * 100), floor=1e-200
+    )
+    assert np.array_equal(likelihood, expected)
+    assert (model.likelihood(body[None, 100:130, 9], np.full_like(hidden, np.nan)) == 1).all()
+
+
+def test_the_last_reference_holds_exactly(body):
+    shown = scene(body)
+    for order, place in (("steadiest_first", -1), ("steadiest_last", 0)):
+        model = DistanceModel.estimate(shown, 9, options(spacing_rounds=1, spacing_order=order))
+        placed = model.constrain(body[:, 9] + 60, body)
+        distance = np.linalg.norm(placed - body[:, model.references[place]], axis=1)
+        low, high = model.densities[place].quantiles((0.01, 0.99))
+        assert (distance > low - 1e-6).all() and (distance < high + 1e-6).all()
+
+
+def test_likelihoods_may_be_smoothed_by_a_median_first(body):
+    own = options(smoothing_filter="median_mean")
+    model = DistanceModel.estimate(scene(body), 9, own)
+    rough = body[None, :, 9] + np.random.default_rng(4).normal(0, 3, (2, len(body), 3))
+    single = replace(model, options=replace(own, smoothing_s=0)).likelihood(rough, body)
+    assert np.allclose(model.likelihood(rough, body), symmetric_smoothing(single.T, 7).T)
 
 
 @pytest.fixture

@@ -92,3 +92,41 @@ def test_three_references_are_needed():
     positions = rigid_body(markers=3)
     model = LocalInterpolation(replace(predictor("local_interpolation").options, min_height_mm=0.0))
     assert np.isnan(model.predict(scene(positions), 2, 100, 120).positions).all()
+
+
+def test_the_local_ramp_meets_the_borders_and_is_straight_in_the_local_frame(walker):
+    positions = walker.recording.positions[:400]
+    seen = scene(positions).without(9, 200, 240)
+    member = predictor("local_grnn")
+    (references,) = [next(member._triples(seen, 9))]
+    raw, met = member.predict(seen, 9, 199 + 1, 240).positions, member.predict_continuous(seen, 9, 200, 240).positions
+    assert np.allclose(met[[0, -1]], positions[[199, 240], 9])
+    offsets = []
+    for n, frame in enumerate(range(199, 241)):
+        offsets.append((raw[n] - met[n]) @ naive_frame(positions[frame, references]))
+    offsets = np.array(offsets)
+    share = np.linspace(0, 1, 42)[:, None]
+    assert np.allclose(offsets, offsets[0] + share * (offsets[-1] - offsets[0]), atol=1e-9)
+    assert np.abs(offsets).max() > 0.1
+
+
+def test_the_local_ramp_is_constant_at_an_end_and_needs_the_references_at_the_borders(walker):
+    positions = walker.recording.positions[:400].copy()
+    member = predictor("local_quadratic")
+    seen = scene(positions).without(9, 370, 400)
+    met = member.predict_continuous(seen, 9, 370, 400).positions
+    assert np.allclose(met[0], positions[369, 9]) and np.isfinite(met[:-1]).all()
+    references = next(member._triples(seen, 9))
+    hidden = seen.without(references[0], 369, 370)
+    other = member.predict_continuous(hidden, 9, 370, 400).positions
+    assert np.allclose(other[0], positions[369, 9]) and not np.allclose(other[5:-1], met[5:-1])
+
+
+def test_smoothed_references_keep_noise_out_of_the_shape(walker):
+    positions = walker.recording.positions[:400] + np.random.default_rng(5).normal(0, 1, (400, 51, 3))
+    case = _Case(scene(positions), 9, np.array([3, 4, 10]), np.ones(400, bool), 100, 120)
+    frames = np.arange(20, 380)
+    true = triangle(walker.recording.positions[frames][:, [3, 4, 10]]).shape
+    rough, smooth = case.triangle_at(frames).shape, case.smoothed_triangle_at(frames, 0.07).shape
+    assert np.abs(smooth - true).mean() < 0.7 * np.abs(rough - true).mean()
+    assert np.array_equal(case.smoothed_triangle_at(frames, 0.0).shape, rough)

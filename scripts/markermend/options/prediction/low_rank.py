@@ -68,5 +68,9 @@ class WeightedPcaOptions:
     max_distance_ratio: NotNegative = 0.5
     """Markers with gaps of their own are left out beyond this multiple of the mean distance."""
 
+    borders: Literal["predicted", "nearest"] = "predicted"
+    """What is predicted for the frames before and after a gap, where the time constraint compares it with the samples: their own prediction, or
+    that of the `nearest` frame of the gap (the program released with tits2018)."""
+
     explained_singular_values: Share = 0.99
     """Share of the sum of singular values that sets the number of components (0 to 1)."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from markermend.options.declaration import AtLeast, Count, Millimetres, NotNegative, Positive
+from markermend.options.declaration import AtLeast, Count, Millimetres, NotNegative, Positive, Seconds
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,10 @@ class ReferenceTriangleOptions:
 
     kernel_width_sigmas: Positive = 0.3
     """Width of the kernel of local_grnn, in standard deviations."""
+
+    reference_smoothing_s: Seconds = 0
+    """Window of a moving median, then a moving mean, over the references from which local_quadratic and local_grnn learn and predict; 0 for
+    none (0.07 in the program released with tits2018)."""
 
     ridge: NotNegative = 0.001
     """Penalty of local_quadratic, as a share of the training frames (0 in tits2018)."""

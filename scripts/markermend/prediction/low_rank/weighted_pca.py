@@ -52,6 +52,8 @@ class WeightedPca:
             if used.any():
                 recovered = self._recover(hidden, marker, near[used], near[~used], rows)
                 prediction.positions[rows - (start - 1)] = recovered
+        if self.options.borders == "nearest":
+            prediction.positions[[0, -1]] = prediction.positions[[1, -2]]
         return prediction
 
     def _recover(
