@@ -98,6 +98,17 @@ def fill_gapped(
     changes: Changes = (),
 ) -> Restored:
     """Hide gaps (marker, start, stop) of a recording and fill them with the named members."""
+    return fill_hidden(whole, gaps, neighbours, *lifted(names, changes))
+
+
+def fill_hidden(
+    whole: Recording,
+    gaps: Iterable[Gap],
+    neighbours: Sequence[np.ndarray],
+    options: FillOptions,
+    ensembles: Ensembles,
+) -> Restored:
+    """Hide gaps (marker, start, stop) of a recording and fill them."""
     positions = whole.positions.copy()
     for marker, start, stop in gaps:
         positions[start:stop, marker] = np.nan
@@ -107,7 +118,6 @@ def fill_gapped(
     restored = Restored(
         whole.markers, positions, whole.rate, facts=whole.facts, origin=origin, error=none, error95=none
     )
-    options, ensembles = lifted(names, changes)
     return fill_scene(restored, Scene(positions, whole.rate, neighbours), ensembles, options).recording
 
 
@@ -123,19 +133,24 @@ def fill_case(folder: str, case: Case, names: tuple[str, ...], changes: Changes 
     inferred = time.process_time()
     filled = fill_gapped(whole, case["gaps"], mesh.neighbour_indices(whole.markers), names, changes)
     seconds = inferred - started, time.process_time() - inferred
+    return FilledCase(case, seconds, offsets(whole, filled, case))
+
+
+def offsets(whole: Recording, filled: Restored, case: Case) -> list[FilledGap]:
+    """The known samples of the gaps of a case after filling."""
     gaps = []
     for marker, start, stop in case["gaps"]:
         place = slice(start, stop), marker
         known = ~whole.missing[place]
-        offsets = (filled.positions - whole.positions)[place][known]
+        off = (filled.positions - whole.positions)[place][known]
         fitted = case["seq"].startswith("HDM") and whole.markers[marker].split(":")[-1] in FITTED
-        gaps.append(FilledGap(offsets, filled.error[place][known], filled.error95[place][known], fitted))
-    return FilledCase(case, seconds, gaps)
+        gaps.append(FilledGap(off, filled.error[place][known], filled.error95[place][known], fitted))
+    return gaps
 
 
 def score(condition: str, gaps: Sequence[FilledGap]) -> float:
     """The error of a case, mm, by the measure of its protocol; NaN where a sample stayed open."""
-    offsets = np.concatenate([gap.offsets for gap in gaps])
+    errors = np.concatenate([gap.offsets for gap in gaps])
     if condition.startswith("sp"):
-        return float(np.sqrt((offsets**2).mean()))
-    return float(np.linalg.norm(offsets, axis=1).mean())
+        return float(np.sqrt((errors**2).mean()))
+    return float(np.linalg.norm(errors, axis=1).mean())

@@ -97,7 +97,8 @@ class _Case:
     def _smoothed(self, marker: int, window: int) -> np.ndarray:
         """Positions (frames, 3) of a marker, smoothed."""
         smooth = partial(smooth_symmetrically, self.scene.positions[:, marker], window)
-        return self.scene.cached(("smoothed", marker, window), smooth)
+        smoothed: np.ndarray = self.scene.cached(("smoothed", marker, window), smooth)
+        return smoothed
 
     def known_borders(self) -> np.ndarray:
         """The frames before and after the gap, as far as they lie in the recording; none where one misses a reference or the marker."""

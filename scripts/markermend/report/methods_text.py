@@ -213,10 +213,9 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
 def _published_repairs(stages: Stages) -> Iterator[str]:
     """The classes with the one published method that repairs each; nothing where any has another, or several."""
     methods = stages.get("repair", {}).get("methods", {})
-    sought = [own for own in ARTIFACTS if own.stage in stages and methods.get(own.stage)]
-    if all(
-        stages[own.stage].get("preset") == "paper" and set(methods[own.stage]) <= set(REPAIRS) for own in sought
-    ) and all(len(methods[own.stage]) == 1 for own in sought):
+    sought = [own for own in ARTIFACTS if own.stage in stages and methods.get(own.stage) and not own.reported]
+    single = all(len(methods[own.stage]) == 1 and methods[own.stage][0] in REPAIRS for own in sought)
+    if single and all(stages[own.stage].get("preset") == "paper" for own in sought):
         for own in sought:
             yield f"{own.plural} by {REPAIRS[methods[own.stage][0]]}"
 

@@ -15,6 +15,7 @@ from markermend.options.mesh import MeshOptions
 from support import bodies
 from support.fillings import fill as fill_with_defaults
 from support.fillings import fill_options, neighbours, restored, rigid_body
+from support.naive.numerics import symmetric_smoothing
 from support.treated import treated, weights
 
 QUICK = ["local_ridge", "local_interpolation", "spline"]
@@ -301,3 +302,30 @@ def test_jumps_that_were_left_do_not_make_other_gaps_uncertain(person):
     missing = recording.missing
     assert np.nanmax(result.error[missing]) < 2 * np.nanmax(usual.recording.error[missing])
     assert not np.isnan(result.positions).any()
+
+
+def test_the_time_constraint_matters_where_a_model_is_off_by_a_constant(person):
+    """A marker that sits 20 mm beside its place from 1 s before the gap to 1 s after it."""
+    positions, names, near = person
+    marker, start, stop = GAP
+    moved = positions.copy()
+    moved[start - 100 : stop + 100, marker] += [20.0, 0, 0]
+    truth = moved[start:stop, marker].copy()
+    moved[start:stop, marker] = np.nan
+    errors = {}
+    for constraint in ("laboratory", "local", "off"):
+        averaging = {"time_constraint": constraint, "weights": "pma", "fallback_members": ()}
+        averaging["distances"] = replace(fill_options().ensemble.distances, reference_choice="seen")
+        found = fill(restored(moved, markers=names), near, members=["local_grnn"], averaging=averaging)
+        errors[constraint] = np.linalg.norm(found.positions[start:stop, marker] - truth, axis=1).mean()
+    assert errors["off"] > 2 * max(errors["laboratory"], errors["local"])
+    assert abs(errors["laboratory"] - errors["local"]) > 0.01
+
+
+def test_what_was_filled_may_be_smoothed_with_the_samples_beside_it(person):
+    positions, names, near = person
+    gapped = positions.copy()
+    gapped[200:240, MARKER] = np.nan
+    whole, smooth = (fill(restored(gapped, markers=names), near, smoothing_s=window).positions for window in (0, 0.07))
+    assert np.allclose(smooth[200:240, MARKER], symmetric_smoothing(whole[:, MARKER], 7)[200:240])
+    assert np.array_equal(smooth[~np.isnan(gapped)], gapped[~np.isnan(gapped)])

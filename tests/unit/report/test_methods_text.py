@@ -4,14 +4,18 @@ import json
 import shlex
 
 import pytest
+import yaml
 
 import fill
 from markermend.core.artifacts import ARTIFACTS
+from markermend.options.config import read_config
 from markermend.options.filling import FillOptions
 from markermend.options.flags import write_flags
+from markermend.options.values import plain
 from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, enumeration, limits, paragraph
 from markermend.storage import change_file, stage_files
 from support.fillings import fill_options, restored, rigid_body
+from support.paths import PROJECT
 
 NAMES = ("A", "B", "C", "D")
 
@@ -81,6 +85,36 @@ def test_adopted_samples_are_said_where_they_were_asked_for(adopting):
     text = paragraph({"labels": {"adopt_unlabelled": adopting}, "repair": {}}, "dynamic", "1.0")["text"]
     assert ("were given these samples" in text) == adopting
     assert ("amples under unlabelled trajectories" in text) != adopting
+
+
+def test_the_published_pipeline_says_what_it_is():
+    config = yaml.safe_load((PROJECT / "config/presets/published.yaml").read_text(encoding="utf-8"))
+    options = read_config(config)
+    ran = {stage: plain(options[stage]) for stage in (*options["general"].detect, "repair", "fill")}
+    text = paragraph(ran, "dynamic", "1.0")["text"]
+    assert (
+        "isolated peaks, heavy noise, steps and slow drifts (in each coordinate separately, as published) [1]." in text
+    )
+    assert (
+        "They were repaired by one method for each class, as published: isolated peaks by a cubic spline, heavy noise by a "
+        "Savitzky-Golay filter, steps by a feed-forward neural network and slow drifts by a feed-forward neural network."
+    ) in text
+    assert "several predictors (linear regression, local interpolation, local quadratic, local grnn) [2]." in text
+    assert WEIGHTS["pma"] in text
+    assert "A linear ramp made each prediction meet the samples at the borders of a gap." in text
+    assert "its distance to the steadiest marker lies between the 5 and 95 % quantiles" in text
+    assert "where the repair brought" not in text and "smoothed" not in text
+
+
+def test_the_program_of_tits2018_is_described_by_its_constraints():
+    config = yaml.safe_load((PROJECT / "config/presets/published_pma_code.yaml").read_text(encoding="utf-8"))
+    text = paragraph({"fill": plain(read_config(config)["fill"])}, "dynamic", "1.0")["text"]
+    assert "A linear ramp, in the frame of the reference markers where there is one, made each" in text
+    assert "its distances to the 3 steadiest markers lie between the 1 and 99 % quantiles" in text
+    assert "smoothed by a moving median and a moving mean over 0.07 s" in text
+    config["advanced"]["fill"]["ensemble"]["time_constraint"] = "off"
+    text = paragraph({"fill": plain(read_config(config)["fill"])}, "dynamic", "1.0")["text"]
+    assert "Predictions were not made to meet the samples" in text and "ramp" not in text
 
 
 def test_several_presets_are_named_once_each():

@@ -61,3 +61,12 @@ def test_a_rigid_body_is_recovered_by_all_its_components(strategy):
 def test_an_unknown_strategy_is_refused():
     with pytest.raises(ValueError, match="unknown strategy"):
         WeightedPca(replace(predictor("weighted_pca").options, strategy="alternating"))
+
+
+def test_the_prediction_of_the_nearest_frame_may_stand_for_the_borders():
+    seen = scene(rigid_body()).without(2, 100, 120)
+    usual = predictor("weighted_pca")
+    own = WeightedPca(replace(usual.options, borders="nearest"))
+    found, expected = (each.predict(seen, 2, 100, 120).positions for each in (own, usual))
+    assert np.array_equal(found[1:-1], expected[1:-1])
+    assert np.array_equal(found[[0, -1]], found[[1, -2]]) and not np.array_equal(found[0], expected[0])

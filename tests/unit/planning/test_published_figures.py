@@ -1,0 +1,34 @@
+"""The published figures: one table for each paper, of one shape, with what was printed."""
+
+import csv
+
+import pytest
+
+from support.paths import PROJECT
+
+TABLES = sorted((PROJECT / "config/evaluate/published").glob("*.tsv"))
+
+
+def rows(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file, delimiter="\t"))
+
+
+@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.stem)
+def test_the_columns(path):
+    found = rows(path)
+    assert list(found[0]) == ["table", "sequence", "condition", "method", "value"]
+    keys = [tuple(row.values())[:4] for row in found]
+    assert len(set(keys)) == len(keys)
+    assert all(row["table"] and row["method"] and row["value"] for row in found)
+
+
+def test_the_constraints_of_tits2018_reduce_the_error_in_every_row():
+    (path,) = [path for path in TABLES if path.stem == "tits2018"]
+    values = {(row["table"], row["sequence"], row["method"]): row["value"] for row in rows(path)}
+    for table, largest in (("Table 2", 2.1), ("Table 3", 41.7)):
+        gains = [
+            float(values[table, sequence, "pma_1_2_3_4_unconstrained"]) - float(values[table, sequence, "pma_1_2_3_4"])
+            for sequence in ("HDM1", "HDM2", "HDM3", "HDM4", "HDM5", "CMU1", "CMU2", "CMU3")
+        ]
+        assert min(gains) > 0 and max(gains) == pytest.approx(largest, abs=0.051)
