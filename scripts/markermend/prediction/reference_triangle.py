@@ -103,7 +103,7 @@ class _Case:
     def known_borders(self) -> np.ndarray:
         """The frames before and after the gap, as far as they lie in the recording; none where one misses a reference or the marker."""
         borders = np.array([frame for frame in (self.start - 1, self.stop) if 0 <= frame < len(self.observed)], int)
-        known = borders[self.observed[borders] & self.scene.present[borders, self.marker]]
+        known: np.ndarray = borders[self.observed[borders] & self.scene.present[borders, self.marker]]
         return known if len(known) == len(borders) else known[:0]
 
 
