@@ -18,10 +18,30 @@ from markermend.options.declaration import (
 )
 
 ScaleEstimator = Literal["mad", "std"]
+SigmaOver = Literal["coordinate", "marker", "recording"]
 
 
 @dataclass(frozen=True)
-class PublishedPeaksOptions:
+class ThresholdOptions:
+    """What counts as a sudden change."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    sigma_over: SigmaOver = "coordinate"
+    """Whether the usual size of changes is that of each coordinate, of each marker, or of the whole recording.
+
+    Change it when still coordinates have too many false findings (`recording`)."""
+
+    threshold_sigmas: Positive = 5
+    """Smallest sudden change, in units of the usual size of changes."""
+
+    floor_mm: Millimetres = 1.5
+    """Smallest sudden change, per frame at 100 Hz."""
+
+
+@dataclass(frozen=True)
+class PublishedPeaksOptions(ThresholdOptions):
     """Isolated peaks in one coordinate."""
 
     trend_removal: Literal["median_of_difference", "difference_of_median"] = "median_of_difference"
@@ -37,14 +57,9 @@ class PublishedPeaksOptions:
     margin_s: Seconds = 0.03
     """Sums and morphology extend over twice the longest peak and this."""
 
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
+    localisation: Literal["window", "run"] = "window"
+    """Where a peak begins and ends: at the first and last sudden change in the window of the sums around it (`window`), which must not
+    be farther apart than the longest peak, or at the two largest opposite ones among those where the sums are balanced (`run`)."""
 
     balance_ratio: Factor = 5
     """The absolute sum of a peak's changes exceeds the size of their sum by this factor."""
@@ -54,7 +69,7 @@ class PublishedPeaksOptions:
 
 
 @dataclass(frozen=True)
-class PublishedNoiseOptions:
+class PublishedNoiseOptions(ThresholdOptions):
     """Heavy noise in one coordinate."""
 
     window_s: PositiveSeconds = 0.13
@@ -63,17 +78,14 @@ class PublishedNoiseOptions:
     polynomial_order: Count = 5
     """Order of that filter."""
 
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
-
     min_duration_s: Seconds = 0.2
     """Shortest stretch of heavy noise."""
+
+    element_s: PositiveSeconds = 0.39
+    """Structuring element of the closings: pauses of this length between sudden changes are noise, too. The paper has 39 frames, twice
+    the shortest stretch, which join the two jumps of a step of up to 50; its results fit 19 frames.
+
+    Change it when steps are taken for noise (shorter)."""
 
     min_sudden_share: Share = 0.2
     """Share of the samples of a stretch that change suddenly, at least (0 to 1)."""
@@ -86,7 +98,7 @@ class PublishedNoiseOptions:
 
 
 @dataclass(frozen=True)
-class PublishedStepsOptions:
+class PublishedStepsOptions(ThresholdOptions):
     """Steps in one coordinate."""
 
     window_s: PositiveSeconds = 0.13
@@ -94,15 +106,6 @@ class PublishedStepsOptions:
 
     polynomial_order: Count = 5
     """Order of that filter."""
-
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
 
     min_duration_s: Seconds = 0.06
     """Shortest time between the two jumps of a step."""
@@ -118,7 +121,7 @@ class PublishedStepsOptions:
 
 
 @dataclass(frozen=True)
-class PublishedSlowOptions:
+class PublishedSlowOptions(ThresholdOptions):
     """Slow changes in one coordinate of the residual."""
 
     predictor: Literal["replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge"] = (
@@ -139,6 +142,9 @@ class PublishedSlowOptions:
 
     threshold_sigmas: Positive = 3
     """Upper threshold, in units of the usual size."""
+
+    floor_mm: Millimetres = 0
+    """Smallest upper threshold."""
 
     lower_sigmas: NotNegative = 0.5
     """Lower threshold, at which a finding begins and ends, in units of the usual size."""
