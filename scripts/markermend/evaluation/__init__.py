@@ -1,0 +1,1 @@
+"""The experiments of the three papers, and the measures that they state."""
