@@ -64,13 +64,18 @@ def threshold_of(change, options):
     return float(increments.thresholds(change[:, None, None], options)[0, 0])
 
 
-def detect_signal(signal, rate, preset="coordinates"):
-    """Intervals per class of one coordinate, each detector after the ones before; and the open steps."""
+def detect_signal(signal, rate, preset="coordinates", options=None):
+    """Intervals per class of one coordinate, each detector after the ones before; and the open steps.
+
+    options: those of some detectors that differ from those of the preset.
+    """
     found, claimed = {}, np.zeros(len(signal), bool)
     reach = frames(5, rate)
     for stage in ("peaks", "noise", "steps"):
         bridged = interpolation.bridge_cubic(signal, claimed, reach)
-        mask, score, *rest = find_in(bridged, stage, rate=rate, options=options_of(stage, preset))
+        mask, score, *rest = find_in(
+            bridged, stage, rate=rate, options=(options or {}).get(stage, options_of(stage, preset))
+        )
         assert (score[mask] >= 1).all()
         found[stage] = list(runs(mask & ~claimed))
         claimed |= mask

@@ -71,21 +71,26 @@ def peaks(change, level, longest, window, ratio, localisation):
         if stop > k:
             reach = half if localisation == "window" else 0
             at = [j for j in range(max(0, k - reach), min(n, stop + reach)) if sudden[j]]
-            for j in range(*_ends(sudden, at, longest, localisation)):
+            for j in range(*_ends(sudden, at, longest, ratio, localisation)):
                 mask[j] = True
         k = max(stop, k + 1)
     return mask
 
 
-def _ends(sudden, at, longest, localisation):
-    """First and last of the changes if they are opposite and near; or the largest and the largest opposite one near it."""
+def _ends(sudden, at, longest, ratio, localisation):
+    """First and last of the changes if they are opposite and near; or the largest and the largest near it that cancels it."""
     if not at:
         return 0, 0
     if localisation == "window":
         opposite = sudden[at[0]] * sudden[at[-1]] < 0
         return (at[0], at[-1]) if opposite and at[-1] - at[0] <= longest else (0, 0)
     largest = max(at, key=lambda j: abs(sudden[j]))
-    others = [j for j in at if sudden[j] * sudden[largest] < 0 and abs(j - largest) <= longest]
+    size = abs(sudden[largest])
+    others = [
+        j
+        for j in at
+        if abs(j - largest) <= longest and abs(sudden[j]) + size > ratio * abs(sudden[j] + sudden[largest])
+    ]
     if not others:
         return 0, 0
     other = max(others, key=lambda j: abs(sudden[j]))

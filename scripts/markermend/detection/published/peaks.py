@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -138,7 +139,7 @@ def find_peaks(
     window = intervals.samples(2 * options.max_duration_s + options.margin_s, rate, odd=True)
     sudden = np.where(np.abs(change) > level, change, 0.0)
     sudden[np.isnan(change)] = np.nan
-    locate = {"window": _outermost, "run": _largest}[options.localisation]
+    locate = _outermost if options.localisation == "window" else partial(_largest, ratio=options.balance_ratio)
     mask, score = np.zeros(len(change), bool), np.zeros(len(change))
     for start, stop in runs(_balanced(sudden, window, options.balance_ratio)):
         if options.localisation == "window":
@@ -157,15 +158,16 @@ def _outermost(change: np.ndarray, at: np.ndarray, longest: int) -> tuple[int, i
     return int(at[0]), int(at[-1])
 
 
-def _largest(change: np.ndarray, at: np.ndarray, longest: int) -> tuple[int, int]:
-    """The largest of sudden changes at sorted frames and the largest opposite one that is not too far from it, else nothing."""
+def _largest(change: np.ndarray, at: np.ndarray, longest: int, *, ratio: float) -> tuple[int, int]:
+    """The largest of sudden changes at sorted frames and the largest that it cancels with and is not too far from it, else nothing."""
     if not at.size:
         return 0, 0
     largest = int(np.argmax(np.abs(change)))
-    opposite = (change * change[largest] < 0) & (np.abs(at - at[largest]) <= longest)
-    if not opposite.any():
+    absolute, total = np.abs(change) + np.abs(change[largest]), np.abs(change + change[largest])
+    cancels = (absolute > ratio * total) & (np.abs(at - at[largest]) <= longest)
+    if not cancels.any():
         return 0, 0
-    other = int(np.argmax(np.where(opposite, np.abs(change), 0.0)))
+    other = int(np.argmax(np.where(cancels, np.abs(change), 0.0)))
     first, last = sorted((int(at[largest]), int(at[other])))
     return first, last
 

@@ -59,7 +59,7 @@ class PublishedPeaksOptions(ThresholdOptions):
 
     localisation: Literal["window", "run"] = "window"
     """Where a peak begins and ends: at the first and last sudden change in the window of the sums around it (`window`), which must not
-    be farther apart than the longest peak, or at the two largest opposite ones among those where the sums are balanced (`run`)."""
+    be farther apart than the longest peak, or at the largest of those where the sums are balanced and the largest that cancels it (`run`)."""
 
     balance_ratio: Factor = 5
     """The absolute sum of a peak's changes exceeds the size of their sum by this factor."""
