@@ -136,7 +136,7 @@ def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) 
         For a name that is not among PREDICTORS.
     """
     if options.predictor == "replicated_network":
-        return ReplicatedNetwork(predictors.replicated_network)
+        return ReplicatedNetwork(replace(predictors.replicated_network, **options.replicated_network_changes))
     if options.predictor == "polynomial":
         return Polynomial(predictors.polynomial)
     if options.predictor == "savitzky_golay":

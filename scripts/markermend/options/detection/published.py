@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal
 
 from markermend.options.declaration import (
+    Changes,
     Count,
     CountOrNone,
     Factor,
@@ -16,6 +18,7 @@ from markermend.options.declaration import (
     Seconds,
     Share,
 )
+from markermend.options.prediction.lagged_regression import ReplicatedNetworkOptions
 
 ScaleEstimator = Literal["mad", "std"]
 SigmaOver = Literal["coordinate", "marker", "recording"]
@@ -130,6 +133,13 @@ class PublishedSlowOptions(ThresholdOptions):
     """The predictor whose residual is examined.
 
     Change it when the network takes too long, or another predictor predicts better."""
+
+    replicated_network_changes: Annotated[Mapping[str, Any], Changes(ReplicatedNetworkOptions)] = field(
+        default_factory=dict
+    )
+    """Options of the predictor replicated_network that differ in this stage: trained for long, the network follows slow changes.
+
+    Change it when slow changes are missed (fewer `max_iterations`), or motion is taken for slow changes (more)."""
 
     smoothing_window_s: PositiveSeconds = 2
     """Window of the predictors savitzky_golay and moving_median."""
