@@ -152,8 +152,6 @@ class SlowOptions(DetectorOptions):
     """Options of the drifts that are estimated together with the regression."""
 
     paper: PublishedSlowOptions = field(
-        default_factory=lambda: PublishedSlowOptions(
-            scale_estimator="std", sigma_over="recording", replicated_network_changes={"max_iterations": 20}
-        )
+        default_factory=lambda: PublishedSlowOptions(scale_estimator="std", sigma_over="recording")
     )
     """Options of the preset `paper`: as published (skurowski2022)."""
