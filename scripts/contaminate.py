@@ -28,11 +28,14 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--truth", type=Path, required=True, help="where the truth goes, outside of the copies")
     parser.add_argument("--seed", type=int, required=True, help="equal seeds give equal files")
     parser.add_argument(
-        "--protocol", choices=list(PROTOCOLS), default="paper", help="see markermend/simulation/protocols.py"
+        "--protocol", choices=list(PROTOCOLS), default="spatial", help="see markermend/simulation/protocols.py"
     )
     parser.add_argument("--amplitude-mm", type=float, default=10.0, help="mean amplitude, mm")
     parser.add_argument(
-        "--share", type=float, default=0.1, help="share of the time distorted; 0.1 of practice is common"
+        "--share",
+        type=float,
+        default=0.1,
+        help="share of the time distorted, of paper by each class; 0.1 of practice is common",
     )
     parser.add_argument(
         "--unlabelled", nargs="*", default=[], help="regular expressions, as in config ingest.unlabelled"

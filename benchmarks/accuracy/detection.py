@@ -6,9 +6,9 @@ Writes: tables to stdout, one set for each condition (amplitude, share, preset) 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --amplitudes 10 --shares 0.1 --jobs 2
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.detection ../shared/data/clean/* --protocol practice --presets default --seeds 10 11 12
 
-The contamination is the protocol of skurowski2022 (section 4.1.3): a share of the time distorted, one marker at a time, in equal
-shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--protocol practice`, what that
-leaves out (markermend.simulation.protocols.in_practice). Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
+The contamination (see markermend.simulation.protocols) is `spatial`: a share of the time distorted, one marker at a time in a random
+direction, in equal shares peaks, heavy noise, steps and slow changes of 50 samples on average; or, with `--protocol practice`, what
+that leaves out. Amplitudes are normal, of 10 mm with a deviation of 4, and of 5 with 2.
 
 Counts are of samples. Each has one class, true and found: where findings overlap, that of the detector that was first.
 What frozen and tails find is a class like the others, though the published contamination has neither: a sample of a peak that
@@ -60,7 +60,7 @@ GROUPS = {"calm": ("STS1", "Qualisys", "HDM_mm_01-02_03_120"), "fast": ("85_02",
 
 
 def contaminate(
-    clean: Recording, *, amplitude: float, share: float, seed: int, protocol: str = "paper"
+    clean: Recording, *, amplitude: float, share: float, seed: int, protocol: str = "spatial"
 ) -> Contamination:
     """Contaminate a recording."""
     given = {"amplitude": amplitude, "share": share, "rng": np.random.default_rng(seed)}
@@ -165,7 +165,7 @@ def conditions(arguments: argparse.Namespace) -> Iterator[dict[str, Any]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("recordings", type=Path, nargs="+", help="clean recordings")
-    parser.add_argument("--protocol", choices=PROTOCOLS, default="paper", help="how to contaminate them")
+    parser.add_argument("--protocol", choices=PROTOCOLS, default="spatial", help="how to contaminate them")
     parser.add_argument("--amplitudes", type=float, nargs="+", default=[5, 10], help="mean amplitudes, mm")
     parser.add_argument(
         "--shares", type=float, nargs="+", default=[0.05, 0.1, 0.2], help="shares of the time distorted"

@@ -13,7 +13,7 @@ from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import stage_files
 
 
-@pytest.fixture(scope="module", params=["paper", "practice"])
+@pytest.fixture(scope="module", params=["spatial", "paper", "practice"])
 def made(request, tmp_path_factory, walker):
     folder = tmp_path_factory.mktemp(request.param)
     clean = walker.recording
@@ -31,7 +31,7 @@ def made(request, tmp_path_factory, walker):
 def run(folder, protocol, damaged, truth):
     given = {"recordings": "clean", "folder": damaged, "truth": truth}
     flags = [word for name, place in given.items() for word in (f"--{name}", str(folder / place))]
-    share = {"paper": "0.1", "practice": "0.6"}[protocol]
+    share = {"practice": "0.6"}.get(protocol, "0.1")
     contaminate.main([*flags, "--seed", "3", "--protocol", protocol, "--share", share])
 
 
@@ -46,7 +46,9 @@ def test_only_what_the_truth_names_differs(made, name):
     before, after = (read(path) for path in paths)
     truth = folder / "truth/S01" / name
     found = {kind: stage_files.read_events(truth / f"{kind}.parquet") for kind in (*artifacts.DETECTORS, "gaps")}
-    assert {kind for kind, own in found.items() if own} >= {"peaks", "noise", "steps", "slow"}
+    # The paper's protocol draws how many there are: a short recording need not have every class.
+    expected = {"peaks"} if protocol == "paper" else {"peaks", "noise", "steps", "slow"}
+    assert {kind for kind, own in found.items() if own} >= expected
     assert bool(found["gaps"]) == bool(found["frozen"]) == bool(found["tails"]) == (protocol == "practice")
     shape = before.recording.frames, before.recording.markers
     covered = sum(events.mask(own, *shape) for own in found.values()).astype(bool)

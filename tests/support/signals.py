@@ -9,7 +9,7 @@ from markermend.core import events
 from markermend.core.artifacts import class_of
 from markermend.detection.noise import detect_noise
 from markermend.detection.peaks import detect_peaks
-from markermend.detection.published import noise, peaks, slow, steps
+from markermend.detection.published import increments, noise, peaks, slow, steps
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps
 from markermend.numerics import interpolation, intervals
@@ -48,13 +48,34 @@ def motion(rate, *, seconds=20.0, seed=0):
     return trajectory + np.random.default_rng(seed).normal(0, 0.2, len(t))
 
 
-def detect_signal(signal, rate, preset="coordinates"):
-    """Intervals per class of one coordinate, each detector after the ones before; and the open steps."""
+def find_in(signal, stage, *, rate, options):
+    """What a published detector finds in one coordinate, with the threshold of that coordinate alone."""
+    if stage == "steps":
+        given = {"window_s": options.window_s, "order": options.polynomial_order}
+        change = increments.high_passed_increments(signal, rate=rate, **given)
+        return steps.find_steps(change, threshold_of(change, options), rate=rate, options=options)
+    detector = {"peaks": peaks, "noise": noise, "slow": slow}[stage].signal_detector(rate, options)
+    change = detector.change(signal)
+    return detector.find(signal, change, threshold_of(change, options), "A")
+
+
+def threshold_of(change, options):
+    """The threshold of the changes (frames,) of one coordinate."""
+    return float(increments.thresholds(change[:, None, None], options)[0, 0])
+
+
+def detect_signal(signal, rate, preset="coordinates", options=None):
+    """Intervals per class of one coordinate, each detector after the ones before; and the open steps.
+
+    options: those of some detectors that differ from those of the preset.
+    """
     found, claimed = {}, np.zeros(len(signal), bool)
     reach = frames(5, rate)
-    for stage, find in (("peaks", peaks.find_peaks), ("noise", noise.find_noise), ("steps", steps.find_steps)):
+    for stage in ("peaks", "noise", "steps"):
         bridged = interpolation.bridge_cubic(signal, claimed, reach)
-        mask, score, *rest = find(bridged, rate=rate, options=options_of(stage, preset))
+        mask, score, *rest = find_in(
+            bridged, stage, rate=rate, options=(options or {}).get(stage, options_of(stage, preset))
+        )
         assert (score[mask] >= 1).all()
         found[stage] = list(runs(mask & ~claimed))
         claimed |= mask

@@ -17,7 +17,7 @@ LOCKED = dict(re.findall(r"^([A-Za-z0-9._-]+)==([^ ;\\]+)", LOCK, re.MULTILINE))
 DECLARED = tomllib.loads((PROJECT / "pyproject.toml").read_text())
 RUNTIME = {re.split("[<>=]", name)[0] for name in DECLARED["project"]["dependencies"]}
 WANTED = {*RUNTIME, *DECLARED["dependency-groups"]["dev"], *DECLARED["project"]["optional-dependencies"]["slurm"]}
-MODULES = {"yaml": "pyyaml"}
+MODULES = {"yaml": "pyyaml", "sklearn": "scikit-learn"}
 """Packages by the module that is imported, where the names differ."""
 
 

@@ -1,1 +1,1 @@
-"""Measures of the published experiments: errors of filled gaps, information criteria, descriptors of recordings, correlations."""
+"""The experiments of the published papers, and the measures that they state."""

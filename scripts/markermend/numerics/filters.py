@@ -1,4 +1,4 @@
-"""Filters of one signal that never look across a gap: differences, moving median and sum, Savitzky-Golay, band-pass.
+"""Filters of one signal that never look across a gap: differences, moving median and sum, Savitzky-Golay, band-pass, low-pass.
 
 A signal is a float vector with NaN where nothing was measured. Each function treats the runs of valid samples one by
 one, keeps the signal's length, and leaves NaN where NaN was. Lengths are in samples.
@@ -220,3 +220,37 @@ def band_pass(signal: np.ndarray, *, band_hz: tuple[float, float], rate: float, 
         return inside
 
     return per_run(run_band_pass, signal)
+
+
+def low_pass(signal: np.ndarray, *, cutoff_hz: float, rate: float, order: int = 2) -> np.ndarray:
+    """Remove what is faster than a frequency, without a shift in time.
+
+    Parameters
+    ----------
+    signal : np.ndarray
+        Signal (frames,), NaN = missing.
+    cutoff_hz : float
+        Frequency at which half of the amplitude is left.
+    rate : float
+        Sampling rate, Hz.
+    order : int
+        Order of the filter, which runs forwards and backwards.
+
+    Returns
+    -------
+    np.ndarray
+        Filtered signal (frames,); NaN where the signal is. Runs too short for the filter are left as they are.
+
+    References
+    ----------
+    Winter (2009), Biomechanics and Motor Control of Human Movement, section 3.4.4: the Butterworth filter.
+    """
+    from scipy.signal import butter, filtfilt  # slow to import
+
+    coefficients = butter(order, cutoff_hz, fs=rate)
+    shortest = 3 * (order + 1)
+
+    def run_low_pass(run: np.ndarray) -> np.ndarray:
+        return run if len(run) <= shortest else np.asarray(filtfilt(*coefficients, run))
+
+    return per_run(run_low_pass, signal)

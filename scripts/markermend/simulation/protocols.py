@@ -1,4 +1,4 @@
-"""Protocols of contamination: that of the artifact detection paper, and artifacts as they occur in practice."""
+"""Protocols of contamination: that of the artifact detection paper, displacements in space, and artifacts as they occur in practice."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ import numpy as np
 
 from markermend.simulation.artifact_models import Draw, Recipe, integers, normal, poisson
 from markermend.simulation.contamination import Contamination
-
-SPREAD = 0.4
-"""Standard deviation of an amplitude, as a fraction of its mean (skurowski2022: 5 mm with 2, 10 mm with 4)."""
+from markermend.simulation.published_contamination import AMPLITUDE_DEVIATION, contaminate_coordinates
 
 PRACTICE = (
     ("steps", (0.06, 1.0), 4),
@@ -26,7 +24,7 @@ NEAR_MM = 250.0
 
 
 def recipes(amplitude: float) -> dict[str, Recipe]:
-    """Give the recipes of the paper's protocol.
+    """Give the recipes of the protocol `spatial`.
 
     Parameters
     ----------
@@ -38,7 +36,7 @@ def recipes(amplitude: float) -> dict[str, Recipe]:
     dict of str to Recipe
         By class: normal amplitudes, 50 frames on average, peaks of 1 to 5, on all axes.
     """
-    size = normal(amplitude, SPREAD * amplitude)
+    size = normal(amplitude, AMPLITUDE_DEVIATION * amplitude)
     bulk = {kind: Recipe(size, poisson(50), 3) for kind in ("noise", "steps", "slow")}
     return {**bulk, "peaks": Recipe(size, integers(1, 5), 3)}
 
@@ -86,7 +84,7 @@ def in_practice(
     """
     result = Contamination(positions, markers, margin=round(0.15 * rate), one_at_a_time=False, rng=rng)
     often = share / 0.1 * len(positions) / rate / 60 * len(markers) / 40
-    size = normal(amplitude, SPREAD * amplitude)
+    size = normal(amplitude, AMPLITUDE_DEVIATION * amplitude)
 
     def number(count: float) -> int:
         return int(count * often + rng.random())
@@ -155,10 +153,6 @@ def one_at_a_time(
     ------
     ValueError
         If the recording is too short for so much.
-
-    References
-    ----------
-    skurowski2022, section 4.1.3.
     """
     contamination = Contamination(positions, markers, margin=margin, one_at_a_time=True, rng=rng)
     frames = len(positions)
@@ -197,7 +191,7 @@ def _lengths(draw: Draw, total: float, rng: np.random.Generator) -> list[int]:
         lengths.append(length)
 
 
-def as_published(
+def in_space(
     positions: np.ndarray,
     markers: Sequence[str],
     *,
@@ -206,7 +200,7 @@ def as_published(
     share: float,
     rng: np.random.Generator,
 ) -> Contamination:
-    """Follow the paper's protocol with its recipes, artifacts 10 frames apart; lengths are in frames whatever the rate.
+    """Displace one marker at a time in a random direction, artifacts 10 frames apart; lengths are in frames whatever the rate.
 
     Parameters
     ----------
@@ -219,7 +213,7 @@ def as_published(
     amplitude : float
         Mean amplitude in mm.
     share : float
-        Share of the frames that is distorted.
+        Share of the frames that is distorted, over all classes.
     rng : Generator
         Source of randomness.
 
@@ -231,5 +225,43 @@ def as_published(
     return one_at_a_time(positions, markers, recipes=recipes(amplitude), share=share, margin=10, rng=rng)
 
 
-PROTOCOLS: dict[str, Callable[..., Contamination]] = {"paper": as_published, "practice": in_practice}
+def as_published(
+    positions: np.ndarray,
+    markers: Sequence[str],
+    *,
+    rate: float,
+    amplitude: float,
+    share: float,
+    rng: np.random.Generator,
+) -> Contamination:
+    """Follow the paper's protocol with all classes; see published_contamination. Lengths are in frames whatever the rate.
+
+    Parameters
+    ----------
+    positions : ndarray of float, shape (frames, markers, 3)
+        The clean trajectories in mm; NaN = missing.
+    markers : sequence of str
+        Names of the markers.
+    rate : float
+        Frame rate in Hz; not used.
+    amplitude : float
+        Mean amplitude in mm.
+    share : float
+        Share of the frames that each class distorts.
+    rng : Generator
+        Source of randomness.
+
+    Returns
+    -------
+    Contamination
+        The contaminated trajectories and the truth.
+    """
+    return contaminate_coordinates(positions, markers, amplitude=amplitude, share=share, rng=rng)
+
+
+PROTOCOLS: dict[str, Callable[..., Contamination]] = {
+    "spatial": in_space,
+    "paper": as_published,
+    "practice": in_practice,
+}
 """The protocols by name, called with positions, markers, rate, amplitude, share and rng."""

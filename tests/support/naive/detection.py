@@ -23,3 +23,75 @@ def derivative_pairs(change, at, shortest, longest, ratio):
             used |= set(range(i, j + 1))
             pairs.append((first, first + length))
     return sorted(pairs), [n for k, n in enumerate(at) if k not in used]
+
+
+def thresholds(changes, over, scale, sigmas, floor):
+    """The threshold of each coordinate, from the valid changes of all coordinates that share it, one by one."""
+    out = np.zeros(changes.shape[1:])
+    for m in range(changes.shape[1]):
+        for axis in range(changes.shape[2]):
+            pooled = [
+                changes[n, other, of]
+                for n in range(len(changes))
+                for other in range(changes.shape[1])
+                for of in range(changes.shape[2])
+                if not np.isnan(changes[n, other, of])
+                and (over == "recording" or (other == m and (over == "marker" or of == axis)))
+            ]
+            if scale == "mad":
+                sigma = 1.4826 * np.median([abs(value - np.median(pooled)) for value in pooled])
+            else:
+                sigma = np.sqrt(sum((value - np.mean(pooled)) ** 2 for value in pooled) / len(pooled))
+            out[m, axis] = max(sigmas * sigma, floor)
+    return out
+
+
+def peaks(change, level, longest, window, ratio, localisation):
+    """Samples of isolated peaks: sums, closing and opening over one window at a time, then the two ends of each peak."""
+    n, half = len(change), window // 2
+    sudden = [value if abs(value) > level else 0.0 for value in change]
+    candidate = []
+    for k in range(n):
+        around = sudden[max(0, k - half) : k + half + 1]
+        total, size = sum(around), sum(abs(value) for value in around)
+        candidate.append(size > 0 and size > ratio * abs(total))
+
+    def widened(values, best):
+        return [best(values[max(0, k - half) : k + half + 1]) for k in range(n)]
+
+    closed = widened(widened(candidate, max), min)
+    opened = widened(widened(closed, min), max)
+    isolated = [one and not other for one, other in zip(closed, opened, strict=True)]
+    mask = [False] * n
+    k = 0
+    while k < n:
+        stop = k
+        while stop < n and isolated[stop]:
+            stop += 1
+        if stop > k:
+            reach = half if localisation == "window" else 0
+            at = [j for j in range(max(0, k - reach), min(n, stop + reach)) if sudden[j]]
+            for j in range(*_ends(sudden, at, longest, ratio, localisation)):
+                mask[j] = True
+        k = max(stop, k + 1)
+    return mask
+
+
+def _ends(sudden, at, longest, ratio, localisation):
+    """First and last of the changes if they are opposite and near; or the largest and the largest near it that cancels it."""
+    if not at:
+        return 0, 0
+    if localisation == "window":
+        opposite = sudden[at[0]] * sudden[at[-1]] < 0
+        return (at[0], at[-1]) if opposite and at[-1] - at[0] <= longest else (0, 0)
+    largest = max(at, key=lambda j: abs(sudden[j]))
+    size = abs(sudden[largest])
+    others = [
+        j
+        for j in at
+        if abs(j - largest) <= longest and abs(sudden[j]) + size > ratio * abs(sudden[j] + sudden[largest])
+    ]
+    if not others:
+        return 0, 0
+    other = max(others, key=lambda j: abs(sudden[j]))
+    return min(largest, other), max(largest, other)

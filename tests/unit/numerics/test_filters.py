@@ -70,3 +70,15 @@ def test_the_band_pass_lets_its_band_through_without_a_shift():
     inside, outside = np.sin(2 * np.pi * 8 * t), 100 * np.sin(2 * np.pi * 0.5 * t)
     band = filters.band_pass(inside + outside, band_hz=(6.0, 10.0), rate=100.0, half_length=40)
     assert np.nanmax(np.abs(band - inside)) < 0.3
+
+
+def test_low_pass_keeps_what_is_slow_and_removes_what_is_fast():
+    t = np.arange(1000) / 100
+    slow, fast = np.sin(2 * np.pi * 0.5 * t), np.sin(2 * np.pi * 25 * t)
+    signal = slow + fast
+    signal[300:310] = np.nan
+    left = filters.low_pass(signal, cutoff_hz=6, rate=100)
+    assert np.array_equal(np.isnan(left), np.isnan(signal))
+    assert np.abs(left - slow)[50:250].max() < 0.02
+    short = np.array([1.0, 5.0, np.nan, 2.0])
+    assert np.array_equal(filters.low_pass(short, cutoff_hz=6, rate=100), short, equal_nan=True)

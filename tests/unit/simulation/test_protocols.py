@@ -1,4 +1,4 @@
-"""The paper's protocol distorts the share that it is asked for; practice brings every form of artifact."""
+"""Artifacts one at a time distort the share that is asked for; practice brings every form of artifact."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from support.contaminations import FRAMES, MARKERS, masks, paper, still
 
 
 @pytest.mark.parametrize("share", [0.05, 0.1, 0.2])
-def test_the_papers_protocol(share):
+def test_one_at_a_time_distorts_the_share(share):
     result = one_at_a_time(still(), MARKERS, recipes=paper(), share=share, margin=2, rng=np.random.default_rng(7))
     found = masks(result, FRAMES)
     distorted = sum(mask.sum(axis=1) for mask in found.values())
@@ -37,7 +37,7 @@ def test_no_class_is_left_out_of_short_recordings(frames):
         assert counts[kind] / 300 == pytest.approx(0.1 / 4 * frames, rel=0.3)
 
 
-def test_the_papers_amplitudes():
+def test_amplitudes_are_normal():
     rng = np.random.default_rng(1)
     recipes = {"steps": paper(10.0)["steps"]}
     sizes = np.array(

@@ -8,6 +8,7 @@ from markermend.numerics import filters, intervals
 from markermend.numerics.filters import per_run
 from markermend.numerics.morphology import dilation
 from markermend.numerics.robust import mad_std
+from markermend.options.detection.published import ThresholdOptions
 
 
 def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float) -> float:
@@ -39,6 +40,40 @@ def threshold(change: np.ndarray, *, scale: str, sigmas: float, floor_mm: float)
         raise ValueError(f"scale {scale!r} is neither mad nor std")
     sigma = mad_std(finite) if scale == "mad" or not finite.size else float(np.std(finite))
     return max(sigmas * sigma, floor_mm)
+
+
+def thresholds(changes: np.ndarray, options: ThresholdOptions) -> np.ndarray:
+    """Compute the threshold of a sudden change for each coordinate.
+
+    Parameters
+    ----------
+    changes : np.ndarray
+        Increments (frames, markers, coordinates), mm; NaN are ignored.
+    options : ThresholdOptions
+        Threshold in standard deviations, their estimator, and over what they are taken.
+
+    Returns
+    -------
+    np.ndarray
+        Thresholds (markers, coordinates), mm.
+
+    Raises
+    ------
+    ValueError
+        For another set of coordinates.
+    """
+
+    def compute(own: np.ndarray) -> float:
+        return threshold(own, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm)
+
+    over = options.sigma_over
+    if over == "recording":
+        return np.full(changes.shape[1:], compute(changes))
+    if over == "marker":
+        return np.array([np.full(changes.shape[2], compute(own)) for own in changes.swapaxes(0, 1)])
+    if over == "coordinate":
+        return np.array([[compute(own) for own in marker.T] for marker in changes.swapaxes(0, 1)])
+    raise ValueError(f"sigma over {over!r} is none of coordinate, marker and recording")
 
 
 def edges(change: np.ndarray, level: float | np.ndarray, reach: int) -> np.ndarray:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published import coordinatewise
+from markermend.detection.published.coordinatewise import SignalDetector
 from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
@@ -36,26 +37,57 @@ def detect_noise(
     list[Event]
         Disjoint events, sorted.
     """
-
-    def detect(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        return find_noise(signal, rate=scene.rate, options=options)
-
     return coordinatewise.detect_coordinatewise(
-        scene, detect, markers=markers, earlier=earlier, slope_window_s=options.slope_window_s
+        scene, signal_detector(scene.rate, options), markers=markers, earlier=earlier, options=options
     )
 
 
-def find_noise(signal: np.ndarray, *, rate: float, options: PublishedNoiseOptions) -> tuple[np.ndarray, np.ndarray]:
+def signal_detector(rate: float, options: PublishedNoiseOptions) -> SignalDetector:
+    """Make the detector of the stretches of heavy noise of one coordinate.
+
+    Parameters
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedNoiseOptions
+        Windows, thresholds and shortest stretch of the published detector.
+
+    Returns
+    -------
+    SignalDetector
+        The detector.
+
+    References
+    ----------
+    skurowski2022 eq 26-30.
+    """
+
+    def change(signal: np.ndarray) -> np.ndarray:
+        return high_passed_increments(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
+
+    def find(signal: np.ndarray, change: np.ndarray, level: float, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        return find_noise(signal, change, level, rate=rate, options=options)
+
+    return SignalDetector(change, find)
+
+
+def find_noise(
+    signal: np.ndarray, change: np.ndarray, level: float, *, rate: float, options: PublishedNoiseOptions
+) -> tuple[np.ndarray, np.ndarray]:
     """Find the stretches of heavy noise of one coordinate.
 
     Parameters
     ----------
     signal : np.ndarray
         Signal (frames,), mm, NaN = missing; nothing is found across a gap.
+    change : np.ndarray
+        Its high-passed increments (frames,), mm.
+    level : float
+        Smallest sudden change, mm.
     rate : float
         Sampling rate, Hz.
     options : PublishedNoiseOptions
-        Windows, thresholds and shortest stretch of the published detector.
+        Structuring element and shortest stretch of the published detector.
 
     Returns
     -------
@@ -67,14 +99,10 @@ def find_noise(signal: np.ndarray, *, rate: float, options: PublishedNoiseOption
 
     References
     ----------
-    skurowski2022 eq 26-30.
+    skurowski2022 eq 28-30.
     """
     shortest = intervals.samples(options.min_duration_s, rate)
-    element = 2 * shortest - 1
-    change = high_passed_increments(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
-    level = increments.threshold(
-        change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
-    )
+    element = intervals.samples(options.element_s, rate, odd=True)
     closed = morphology.closing(np.abs(change), element)
     raw = np.where(np.isnan(closed), np.nan, closed > level)
     areas = morphology.closing(raw, element) > 0

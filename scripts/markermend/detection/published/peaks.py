@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published import coordinatewise
+from markermend.detection.published.coordinatewise import SignalDetector
 from markermend.numerics import filters, intervals, morphology
 from markermend.numerics.intervals import runs
 from markermend.options.detection.published import PublishedPeaksOptions
@@ -35,13 +37,39 @@ def detect_peaks(
     list[Event]
         Disjoint events, sorted.
     """
-
-    def detect(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        return find_peaks(signal, rate=scene.rate, options=options)
-
     return coordinatewise.detect_coordinatewise(
-        scene, detect, markers=markers, earlier=earlier, slope_window_s=options.slope_window_s
+        scene, signal_detector(scene.rate, options), markers=markers, earlier=earlier, options=options
     )
+
+
+def signal_detector(rate: float, options: PublishedPeaksOptions) -> SignalDetector:
+    """Make the detector of the isolated peaks of one coordinate.
+
+    Parameters
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedPeaksOptions
+        Windows, thresholds and balance ratio of the published detector.
+
+    Returns
+    -------
+    SignalDetector
+        The detector.
+
+    References
+    ----------
+    skurowski2022 eq 18-25.
+    """
+
+    def change(signal: np.ndarray) -> np.ndarray:
+        window = intervals.samples(options.window_s, rate, odd=True)
+        return detrended_increments(signal, trend=options.trend_removal, window=window)
+
+    def find(signal: np.ndarray, change: np.ndarray, level: float, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        return find_peaks(change, level, rate=rate, options=options)
+
+    return SignalDetector(change, find)
 
 
 def detrended_increments(signal: np.ndarray, *, trend: str, window: int) -> np.ndarray:
@@ -80,17 +108,21 @@ def detrended_increments(signal: np.ndarray, *, trend: str, window: int) -> np.n
     raise ValueError(f"trend {trend!r} is neither median_of_difference nor difference_of_median")
 
 
-def find_peaks(signal: np.ndarray, *, rate: float, options: PublishedPeaksOptions) -> tuple[np.ndarray, np.ndarray]:
-    """Find the isolated peaks of one coordinate.
+def find_peaks(
+    change: np.ndarray, level: float, *, rate: float, options: PublishedPeaksOptions
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find the isolated peaks of one coordinate in its increments.
 
     Parameters
     ----------
-    signal : np.ndarray
-        Signal (frames,), mm, NaN = missing; nothing is found across a gap.
+    change : np.ndarray
+        Increments without trend (frames,), mm, NaN = missing; nothing is found across a gap.
+    level : float
+        Smallest sudden change, mm.
     rate : float
         Sampling rate, Hz.
     options : PublishedPeaksOptions
-        Windows, thresholds and balance ratio of the published detector.
+        Windows and balance ratio of the published detector.
 
     Returns
     -------
@@ -101,27 +133,43 @@ def find_peaks(signal: np.ndarray, *, rate: float, options: PublishedPeaksOption
 
     References
     ----------
-    skurowski2022 eq 18-25.
+    skurowski2022 eq 20-25.
     """
     longest = intervals.samples(options.max_duration_s, rate)
     window = intervals.samples(2 * options.max_duration_s + options.margin_s, rate, odd=True)
-    change = detrended_increments(
-        signal, trend=options.trend_removal, window=intervals.samples(options.window_s, rate, odd=True)
-    )
-    level = increments.threshold(
-        change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
-    )
     sudden = np.where(np.abs(change) > level, change, 0.0)
     sudden[np.isnan(change)] = np.nan
-    mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
+    locate = _outermost if options.localisation == "window" else partial(_largest, ratio=options.balance_ratio)
+    mask, score = np.zeros(len(change), bool), np.zeros(len(change))
     for start, stop in runs(_balanced(sudden, window, options.balance_ratio)):
-        low = max(0, start - window // 2)
-        own = low + np.flatnonzero(np.nan_to_num(sudden[low : stop + window // 2]))
-        opposite = own[sudden[own] * sudden[own[0]] < 0] if own.size else own
-        if opposite.size and opposite[-1] == own[-1] and own[-1] - own[0] <= longest:
-            mask[own[0] : own[-1]] = True
-            score[own[0] : own[-1]] = np.abs(sudden[own]).max() / max(level, 1e-9)
+        if options.localisation == "window":
+            start, stop = max(0, start - window // 2), stop + window // 2
+        own = start + np.flatnonzero(np.nan_to_num(sudden[start:stop]))
+        first, last = locate(sudden[own], own, longest)
+        mask[first:last] = True
+        score[first:last] = np.abs(sudden[own]).max(initial=0.0) / max(level, 1e-9)
     return mask, score
+
+
+def _outermost(change: np.ndarray, at: np.ndarray, longest: int) -> tuple[int, int]:
+    """The first and last of sudden changes at sorted frames if they are opposite and not too far apart, else nothing."""
+    if not at.size or change[0] * change[-1] >= 0 or at[-1] - at[0] > longest:
+        return 0, 0
+    return int(at[0]), int(at[-1])
+
+
+def _largest(change: np.ndarray, at: np.ndarray, longest: int, *, ratio: float) -> tuple[int, int]:
+    """The largest of sudden changes at sorted frames and the largest that it cancels with and is not too far from it, else nothing."""
+    if not at.size:
+        return 0, 0
+    largest = int(np.argmax(np.abs(change)))
+    absolute, total = np.abs(change) + np.abs(change[largest]), np.abs(change + change[largest])
+    cancels = (absolute > ratio * total) & (np.abs(at - at[largest]) <= longest)
+    if not cancels.any():
+        return 0, 0
+    other = int(np.argmax(np.where(cancels, np.abs(change), 0.0)))
+    first, last = sorted((int(at[largest]), int(at[other])))
+    return first, last
 
 
 def _balanced(sudden: np.ndarray, window: int, ratio: float) -> np.ndarray:

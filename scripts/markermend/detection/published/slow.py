@@ -9,7 +9,8 @@ from functools import partial
 import numpy as np
 
 from markermend.core.events import Event
-from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published import coordinatewise
+from markermend.detection.published.coordinatewise import SignalDetector
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
 from markermend.options.detection.published import PublishedSlowOptions
@@ -56,13 +57,46 @@ def detect_slow(
     smallest : dict[str, float | None]
         Empty: which slow changes would have been found is not published.
     """
-
-    def detect(residual: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        return find_slow(residual, rate=scene.rate, options=options)
-
     reach = intervals.samples(options.slope_window_s, scene.rate)
     bridged = replace(scene, positions=coordinatewise.bridge_claimed(scene.positions, earlier, reach))
-    return coordinatewise.detect_each(predictor.residuals(bridged), detect, markers=markers, earlier=earlier), {}
+    found = coordinatewise.detect_each(
+        predictor.residuals(bridged),
+        signal_detector(scene.rate, options),
+        markers=markers,
+        earlier=earlier,
+        options=options,
+    )
+    return found, {}
+
+
+def signal_detector(rate: float, options: PublishedSlowOptions) -> SignalDetector:
+    """Make the detector of the slow changes of one coordinate of the residual.
+
+    Parameters
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : PublishedSlowOptions
+        Predictor, and thresholds of the hysteresis.
+
+    Returns
+    -------
+    SignalDetector
+        The detector.
+
+    References
+    ----------
+    skurowski2022 3.5.
+    """
+
+    def centre(residual: np.ndarray) -> np.ndarray:
+        centred: np.ndarray = residual - (np.nanmedian(residual) if np.isfinite(residual).any() else 0.0)
+        return centred
+
+    def find(signal: np.ndarray, deviation: np.ndarray, level: float, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        return find_slow(deviation, level, rate=rate, options=options)
+
+    return SignalDetector(centre, find)
 
 
 def make_detector(options: SlowOptions) -> Callable[..., tuple[list[Event], dict[str, float | None]]]:
@@ -102,7 +136,7 @@ def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) 
         For a name that is not among PREDICTORS.
     """
     if options.predictor == "replicated_network":
-        return ReplicatedNetwork(predictors.replicated_network)
+        return ReplicatedNetwork(replace(predictors.replicated_network, **options.replicated_network_changes))
     if options.predictor == "polynomial":
         return Polynomial(predictors.polynomial)
     if options.predictor == "savitzky_golay":
@@ -140,13 +174,17 @@ def hysteresis(level: np.ndarray, *, lower: float, min_upper: int) -> list[tuple
     return [(start, stop) for start, stop in grown if np.any((tops >= start) & (tops < stop))]
 
 
-def find_slow(residual: np.ndarray, *, rate: float, options: PublishedSlowOptions) -> tuple[np.ndarray, np.ndarray]:
+def find_slow(
+    deviation: np.ndarray, upper: float, *, rate: float, options: PublishedSlowOptions
+) -> tuple[np.ndarray, np.ndarray]:
     """Find the slow changes of one coordinate of the residual, upwards and downwards.
 
     Parameters
     ----------
-    residual : np.ndarray
-        Residual (frames,), mm, NaN = missing; nothing is found across a gap.
+    deviation : np.ndarray
+        Deviation of the residual from its median (frames,), mm, NaN = missing; nothing is found across a gap.
+    upper : float
+        Upper threshold, mm.
     rate : float
         Sampling rate, Hz.
     options : PublishedSlowOptions
@@ -163,11 +201,8 @@ def find_slow(residual: np.ndarray, *, rate: float, options: PublishedSlowOption
     ----------
     skurowski2022 3.5, steps 1-4.
     """
-    finite = residual[np.isfinite(residual)]
-    centre = float(np.median(finite)) if finite.size else 0.0
-    sigma = increments.threshold(residual, scale=options.scale_estimator, sigmas=1.0, floor_mm=1e-9)
-    level = (residual - centre) / (options.threshold_sigmas * sigma)
-    mask, score = np.zeros(len(residual), bool), np.zeros(len(residual))
+    level = deviation / max(upper, 1e-9)
+    mask, score = np.zeros(len(deviation), bool), np.zeros(len(deviation))
     min_upper = intervals.samples(options.min_upper_duration_s, rate)
     shortest = intervals.samples(options.min_duration_s, rate)
     lower = options.lower_sigmas / options.threshold_sigmas

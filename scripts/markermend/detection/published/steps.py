@@ -9,6 +9,7 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event, OpenStep
 from markermend.detection.published import coordinatewise, increments
+from markermend.detection.published.coordinatewise import SignalDetector
 from markermend.detection.published.increments import high_passed_increments
 from markermend.numerics import filters, intervals
 from markermend.options.detection.published import PublishedStepsOptions
@@ -41,16 +42,21 @@ def detect_steps(
     window = intervals.samples(options.window_s, scene.rate, odd=True)
     size_mm: dict[tuple[str, int], float] = {}
 
-    def detect(signal: np.ndarray, marker: str) -> tuple[np.ndarray, np.ndarray]:
-        mask, score, alone = find_steps(signal, rate=scene.rate, options=options)
-        change = filters.difference(signal)
-        change -= filters.moving_median(change, window)
+    def high_pass(signal: np.ndarray) -> np.ndarray:
+        return high_passed_increments(
+            signal, window_s=options.window_s, order=options.polynomial_order, rate=scene.rate
+        )
+
+    def find(signal: np.ndarray, change: np.ndarray, level: float, marker: str) -> tuple[np.ndarray, np.ndarray]:
+        mask, score, alone = find_steps(change, level, rate=scene.rate, options=options)
+        jumps = filters.difference(signal)
+        jumps -= filters.moving_median(jumps, window)
         for frame in alone.tolist():
-            size_mm[marker, frame] = float(np.hypot(size_mm.get((marker, frame), 0.0), change[frame]))
+            size_mm[marker, frame] = float(np.hypot(size_mm.get((marker, frame), 0.0), jumps[frame]))
         return mask, score
 
     found = coordinatewise.detect_coordinatewise(
-        scene, detect, markers=markers, earlier=earlier, slope_window_s=options.slope_window_s
+        scene, SignalDetector(high_pass, find), markers=markers, earlier=earlier, options=options
     )
     within = events.mask(found, len(scene.positions), markers)
     return found, [
@@ -61,18 +67,20 @@ def detect_steps(
 
 
 def find_steps(
-    signal: np.ndarray, *, rate: float, options: PublishedStepsOptions
+    change: np.ndarray, level: float, *, rate: float, options: PublishedStepsOptions
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the steps of one coordinate: intervals between opposite jumps.
 
     Parameters
     ----------
-    signal : np.ndarray
-        Signal (frames,), mm, NaN = missing; nothing is found across a gap.
+    change : np.ndarray
+        High-passed increments (frames,), mm, NaN = missing; nothing is found across a gap.
+    level : float
+        Smallest jump, mm.
     rate : float
         Sampling rate, Hz.
     options : PublishedStepsOptions
-        Windows, thresholds and lengths of the published detector.
+        Windows and lengths of the published detector.
 
     Returns
     -------
@@ -87,10 +95,6 @@ def find_steps(
     ----------
     skurowski2022 3.4.4.
     """
-    change = high_passed_increments(signal, window_s=options.window_s, order=options.polynomial_order, rate=rate)
-    level = increments.threshold(
-        change, scale=options.scale_estimator, sigmas=options.threshold_sigmas, floor_mm=options.floor_mm
-    )
     window = max(intervals.samples(options.window_s, rate, odd=True), 2 * options.polynomial_order + 1)
     at = increments.edges(change, level, window // 2)
     pairs, alone = increments.derivative_pairs(
@@ -100,7 +104,7 @@ def find_steps(
         longest=intervals.samples(options.max_duration_s, rate),
         ratio=options.min_jump_ratio,
     )
-    mask, score = np.zeros(len(signal), bool), np.zeros(len(signal))
+    mask, score = np.zeros(len(change), bool), np.zeros(len(change))
     for start, stop in pairs:
         mask[start:stop] = True
         score[start:stop] = min(abs(change[start]), abs(change[stop])) / max(level, 1e-9)

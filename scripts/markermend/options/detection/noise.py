@@ -192,7 +192,13 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
 
     paper: PublishedNoiseOptions = field(
         default_factory=lambda: PublishedNoiseOptions(
-            scale_estimator="std", threshold_sigmas=2, floor_mm=0, min_sudden_share=0, min_sudden_changes=1
+            scale_estimator="std",
+            sigma_over="recording",
+            threshold_sigmas=2,
+            floor_mm=0,
+            element_s=0.19,
+            min_sudden_share=0,
+            min_sudden_changes=1,
         )
     )
     """Options of the preset `paper`: as published (skurowski2022)."""

@@ -100,7 +100,12 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     paper: PublishedPeaksOptions = field(
         default_factory=lambda: PublishedPeaksOptions(
-            trend_removal="difference_of_median", scale_estimator="std", threshold_sigmas=3, floor_mm=0
+            trend_removal="difference_of_median",
+            scale_estimator="std",
+            sigma_over="recording",
+            threshold_sigmas=3,
+            floor_mm=0,
+            localisation="run",
         )
     )
     """Options of the preset `paper`: as published (skurowski2022)."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal
 
 from markermend.options.declaration import (
+    Changes,
     Count,
     CountOrNone,
     Factor,
@@ -16,12 +18,33 @@ from markermend.options.declaration import (
     Seconds,
     Share,
 )
+from markermend.options.prediction.lagged_regression import ReplicatedNetworkOptions
 
 ScaleEstimator = Literal["mad", "std"]
+SigmaOver = Literal["coordinate", "marker", "recording"]
 
 
 @dataclass(frozen=True)
-class PublishedPeaksOptions:
+class ThresholdOptions:
+    """What counts as a sudden change."""
+
+    scale_estimator: ScaleEstimator = "mad"
+    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
+
+    sigma_over: SigmaOver = "coordinate"
+    """Whether the usual size of changes is that of each coordinate, of each marker, or of the whole recording.
+
+    Change it when still coordinates have too many false findings (`recording`)."""
+
+    threshold_sigmas: Positive = 5
+    """Smallest sudden change, in units of the usual size of changes."""
+
+    floor_mm: Millimetres = 1.5
+    """Smallest sudden change, per frame at 100 Hz."""
+
+
+@dataclass(frozen=True)
+class PublishedPeaksOptions(ThresholdOptions):
     """Isolated peaks in one coordinate."""
 
     trend_removal: Literal["median_of_difference", "difference_of_median"] = "median_of_difference"
@@ -37,14 +60,9 @@ class PublishedPeaksOptions:
     margin_s: Seconds = 0.03
     """Sums and morphology extend over twice the longest peak and this."""
 
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
+    localisation: Literal["window", "run"] = "window"
+    """Where a peak begins and ends: at the first and last sudden change in the window of the sums around it (`window`), which must not
+    be farther apart than the longest peak, or at the largest of those where the sums are balanced and the largest that cancels it (`run`)."""
 
     balance_ratio: Factor = 5
     """The absolute sum of a peak's changes exceeds the size of their sum by this factor."""
@@ -54,7 +72,7 @@ class PublishedPeaksOptions:
 
 
 @dataclass(frozen=True)
-class PublishedNoiseOptions:
+class PublishedNoiseOptions(ThresholdOptions):
     """Heavy noise in one coordinate."""
 
     window_s: PositiveSeconds = 0.13
@@ -63,17 +81,14 @@ class PublishedNoiseOptions:
     polynomial_order: Count = 5
     """Order of that filter."""
 
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
-
     min_duration_s: Seconds = 0.2
     """Shortest stretch of heavy noise."""
+
+    element_s: PositiveSeconds = 0.39
+    """Structuring element of the closings: pauses of this length between sudden changes are noise, too. The paper has 39 frames, twice
+    the shortest stretch, which join the two jumps of a step of up to 50; its results fit 19 frames.
+
+    Change it when steps are taken for noise (shorter)."""
 
     min_sudden_share: Share = 0.2
     """Share of the samples of a stretch that change suddenly, at least (0 to 1)."""
@@ -86,7 +101,7 @@ class PublishedNoiseOptions:
 
 
 @dataclass(frozen=True)
-class PublishedStepsOptions:
+class PublishedStepsOptions(ThresholdOptions):
     """Steps in one coordinate."""
 
     window_s: PositiveSeconds = 0.13
@@ -94,15 +109,6 @@ class PublishedStepsOptions:
 
     polynomial_order: Count = 5
     """Order of that filter."""
-
-    scale_estimator: ScaleEstimator = "mad"
-    """Estimator of the usual size of changes: median absolute deviation (`mad`) or standard deviation (`std`)."""
-
-    threshold_sigmas: Positive = 5
-    """Smallest sudden change, in units of the usual size of changes."""
-
-    floor_mm: Millimetres = 1.5
-    """Smallest sudden change, per frame at 100 Hz."""
 
     min_duration_s: Seconds = 0.06
     """Shortest time between the two jumps of a step."""
@@ -118,7 +124,7 @@ class PublishedStepsOptions:
 
 
 @dataclass(frozen=True)
-class PublishedSlowOptions:
+class PublishedSlowOptions(ThresholdOptions):
     """Slow changes in one coordinate of the residual."""
 
     predictor: Literal["replicated_network", "polynomial", "savitzky_golay", "moving_median", "local_ridge"] = (
@@ -127,6 +133,13 @@ class PublishedSlowOptions:
     """The predictor whose residual is examined.
 
     Change it when the network takes too long, or another predictor predicts better."""
+
+    replicated_network_changes: Annotated[Mapping[str, Any], Changes(ReplicatedNetworkOptions)] = field(
+        default_factory=dict
+    )
+    """Options of the predictor replicated_network that differ in this stage: trained for long, the network follows slow changes.
+
+    Change it when slow changes are missed (fewer `max_iterations`), or motion is taken for slow changes (more)."""
 
     smoothing_window_s: PositiveSeconds = 2
     """Window of the predictors savitzky_golay and moving_median."""
@@ -139,6 +152,9 @@ class PublishedSlowOptions:
 
     threshold_sigmas: Positive = 3
     """Upper threshold, in units of the usual size."""
+
+    floor_mm: Millimetres = 0
+    """Smallest upper threshold."""
 
     lower_sigmas: NotNegative = 0.5
     """Lower threshold, at which a finding begins and ends, in units of the usual size."""

@@ -151,5 +151,7 @@ class SlowOptions(DetectorOptions):
     estimated_drifts: EstimatedDriftOptions = field(default_factory=EstimatedDriftOptions)
     """Options of the drifts that are estimated together with the regression."""
 
-    paper: PublishedSlowOptions = field(default_factory=PublishedSlowOptions)
+    paper: PublishedSlowOptions = field(
+        default_factory=lambda: PublishedSlowOptions(scale_estimator="std", sigma_over="recording")
+    )
     """Options of the preset `paper`: as published (skurowski2022)."""

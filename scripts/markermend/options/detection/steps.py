@@ -175,7 +175,7 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
 
     paper: PublishedStepsOptions = field(
         default_factory=lambda: PublishedStepsOptions(
-            scale_estimator="std", threshold_sigmas=4, floor_mm=0, min_duration_s=0.2
+            scale_estimator="std", sigma_over="recording", threshold_sigmas=3, floor_mm=0, min_duration_s=0.2
         )
     )
     """Options of the preset `paper`: as published (skurowski2022)."""

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from markermend.detection.published import increments
+from markermend.options.detection.published import ThresholdOptions
 from support.naive import detection as naive
 from support.signals import gappy
 
@@ -25,6 +26,18 @@ def test_threshold_is_the_larger_of_scale_and_floor():
     assert increments.threshold(values, scale="std", sigmas=1, floor_mm=1.5) == 1.5
     with pytest.raises(ValueError, match="neither"):
         increments.threshold(values, scale="iqr", sigmas=5, floor_mm=1)
+
+
+@given(st.integers(0, 50), st.sampled_from(["coordinate", "marker", "recording"]), st.sampled_from(["mad", "std"]))
+def test_thresholds_equal_their_naive_twin(seed, over, scale):
+    changes = np.stack([gappy(seed + k) * (1 + k) for k in range(6)], axis=1).reshape(-1, 2, 3)
+    options = ThresholdOptions(scale_estimator=scale, sigma_over=over, threshold_sigmas=3, floor_mm=1)
+    assert increments.thresholds(changes, options) == pytest.approx(naive.thresholds(changes, over, scale, 3, 1))
+
+
+def test_thresholds_over_something_else_are_refused():
+    with pytest.raises(ValueError, match="none of coordinate"):
+        increments.thresholds(np.zeros((9, 2, 3)), ThresholdOptions(sigma_over="subject"))
 
 
 def test_edges_leave_out_side_lobes():

@@ -4,9 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from markermend.detection.published import peaks
-from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, options_of, put
+from support.naive import detection as naive
+from support.signals import NOTHING, RATES, detect, detect_signal, find_in, frames, motion, options_of, put
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -59,13 +62,34 @@ def test_nothing_on_a_reach_a_frozen_marker_and_next_to_gaps(rate):
 def test_the_published_order_of_median_and_difference_is_there():
     signal = motion(100.0)
     signal[700] += 20
-    mask, _ = peaks.find_peaks(signal, rate=100.0, options=options_of("peaks", "paper"))
+    mask, _ = find_in(signal, "peaks", rate=100.0, options=options_of("peaks", "paper"))
     assert np.flatnonzero(mask).tolist() == [700]
     with pytest.raises(ValueError, match="trend"):
-        peaks.find_peaks(signal, rate=100.0, options=replace(options_of("peaks", "paper"), trend_removal="none"))
+        find_in(signal, "peaks", rate=100.0, options=replace(options_of("peaks", "paper"), trend_removal="none"))
 
 
 def test_coordinates_are_merged_with_the_axes_that_fired(walker):
     recording = put(walker.recording, [("C7", 300, 303)], lambda length: np.ones((length, 1)) * [30, 0, -30])
     found, _ = detect(recording, preset="coordinates", only=("peaks",))
     assert [(e.start, e.stop, e.axes) for e in found["peaks"] if e.marker == "C7"] == [(300, 303, "xz")]
+
+
+@given(st.integers(0, 200), st.sampled_from(["window", "run"]), st.sampled_from([1.5, 2.5]))
+def test_located_peaks_equal_their_naive_twin(seed, localisation, level):
+    rng = np.random.default_rng(seed)
+    change = rng.normal(0, 1, 120).round(2)
+    mask, score = peaks.find_peaks(
+        change, level, rate=100.0, options=replace(options_of("peaks", "paper"), localisation=localisation)
+    )
+    assert mask.tolist() == naive.peaks(change, level, 5, 13, 5, localisation)
+    assert (score[mask] > 1).all() and not score[~mask].any()
+
+
+def test_a_change_that_the_median_leaks_nine_samples_away_does_not_hide_a_large_peak():
+    change = np.zeros(200)
+    change[[100, 101]] = 30, -30
+    change[92] = 4
+    options = options_of("peaks", "paper")
+    assert np.flatnonzero(peaks.find_peaks(change, 3.0, rate=100.0, options=options)[0]).tolist() == [100]
+    window = replace(options, localisation="window")
+    assert not peaks.find_peaks(change, 3.0, rate=100.0, options=window)[0].any()

@@ -11,9 +11,11 @@ from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.scene import Scene
 from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
-from support.signals import RATES, frames, neighbours, options_of, put
+from support.signals import RATES, find_in, frames, neighbours, options_of, put
 
 PAPER = options_of("slow", "paper")
+ROBUST = replace(PAPER, scale_estimator="mad", sigma_over="coordinate")
+"""The scale of the residual is not widened by what is to be found."""
 
 
 def triangle(length, height=10.0):
@@ -30,7 +32,7 @@ def residual(rate, seed=0):
 def test_pulses_of_either_sign_are_regrown_to_their_ends(rate, sign, length):
     signal, start, stop = residual(rate), frames(700, rate), frames(700 + length, rate)
     signal[start:stop] += sign * triangle(stop - start)
-    mask, score = slow.find_slow(signal, rate=rate, options=PAPER)
+    mask, score = find_in(signal, "slow", rate=rate, options=ROBUST)
     inside = np.flatnonzero(mask)
     assert np.array_equal(inside, np.arange(inside[0], inside[-1] + 1))
     assert abs(inside[0] - start) <= frames(6, rate)
@@ -43,14 +45,14 @@ def test_a_short_pulse_a_jump_of_one_sample_and_noise_are_rejected(rate):
     signal, start = residual(rate), frames(700, rate)
     signal[start : start + frames(40, rate)] += triangle(frames(40, rate))
     signal[start + 3 * int(rate)] += 50
-    assert not slow.find_slow(signal, rate=rate, options=PAPER)[0].any()
+    assert not find_in(signal, "slow", rate=rate, options=PAPER)[0].any()
 
 
 def test_a_gap_ends_a_pulse():
     signal = residual(100.0)
     signal[700:800] += 10
     signal[745:755] = np.nan
-    mask, _ = slow.find_slow(signal, rate=100.0, options=PAPER)
+    mask, _ = find_in(signal, "slow", rate=100.0, options=PAPER)
     assert not mask.any()
 
 
@@ -58,7 +60,7 @@ def test_thresholds_are_three_and_half_a_robust_deviation():
     signal = residual(100.0)
     sigma = 1.4826 * np.median(np.abs(signal - np.median(signal)))
     ramp = np.interp(np.arange(len(signal)), [600, 800, 1000], [0, 10, 0], left=0, right=0)
-    mask, score = slow.find_slow(signal + ramp, rate=100.0, options=PAPER)
+    mask, score = find_in(signal + ramp, "slow", rate=100.0, options=ROBUST)
     start, stop = np.flatnonzero(mask)[[0, -1]]
     assert abs(start - 600) <= 0.5 * sigma / 0.05 + 10 and abs(stop - 1000) <= 0.5 * sigma / 0.05 + 10
     assert score.max() == pytest.approx(10 / (3 * sigma), rel=0.35)  # the ramp widens the deviation
@@ -69,12 +71,12 @@ def test_a_peak_lasts_a_fifth_of_a_second_and_a_pulse_half_a_second(length, foun
     signal = residual(100.0)
     signal[600:700] = 0.3  # above the lower threshold: 1 s
     signal[640 : 640 + length] = 5
-    assert slow.find_slow(signal, rate=100.0, options=PAPER)[0].any() == found
+    assert find_in(signal, "slow", rate=100.0, options=PAPER)[0].any() == found
     signal = residual(100.0)
     signal[599:661], signal[600:660] = 0, 0.3
     signal[600 : 600 + 2 * length + 10] = 5
     signal[600 + 2 * length + 10 : 661] = 0
-    assert slow.find_slow(signal, rate=100.0, options=PAPER)[0].any() == found
+    assert find_in(signal, "slow", rate=100.0, options=PAPER)[0].any() == found
 
 
 @pytest.mark.parametrize("name", ["savitzky_golay", "moving_median"])
@@ -171,3 +173,10 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
 def test_an_unknown_predictor_is_refused():
     with pytest.raises(ValueError, match="none of replicated_network, polynomial"):
         slow.make_predictor(replace(PAPER, predictor="oracle"), PredictorOptions())
+
+
+def test_the_training_of_the_network_differs_in_this_stage_only():
+    shared = PredictorOptions()
+    short = slow.make_predictor(replace(PAPER, replicated_network_changes={"max_iterations": 7}), shared)
+    assert short.options == replace(shared.replicated_network, max_iterations=7)
+    assert slow.make_predictor(PAPER, shared).options == shared.replicated_network

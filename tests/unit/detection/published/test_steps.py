@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.detection.published import steps
-from support.signals import NOTHING, RATES, detect, detect_signal, frames, motion, options_of, put
+from support.signals import NOTHING, RATES, detect, detect_signal, find_in, frames, motion, options_of, put
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -38,7 +37,7 @@ def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
     gap[700:730] += 30
     gap[715:717] = np.nan
     for signal in (unequal, gap):
-        mask, _, alone = steps.find_steps(signal, rate=100.0, options=options_of("steps", "coordinates"))
+        mask, _, alone = find_in(signal, "steps", rate=100.0, options=options_of("steps", "coordinates"))
         assert not mask.any()
         assert alone.tolist() == [700, 730]
 
@@ -46,7 +45,7 @@ def test_unequal_edges_and_edges_across_a_gap_do_not_pair():
 def test_the_published_shortest_step_is_longer():
     signal = motion(100.0)
     signal[700:715] += 10
-    assert not steps.find_steps(signal, rate=100.0, options=options_of("steps", "paper"))[0][700:715].any()
+    assert not find_in(signal, "steps", rate=100.0, options=options_of("steps", "paper"))[0][700:715].any()
 
 
 def test_open_steps_of_coordinates_are_merged_to_those_of_markers(walker):

@@ -1,0 +1,202 @@
+"""The first experiment of the artifact detection paper: contaminate, detect, and count samples by class (skurowski2022, 4.1.2, E1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from markermend import api
+from markermend.core.recording import Recording
+from markermend.evaluation.classification import CLASSES, average, count_samples, measures, sample_classes
+from markermend.numerics import filters
+from markermend.simulation.published_contamination import contaminate_coordinates
+
+RUN_COLUMNS = ("recording", "preset", "amplitude_mm", "share_percent", "run", "true", "found", "samples")
+"""Columns of the table of runs."""
+
+CONDITION = list(RUN_COLUMNS[:4])
+"""The columns over whose equal rows runs are averaged."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What is put into a recording, and what is to find it.
+
+    Attributes
+    ----------
+    preset : str
+        `paper`: the published detectors alone; `default` or `coordinates`: all detectors, with this preset where they have it.
+    amplitude_mm : float
+        Mean amplitude, mm.
+    share_percent : float
+        Share of the time that each class distorts, %.
+    """
+
+    preset: str
+    amplitude_mm: float
+    share_percent: float
+
+    def options(self) -> api.Options:
+        """Make the options of all stages.
+
+        Returns
+        -------
+        Options
+            The default options with the preset.
+        """
+        kinds = CLASSES[1:]
+        chosen = {kind: {"preset": self.preset} for kind in kinds if (kind, self.preset) != ("slow", "coordinates")}
+        return api.Options.read({**chosen, **({"detect": list(kinds)} if self.preset == "paper" else {})})
+
+
+def denoise(recording: Recording, *, cutoff_hz: float) -> Recording:
+    """Remove the noise of a recording, as the recordings of the paper were.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording, which is not modified.
+    cutoff_hz : float
+        Frequency above which is noise.
+
+    Returns
+    -------
+    Recording
+        The recording with each coordinate low-passed.
+    """
+    positions = recording.positions.copy()
+    for place in np.ndindex(positions.shape[1:]):
+        positions[:, *place] = filters.low_pass(positions[:, *place], cutoff_hz=cutoff_hz, rate=recording.rate)
+    return replace(recording, positions=positions)
+
+
+def count_run(
+    clean: Recording, condition: Condition, *, run: int, seed: int, options: api.Options | None = None
+) -> np.ndarray:
+    """Contaminate a recording once, detect, and count.
+
+    Parameters
+    ----------
+    clean : Recording
+        The recording, cleaned and denoised.
+    condition : Condition
+        What is put in, and what is to find it.
+    run : int
+        Number of the run.
+    seed : int
+        Equal seeds give equal contaminations, whatever finds them.
+    options : Options, optional
+        Options in place of those of the condition, for ablations.
+
+    Returns
+    -------
+    ndarray of float, shape (classes, classes)
+        Numbers of samples, one coordinate of one marker at one frame each, by true and by found class.
+    """
+    made = contaminate_coordinates(
+        clean.positions,
+        clean.markers,
+        amplitude=condition.amplitude_mm,
+        share=condition.share_percent / 100,
+        rng=np.random.default_rng([seed, run]),
+    )
+    contaminated = replace(clean, positions=made.positions)
+    mesh = api.infer_mesh([contaminated])
+    found = api.detect(contaminated, mesh, options or condition.options())
+    truth, called = (sample_classes(own, clean.frames, clean.markers) for own in (made.events, found))
+    return count_samples(truth, called, ~np.isnan(clean.positions))
+
+
+def run_rows(recording: str, condition: Condition, confusions: Iterable[tuple[int, np.ndarray]]) -> pd.DataFrame:
+    """Arrange the counts of runs as a table.
+
+    Parameters
+    ----------
+    recording : str
+        Name of the recording.
+    condition : Condition
+        The condition of all runs.
+    confusions : iterable of (int, ndarray)
+        Number and confusion matrix of each run.
+
+    Returns
+    -------
+    DataFrame
+        The columns RUN_COLUMNS, one row for each pair of classes of each run.
+    """
+    own = (recording, condition.preset, condition.amplitude_mm, condition.share_percent)
+    return pd.DataFrame(
+        [
+            (*own, run, CLASSES[true], CLASSES[found], samples)
+            for run, confusion in confusions
+            for (true, found), samples in np.ndenumerate(confusion)
+        ],
+        columns=list(RUN_COLUMNS),
+    )
+
+
+def average_runs(runs: pd.DataFrame) -> pd.DataFrame:
+    """Average the confusion matrices of each condition.
+
+    Parameters
+    ----------
+    runs : DataFrame
+        The columns RUN_COLUMNS.
+
+    Returns
+    -------
+    DataFrame
+        One row for each true class of each condition: the number of runs, and the mean number of samples in each found class.
+    """
+    parts = []
+    for names, own in runs.groupby(CONDITION, sort=False):
+        confusion = pd.DataFrame(average(_confusions(own)), columns=list(CLASSES))
+        confusion.insert(0, "true", list(CLASSES))
+        confusion.insert(0, "runs", own["run"].nunique())
+        parts.append(_with_condition(confusion, names))
+    return pd.concat(parts, ignore_index=True)
+
+
+def measure_runs(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
+    """Compute the measures of each condition from its averaged confusion matrix, with the published ones beside.
+
+    Parameters
+    ----------
+    runs : DataFrame
+        The columns RUN_COLUMNS.
+    published : DataFrame
+        Rows of text: amplitude_mm ("" for all), class, quantity and published; see config/evaluate/published/skurowski2022.tsv.
+
+    Returns
+    -------
+    DataFrame
+        One row for each class of each condition, and one for all classes: the measures of `classification.measures`, and `TPR_published`,
+        `FDR_published` and `F_published` as text.
+    """
+    parts = []
+    for names, own in runs.groupby(CONDITION, sort=False):
+        table = measures(average(_confusions(own))).reset_index()
+        stated = published[published["amplitude_mm"].isin(["", f"{names[2]:g}"])]
+        for quantity in ("TPR", "FDR", "F"):
+            texts = stated[stated["quantity"] == quantity].set_index("class")["published"]
+            table[f"{quantity}_published"] = [texts.get(name, "") for name in table["class"]]
+        parts.append(_with_condition(table, names))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _confusions(runs: pd.DataFrame) -> list[np.ndarray]:
+    """The confusion matrix of each run of one condition."""
+    return [
+        own.pivot(index="true", columns="found", values="samples").loc[list(CLASSES), list(CLASSES)].to_numpy(float)
+        for _, own in runs.groupby("run")
+    ]
+
+
+def _with_condition(table: pd.DataFrame, names: Sequence[object]) -> pd.DataFrame:
+    """A table with the condition in front."""
+    for place, (column, value) in enumerate(zip(CONDITION, names, strict=True)):
+        table.insert(place, column, value)
+    return table
