@@ -19,6 +19,12 @@ RUNTIME = {re.split("[<>=]", name)[0] for name in DECLARED["project"]["dependenc
 WANTED = {*RUNTIME, *DECLARED["dependency-groups"]["dev"], *DECLARED["project"]["optional-dependencies"]["slurm"]}
 MODULES = {"yaml": "pyyaml", "sklearn": "scikit-learn"}
 """Packages by the module that is imported, where the names differ."""
+ENVIRONMENTS = {
+    "fill": ("base", "torch"),
+    "artifacts2022_runs": ("evaluate",),
+    "artifacts2022_tables": ("evaluate",),
+}
+"""The environments of scripts that run in others than the base."""
 
 
 def test_every_locked_package_has_hashes_and_no_home():
@@ -29,7 +35,7 @@ def test_every_locked_package_has_hashes_and_no_home():
     assert set(LOCKED) >= WANTED
 
 
-@pytest.mark.parametrize("name", ["base", "torch"])
+@pytest.mark.parametrize("name", ["base", "torch", "evaluate"])
 def test_conda_environments_have_the_locked_versions(name):
     packages = yaml.safe_load((PROJECT / f"envs/{name}.yaml").read_text())["dependencies"]
     pinned = dict(re.split("=+", package) for package in packages[:-1] + packages[-1]["pip"])
@@ -39,8 +45,9 @@ def test_conda_environments_have_the_locked_versions(name):
 
 @pytest.mark.parametrize("script", sorted((PROJECT / "scripts").glob("*.py")), ids=lambda path: path.stem)
 def test_conda_environments_have_what_the_stages_import(script):
-    needed = set().union(*map(imports, code_files(script))) - sys.stdlib_module_names - {"markermend", "torch"}
-    for name in ("base", "torch") if script.stem == "fill" else ("base",):
+    imported = set().union(*map(imports, code_files(script))) - sys.stdlib_module_names - {"markermend", "torch"}
+    needed = {MODULES.get(name, name) for name in imported}
+    for name in ENVIRONMENTS.get(script.stem, ("base",)):
         dependencies = yaml.safe_load((PROJECT / f"envs/{name}.yaml").read_text())["dependencies"]
         assert needed <= {package.split("=")[0] for package in dependencies[:-1] + dependencies[-1]["pip"]}
 
