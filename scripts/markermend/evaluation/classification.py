@@ -86,23 +86,6 @@ def average(confusions: Iterable[np.ndarray]) -> np.ndarray:
     return np.asarray(np.mean(list(confusions), axis=0), float)
 
 
-def confusion_table(confusion: np.ndarray) -> pd.DataFrame:
-    """Name the rows and columns of a confusion matrix.
-
-    Parameters
-    ----------
-    confusion : ndarray of float, shape (classes, classes)
-        Numbers of samples.
-
-    Returns
-    -------
-    DataFrame
-        The same numbers; the index is the true class, the columns are the found ones.
-    """
-    names = list(CLASSES)
-    return pd.DataFrame(confusion, index=pd.Index(names, name="true"), columns=pd.Index(names, name="found"))
-
-
 def measures(confusion: np.ndarray) -> pd.DataFrame:
     """Compute the measures of each class, and over all classes.
 

@@ -9,21 +9,6 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.numerics.intervals import samples
 
-DURATIONS_S = (0.5, 1.0, 2.0, 5.0)
-"""Durations of the gaps of Figure 4, s."""
-
-FRAGMENTS_S = (5.0, 10.0, 20.0, 40.0)
-"""Durations of the fragments of Figure 5, s, of which the paper names the first, the second and the last."""
-
-COUNTS = (1, 3, 6, 10, 20)
-"""Numbers of gaps of Figure 6."""
-
-RUNS = 20
-"""Runs of a condition in Figures 4 to 7."""
-
-PAIRED_RUNS = 200
-"""Runs of a condition in Tables 2 and 3, each with and without the constraints."""
-
 
 def draw_concurrent_gaps(
     missing: np.ndarray, markers: Sequence[str], *, count: int, length: int, rng: np.random.Generator

@@ -80,8 +80,6 @@ def test_samples_are_counted_by_coordinate():
     expected = np.zeros((5, 5))
     expected[3, 3], expected[3, 2], expected[0, 2], expected[0, 0] = 5, 5, 5 + 10, 180 - 25
     assert np.array_equal(confusion, expected)
-    table = classification.confusion_table(confusion)
-    assert table.loc["steps", "noise"] == 5 and list(table.index) == list(CLASSES)
 
 
 def test_samples_that_do_not_count_are_left_out():
