@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from markermend.numerics.distances import distances
 from markermend.prediction.scene import Scene
 
 GOLDEN_RATIO = np.uint64(0x9E3779B97F4A7C15)
@@ -96,7 +97,7 @@ def _rank_by_deviation(scene: Scene, marker: int, max_frames: int, min_frames: i
     if len(near) == 0:
         return near, np.zeros(0)
     rows = evenly_spaced(np.flatnonzero(observed), max_frames)
-    distance = np.linalg.norm(scene.positions[np.ix_(rows, near)] - scene.positions[rows, marker][:, None], axis=2)
+    distance = distances(scene.positions[rows, marker], scene.positions[np.ix_(rows, near)])
     known = ~np.isnan(distance)
     count = np.maximum(known.sum(axis=0), 1)
     mean = np.where(known, distance, 0).sum(axis=0) / count

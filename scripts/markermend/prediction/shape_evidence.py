@@ -12,6 +12,7 @@ import numpy as np
 from scipy.special import gammaln
 
 from markermend.core.shape import Shape
+from markermend.numerics.distances import distances
 from markermend.options.shape import ShapeOptions
 
 
@@ -86,9 +87,7 @@ class ShapeEvidence:
             Distance less the usual one (frames, anchors), mm; NaN where a point or an anchor is missing.
         """
         own = self.positions[:, marker] if points is None else points
-        difference = self.positions[:, anchors] - own[:, None]
-        distance = np.sqrt(np.einsum("fai,fai->fa", difference, difference))
-        deviation: np.ndarray = distance - self.shape.distance[marker, anchors]
+        deviation: np.ndarray = distances(own, self.positions[:, anchors]) - self.shape.distance[marker, anchors]
         return deviation
 
     def log_likelihood(self, marker: int, anchors: np.ndarray, *, points: np.ndarray | None = None) -> np.ndarray:
@@ -186,8 +185,8 @@ class ShapeEvidence:
             Log density of the usual distance less that of what is measured, per anchor (anchors,), mean over the frames and
             divided by the number of anchors; frames in which a distance is unknown count as none.
         """
-        difference = self.positions[:, labels] - self.positions[:, label, None]
-        deviation = np.sqrt(np.einsum("fai,fai->fa", difference, difference)) - self.shape.distance[marker, anchors]
+        distance = distances(self.positions[:, label], self.positions[:, labels])
+        deviation = distance - self.shape.distance[marker, anchors]
         scale = self.scale(marker, anchors)
         misfit = self._log_density(np.zeros(len(anchors)), scale) - self._log_density(deviation, scale)
         mean: np.ndarray = np.nan_to_num(misfit).mean(axis=0) / len(anchors) if len(misfit) else np.zeros(len(anchors))

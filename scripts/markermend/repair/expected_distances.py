@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from markermend.numerics.distances import distances
 from markermend.numerics.kriging import Covariance, fit_covariance, krige
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.options.repair import ShapeGuardOptions
@@ -53,9 +54,7 @@ class ExpectedDistances:
         ndarray of float, shape (n, k)
             Distances, mm; NaN where a point or a mate is missing.
         """
-        difference = self.positions - points[:, None]
-        lengths: np.ndarray = np.sqrt(np.einsum("nki,nki->nk", difference, difference))
-        return lengths
+        return distances(points, self.positions)
 
     def log_densities(self, points: np.ndarray, *, degrees_of_freedom: float) -> np.ndarray:
         """Compute how likely points are by their distances.

@@ -16,6 +16,7 @@ from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.sections import better_states
 from markermend.numerics import robust
+from markermend.numerics.distances import distances
 from markermend.numerics.intervals import runs, samples
 from markermend.prediction.shape_evidence import ShapeEvidence
 
@@ -160,8 +161,7 @@ class ForeignSearch:
     def _distances(self, m: int) -> np.ndarray:
         """Distances (frames, anchors) of a marker to those by which it is judged, mm."""
         anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, self.evidence.options.shape).anchors(m)
-        distances: np.ndarray = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)
-        return distances
+        return distances(self.positions[:, m], self.positions[:, anchors])
 
     def _speed_misfit(self, m: int, start: int, stop: int) -> np.ndarray:
         """Loss of log likelihood (stop - start,) of the speeds at which the distances of a marker change, against usual ones."""
@@ -185,7 +185,7 @@ class ForeignSearch:
 
     def _on_another(self, m: int, start: int, stop: int) -> bool:
         """Whether the samples are where another label is, too, in most of a stretch."""
-        distance = np.linalg.norm(self.positions[start:stop] - self.positions[start:stop, m, None], axis=2)
+        distance = distances(self.positions[start:stop, m], self.positions[start:stop])
         distance[:, m] = np.inf
         return bool((np.nan_to_num(distance, nan=np.inf) < self.evidence.options.max_same_mm).mean(axis=0).max() > 0.5)
 

@@ -17,6 +17,7 @@ from markermend.core.events import Event
 from markermend.detection.labelling.evidence import LabelEvidence
 from markermend.detection.labelling.pieces import Piece, assigned
 from markermend.numerics import robust
+from markermend.numerics.distances import distances
 from markermend.numerics.intervals import runs, samples
 from markermend.prediction.shape_evidence import ShapeEvidence
 
@@ -149,7 +150,7 @@ class UnlabelledSearch:
         """
         options, limits = self.evidence.options, self.evidence.options.unlabelled
         anchors = ShapeEvidence(self.positions[:0], self.evidence.shape, options.shape).anchors(m)
-        distance = np.linalg.norm(self.positions[:, anchors] - self.positions[:, m, None], axis=2)
+        distance = distances(self.positions[:, m], self.positions[:, anchors])
         lag = abs(known - frame)
         usual = np.abs(distance[lag:] - distance[:-lag])
         change = np.linalg.norm(self.positions[frame, anchors] - point, axis=1) - distance[known]

@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from markermend.numerics.distances import distances
 from markermend.options.detection.steps import SimilarPosesOptions
 from markermend.prediction.scene import Scene
 
@@ -54,9 +55,7 @@ class SimilarPoses:
         np.ndarray
             Distances (n, k), mm, NaN = unknown.
         """
-        difference = self.scene.positions[frames][:, self.neighbours] - points[:, None]
-        distance: np.ndarray = np.sqrt(np.einsum("fai,fai->fa", difference, difference))
-        return distance
+        return distances(points, self.scene.positions[frames][:, self.neighbours])
 
     def predict(self, frames: np.ndarray, excluded: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
         """Predict the distances of the marker to its neighbours from the most similar poses at other times.

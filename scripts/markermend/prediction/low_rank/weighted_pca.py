@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from markermend.numerics.distances import distances
 from markermend.numerics.low_rank import components_for_share
 from markermend.numerics.patterns import group_by_pattern
 from markermend.options.prediction.low_rank import WeightedPcaOptions
@@ -107,7 +108,7 @@ class WeightedPca:
 def _distances(scene: Scene, marker: int, others: np.ndarray, frames: int) -> np.ndarray:
     """Mean distance (k,), mm, of a marker to others over at most `count` of its frames; infinite if never together."""
     rows = evenly_spaced(np.flatnonzero(scene.present[:, marker]), frames)
-    distance = np.linalg.norm(scene.positions[np.ix_(rows, others)] - scene.positions[rows, marker][:, None], axis=2)
+    distance = distances(scene.positions[rows, marker], scene.positions[np.ix_(rows, others)])
     count = np.count_nonzero(~np.isnan(distance), axis=0)
     return np.where(count > 0, np.nansum(distance, axis=0) / np.maximum(count, 1), np.inf)
 
