@@ -101,6 +101,11 @@ class NeuralNetworkOptions:
 
     Change it when you repeat skurowski2021 (`array`, the rule of Matlab unless another is named)."""
 
+    precision: Literal["double", "single"] = "double"
+    """Precision of the numbers in training; `single` takes half the time.
+
+    Change it when you repeat skurowski2021 (`single`, as Matlab trains)."""
+
     batch_networks: Count = 32
     """Networks that are trained at once, at most; memory grows with it."""
 

@@ -1,6 +1,6 @@
 """Small networks that are trained side by side: one batch holds the weights of all, so that all advance together.
 
-This is the only module that imports torch, which takes seconds: it is imported where networks train, and nowhere else.
+This module and `recurrent_layers` import torch, which takes seconds: they are imported where networks train, and nowhere else.
 Networks of a batch are independent. Where they differ in size they are padded with zeros, which change neither outputs
 nor gradients, so each learns what it would learn alone, up to rounding.
 """
@@ -15,6 +15,7 @@ import torch
 
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
 from markermend.prediction.neural_network.architecture import GATES, directions, has_hidden_layer
+from markermend.prediction.neural_network.recurrent_layers import gru, lstm
 
 Weights = list[np.ndarray]
 """Recurrent kinds begin, for each direction, with weights of the inputs (inputs, gates * units), weights of the former
@@ -141,30 +142,71 @@ def _glorot(rng: np.random.Generator, rows: int, columns: int) -> np.ndarray:
 def _train_batch(kind: str, data: Sequence[TrainingSet], options: NeuralNetworkOptions) -> list[Weights]:
     """See train."""
     device = "cuda" if torch.cuda.is_available() else "cpu"
+    number = torch.float32 if options.precision == "single" else torch.float64
     first_weights = [initial(kind, own.inputs[0].shape[1], own.targets[0].shape[1], options) for own in data]
     weights = [
-        torch.from_numpy(_padded(parts)).to(device).requires_grad_() for parts in zip(*first_weights, strict=True)
+        torch.from_numpy(_padded(parts)).to(device, number).requires_grad_()
+        for parts in zip(*first_weights, strict=True)
     ]
-    lengths = _padded([np.array([len(sequence) for sequence in own.inputs]) for own in data])
-    x = torch.from_numpy(_padded([_padded(own.inputs) for own in data])).to(device)
-    y = torch.from_numpy(_padded([_padded(own.targets) for own in data])).to(device)
-    place = np.arange(x.shape[2])
-    inside = place < lengths[..., None]
-    shares = torch.from_numpy((inside / lengths.sum(axis=1)[:, None, None])[..., None]).to(device)
-    backwards = torch.from_numpy(np.where(inside, lengths[..., None] - 1 - place, place)[..., None]).to(device)
+    rows = _batch_rows(kind, data, device, number)
     velocities = [torch.zeros_like(part) for part in weights]
     for epoch in range(options.epochs):
-        loss = (shares * (_forward(kind, weights, x, backwards) - y).square()).sum() / 2
+        outputs = _forward(kind, weights, rows.x, rows.backwards, rows.ones)
+        loss = (rows.shares * (outputs - rows.y).square()).sum() / 2
         gradients = torch.autograd.grad(loss, weights)
         rate = options.learning_rate * options.learning_rate_factor ** (epoch // options.learning_rate_epochs)
         _descend(weights, velocities, gradients, rate, options)
     return [
         [
-            np.ascontiguousarray(part[n, : old.shape[0], : old.shape[1]].detach().cpu().numpy())
+            np.ascontiguousarray(part[n, : old.shape[0], : old.shape[1]].detach().cpu().numpy(), dtype=float)
             for part, old in zip(weights, parts, strict=True)
         ]
         for n, parts in enumerate(first_weights)
     ]
+
+
+@dataclass(frozen=True)
+class _BatchRows:
+    """What the networks of a batch are trained on, (networks, sequences, frames, ...).
+
+    x and y: inputs and targets; shares: weights of the frames in the loss, 0 of padding; backwards and ones: see _forward.
+    """
+
+    x: torch.Tensor
+    y: torch.Tensor
+    shares: torch.Tensor
+    backwards: torch.Tensor
+    ones: torch.Tensor | None
+
+
+def _batch_rows(kind: str, data: Sequence[TrainingSet], device: str, number: torch.dtype) -> _BatchRows:
+    """Pad the training sets of a batch; those of linear networks are reduced before."""
+    frames = np.array([sum(map(len, own.inputs)) for own in data])
+    ones = None
+    if kind == "linear":
+        reduced = [_reduced(own) for own in data]
+        data = [own for own, _ in reduced]
+        ones = torch.from_numpy(_padded([own for _, own in reduced])).to(device, number)
+    lengths = _padded([np.array([len(sequence) for sequence in own.inputs]) for own in data])
+    x, y = (
+        _padded([_padded(own) for own in part]) for part in zip(*((d.inputs, d.targets) for d in data), strict=True)
+    )
+    place = np.arange(x.shape[2])
+    inside = place < lengths[..., None]
+    backwards = np.where(inside, lengths[..., None] - 1 - place, place)[..., None]
+    shares = (inside / frames[:, None, None])[..., None]
+    x, y, shares = (torch.from_numpy(part).to(device, number) for part in (x, y, shares))
+    return _BatchRows(x, y, shares, torch.from_numpy(backwards).to(device), ones)
+
+
+def _reduced(data: TrainingSet) -> tuple[TrainingSet, np.ndarray]:
+    """A training set of a linear network with as many rows as columns and equal sums of squares and products, on which alone it depends.
+
+    The other result are the constants (1, rows, 1) by which those of the layers are multiplied: what the rotation makes of ones.
+    """
+    x, y = np.concatenate(data.inputs), np.concatenate(data.targets)
+    rows = np.linalg.qr(np.column_stack([x, np.ones(len(x)), y])).R
+    return TrainingSet([rows[:, : x.shape[1]]], [rows[:, -y.shape[1] :]]), rows[None, :, x.shape[1], None]
 
 
 def _descend(
@@ -185,57 +227,42 @@ def _descend(
             part.sub_(rate * velocity)
 
 
-def _forward(kind: str, weights: Sequence[torch.Tensor], x: torch.Tensor, backwards: torch.Tensor) -> torch.Tensor:
+def _forward(
+    kind: str,
+    weights: Sequence[torch.Tensor],
+    x: torch.Tensor,
+    backwards: torch.Tensor,
+    ones: torch.Tensor | None = None,
+) -> torch.Tensor:
     """Outputs (networks, sequences, frames, outputs) for x (networks, sequences, frames, inputs).
 
-    backwards: (networks, sequences, frames, 1), the frames of each sequence in reverse order.
+    backwards: (networks, sequences, frames, 1), the frames of each sequence in reverse order; ones: see _dense.
     """
     dense = weights
     if kind in GATES:
         dense = weights[3 * directions(kind) :]
-        layer = _gru if kind == "gru" else _lstm
-        hidden = [layer(x, *weights[:3])]
+        layer = gru if kind == "gru" else lstm
+        hidden = [layer(_dense(x, weights[0], weights[2]), weights[1])]
         if directions(kind) == 2:
-            turned = layer(torch.take_along_dim(x, backwards, 2), *weights[3:6])
+            turned = torch.take_along_dim(x, backwards, 2)
+            turned = layer(_dense(turned, weights[3], weights[5]), weights[4])
             hidden.append(torch.take_along_dim(turned, backwards, 2))
         x = torch.cat(hidden, -1)
     if len(dense) == 4:
-        x = _dense(x, *dense[:2])
+        x = _dense(x, dense[0], dense[1], ones)
         x = x if kind == "linear" else x.tanh()
-    return _dense(x, *dense[-2:])
+    return _dense(x, dense[-2], dense[-1], ones)
 
 
-def _dense(x: torch.Tensor, weights: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """A layer of each network: (networks, sequences, frames, inputs) to (networks, sequences, frames, outputs)."""
-    return torch.baddbmm(constants, x.flatten(1, 2), weights).unflatten(1, x.shape[1:3])
+def _dense(
+    x: torch.Tensor, weights: torch.Tensor, constants: torch.Tensor, ones: torch.Tensor | None = None
+) -> torch.Tensor:
+    """A layer of each network: (networks, sequences, frames, inputs) to (networks, sequences, frames, outputs).
 
-
-def _lstm(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """Long short-term memory from the zero state; source: skurowski2021 eq 2-7. Gates: input, forget, output, candidate."""
-    units = former.shape[1]
-    output = memory = x.new_zeros(*x.shape[:2], units)
-    outputs = []
-    for drive in _dense(x, weights, constants).unbind(2):
-        sums = torch.baddbmm(drive, output, former)
-        entry, keep, leave = sums[..., : 3 * units].sigmoid().chunk(3, -1)
-        memory = keep * memory + entry * sums[..., 3 * units :].tanh()
-        output = leave * memory.tanh()
-        outputs.append(output)
-    return torch.stack(outputs, 2)
-
-
-def _gru(x: torch.Tensor, weights: torch.Tensor, former: torch.Tensor, constants: torch.Tensor) -> torch.Tensor:
-    """Gated recurrent units from the zero state; source: skurowski2021 eq 8-11. Gates: update, reset, candidate."""
-    units = former.shape[1]
-    output = x.new_zeros(*x.shape[:2], units)
-    outputs = []
-    for drive in _dense(x, weights, constants).unbind(2):
-        gates = torch.baddbmm(drive[..., : 2 * units], output, former[..., : 2 * units]).sigmoid()
-        update, reset = gates.chunk(2, -1)
-        candidate = torch.baddbmm(drive[..., 2 * units :], reset * output, former[..., 2 * units :]).tanh()
-        output = output + update * (candidate - output)
-        outputs.append(output)
-    return torch.stack(outputs, 2)
+    ones: (networks, sequences, frames, 1), the input that the constants multiply, where it is not 1.
+    """
+    added = constants if ones is None else ones.flatten(1, 2) * constants
+    return torch.baddbmm(added, x.flatten(1, 2), weights).unflatten(1, x.shape[1:3])
 
 
 def _padded(arrays: Sequence[np.ndarray]) -> np.ndarray:

@@ -194,3 +194,12 @@ def test_weights_begin_as_the_sizes_say():
     assert weights[2][0].tolist() == [0.0] * units + [1.0] * units + [0.0] * 2 * units
     feed_forward = initial("tanh", 30, 3, replace(OPTIONS, dense_units=8))
     assert sum(part.size for part in feed_forward) == 275  # the paper's table 4
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_single_precision_gives_almost_the_same_networks(kind):
+    task = training_set(5, lengths=(20, 9))
+    double, single = (train(kind, [task], replace(OPTIONS, precision=name))[0] for name in ("double", "single"))
+    away = np.abs(evaluate(kind, double, task.inputs[0]) - evaluate(kind, single, task.inputs[0])).max()
+    assert 0 < away < 1e-4
+    assert all(part.dtype == float for part in single)
