@@ -10,7 +10,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations
 
 import numpy as np
 
@@ -156,8 +155,10 @@ class _TriangleModel(ABC):
         ranked, _ = reference_markers(
             scene, marker, max_frames=options.max_training_frames, min_frames=options.min_training_frames
         )
-        for places in sorted(combinations(range(min(len(ranked), options.references)), 3), key=lambda p: p[::-1]):
-            yield ranked[list(places)]
+        for third in range(min(len(ranked), options.references)):
+            for second in range(third):
+                for first in range(second):
+                    yield ranked[[first, second, third]]
 
     def _training(self, case: _Case) -> np.ndarray:
         """Frames to train on; none where the triple is observed too rarely with the marker, or is nearly a line."""
