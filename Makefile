@@ -2,16 +2,25 @@
 PYTHON ?= python3
 BIN := .venv/bin
 CORES ?= all
+SIZE ?= full
+RESULTS ?= results
 # Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo test wheel lint config lock clean
+.PHONY: demo papers test wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
 	$(BIN)/snakemake --cores $(CORES) --config recordings=demo/recordings results=demo/results
 	@echo
 	@echo "$(CURDIR)/demo/results/report/index.html"
+
+# The experiments of the papers (config/evaluate): SIZE=quick takes minutes; RECORDINGS=FOLDER in place of a synthetic person.
+papers: .venv/ready
+	$(BIN)/snakemake --cores $(CORES) papers --configfile config/evaluate/$(SIZE).yaml --config results=$(RESULTS) \
+		$(if $(RECORDINGS),recordings=$(RECORDINGS))
+	@echo
+	@echo "$(abspath $(RESULTS))/papers/index.html"
 
 test: lint
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network"
@@ -28,9 +37,11 @@ lint: .venv/ready
 	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
 	$(BIN)/codespell
 
-# What is made from the declared options: config/config.yaml, its schema, the tables of config/README.md.
+# What is made from the declared options and options: config/config.yaml, its schema, the tables of config/README.md,
+# config/evaluate/full.yaml.
 config: .venv/ready
 	PYTHONPATH=scripts $(BIN)/python -m markermend.planning.config_files
+	PYTHONPATH=scripts $(BIN)/python -m markermend.evaluation.options_file
 
 # The newest versions of what pyproject.toml names; then bring envs/*.yaml in step.
 lock: .venv/ready

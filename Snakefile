@@ -1,7 +1,8 @@
 """markermend: from recordings of optical motion capture to cleaned ones, with a record of every change.
 
 Reads: the recordings named by the config's `recordings`, a folder or a table.
-Writes: {results}/{subject}/{recording}/ with a file per stage and the cleaned recording, and {results}/report/.
+Writes: {results}/{subject}/{recording}/ with a file per stage and the cleaned recording, and {results}/report/;
+the targets gaps2021, pma2018, artifacts2022 and papers write {results}/papers/.
 """
 
 import atexit
@@ -19,6 +20,8 @@ include: "workflow/rules/ingest.smk"
 include: "workflow/rules/detect.smk"
 include: "workflow/rules/restore.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/artifacts2022.smk"
 
 
 localrules:
@@ -32,12 +35,16 @@ rule all:
 
 
 onstart:
-    plan.write_lists()
+    papers.write_lists()
+    if cleans():
+        plan.write_lists()
 
 
 onsuccess:
-    atexit.register(plan.close)
+    if cleans():
+        atexit.register(plan.close)
 
 
 onerror:
-    atexit.register(plan.close)
+    if cleans():
+        atexit.register(plan.close)

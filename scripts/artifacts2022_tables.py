@@ -1,32 +1,32 @@
-"""Put the runs of the experiment on classification into tables, with the published figures beside ours (skurowski2022, E1).
+"""Put the runs of the artifact detection paper's experiments into tables, with the published figures beside ours (skurowski2022).
 
 Reads: the tables of runs, the published figures. Writes: CONFUSION, averaged confusion matrices as in Figures 12 and 13;
-MEASURES, the measures of each class and over all classes.
+MEASURES, the measures of each class and over all classes; CLAIMS, what the paper states, and whether it holds.
 """
 
 import argparse
 from pathlib import Path
 
-import pandas as pd
-
-from markermend.evaluation import artifact_classification as classification
-from markermend.storage import atomic
+from markermend.evaluation.artifacts2022 import claims, tables
+from markermend.evaluation.published_figures import read_published
+from markermend.evaluation.table_files import read_tables, write_table
 
 
 def main(argv: list[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(prog="artifacts2022_tables.py", description=__doc__, allow_abbrev=False)
+    parser = argparse.ArgumentParser(
+        prog="artifacts2022_tables.py", description=__doc__, allow_abbrev=False, fromfile_prefix_chars="@"
+    )
     parser.add_argument("--runs", type=Path, nargs="+", required=True, help="tables of runs")
     parser.add_argument("--published", type=Path, required=True, help="the published figures")
     parser.add_argument("--confusion", type=Path, required=True, help="averaged confusion matrices, to write")
     parser.add_argument("--measures", type=Path, required=True, help="measures of each class, to write")
+    parser.add_argument("--claims", type=Path, required=True, help="what the paper states, to write")
     flags = parser.parse_args(argv)
-    runs = pd.concat([pd.read_csv(path, sep="\t") for path in flags.runs], ignore_index=True)
-    published = pd.read_csv(flags.published, sep="\t", dtype=str, keep_default_na=False)
-    for path, table in (
-        (flags.confusion, classification.average_runs(runs)),
-        (flags.measures, classification.measure_runs(runs, published)),
-    ):
-        atomic.write_text(path, table.to_csv(sep="\t", index=False, float_format="%.6g", lineterminator="\n"))
+    runs, figures = read_tables(flags.runs), read_published(flags.published)
+    measures = tables.measure_runs(runs, figures)
+    write_table(flags.measures, measures)
+    write_table(flags.confusion, tables.average_runs(runs))
+    write_table(flags.claims, claims.judge(measures))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,10 @@ ENVIRONMENTS = {
     "fill": ("base", "torch"),
     "artifacts2022_runs": ("evaluate",),
     "artifacts2022_tables": ("evaluate",),
+    "papers_index": ("evaluate",),
+    "papers_page": ("evaluate",),
+    "papers_recording": ("evaluate",),
+    "papers_script": ("evaluate",),
 }
 """The environments of scripts that run in others than the base."""
 

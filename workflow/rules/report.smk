@@ -43,7 +43,7 @@ rule qc:
 
 rule report:
     input:
-        qc=plan.quality_files,
+        qc=plan.judged,
     output:
         index=f"{files.report}/index.html",
         summary=f"{files.report}/summary.tsv",

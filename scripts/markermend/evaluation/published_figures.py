@@ -1,18 +1,22 @@
 """The figures that papers print, to be put beside ours: tables in config/evaluate/published.
 
-A row is one printed figure: the table, the sequence, the mean length of the gaps in frames, the method by the name of our
-predictor, the descriptor of the sequence, the quantity and the value. What does not apply is empty. Obvious misprints are
-corrected: the lengths 50, 100 and 200 of Table A3 of skurowski2021 are printed as 20.
+A row is one printed figure. The columns `table` (where it is printed), `quantity`, `value` and, where a bound is printed, `relation`
+(<, <=, >, >=) are common to all papers; every other column is a key, such as the sequence, the method or the amplitude, empty where it
+does not apply. Obvious misprints are corrected: the lengths 50, 100 and 200 of Table A3 of skurowski2021 are printed as 20.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
 
-COLUMNS = ("table", "sequence", "length", "method", "descriptor", "quantity", "value")
-"""The columns of a table of published figures."""
+COMMON = ("table", "quantity", "relation", "value", "printed")
+"""The columns that are no keys."""
+
+RELATIONS = ("", "<", "<=", ">", ">=")
+"""How a printed value may bound the figure."""
 
 
 def read_published(path: Path) -> pd.DataFrame:
@@ -26,20 +30,65 @@ def read_published(path: Path) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The columns of COLUMNS: `length` is an integer or missing, `value` a number, the others are text, "" where it does not apply.
+        The columns of the file; `value` is a number, keys are numbers (missing where they do not apply) if all of them are,
+        else text. `printed` is the value as text, with its relation.
 
     Raises
     ------
     ValueError
-        If the table has other columns, or figures of which two say the same.
+        If a column is missing, a value is no number, or two figures are of the same.
     """
     text = pd.read_csv(path, sep="\t", dtype=str, keep_default_na=False)
-    if tuple(text.columns) != COLUMNS:
-        raise ValueError(f"{path}: the columns are {', '.join(text.columns)} instead of {', '.join(COLUMNS)}")
-    if (twice := text.duplicated(list(COLUMNS[:-1]))).any():
-        raise ValueError(f"{path}, line {int(twice.to_numpy().argmax()) + 2}: this figure was there before")
-    length = pd.to_numeric(text["length"].where(text["length"] != "")).astype("Int64")
-    return text.assign(length=length, value=pd.to_numeric(text["value"]))
+    if missing := [name for name in ("table", "quantity", "value") if name not in text]:
+        raise ValueError(f"{path}: there is no column {', '.join(missing)}")
+    if "relation" not in text:
+        text.insert(len(text.columns) - 1, "relation", "")
+    value = pd.to_numeric(text["value"], errors="coerce")
+    for wrong, problem in (
+        (value.isna(), "the value is no number"),
+        (~text["relation"].isin(RELATIONS), f"the relation is none of {', '.join(RELATIONS[1:])}"),
+        (text.duplicated([name for name in text if name != "value"]), "this figure was there before"),
+    ):
+        if wrong.any():
+            raise ValueError(f"{path}, line {int(wrong.to_numpy().argmax()) + 2}: {problem}")
+    printed = (text["relation"] + " " + text["value"]).str.strip()
+    keys = {name: _numbers(text[name]) for name in text if name not in COMMON}
+    return text.assign(**keys, value=value, printed=printed)
+
+
+def beside(ours: pd.DataFrame, figures: pd.DataFrame, *, on: Sequence[str], name: str = "published") -> pd.DataFrame:
+    """Put the published figures beside ours.
+
+    Parameters
+    ----------
+    ours : DataFrame
+        One row for each of our figures, with the columns `on`.
+    figures : DataFrame
+        See read_published; only figures of one table and quantity, unless `on` has these columns.
+    on : sequence of str
+        The keys. A figure whose key is empty stands for all values of the key; the figure with more keys is preferred. Figures with other
+        keys, such as a sequence where `on` has none, are left out.
+    name : str, optional
+        The new column.
+
+    Returns
+    -------
+    DataFrame
+        A copy of ours with the published figure as it is printed; "" where there is none.
+    """
+    others = [key for key in figures if key not in COMMON and key not in on]
+    applying = figures[(_texts(figures, others) == "").all(axis=1)]
+    keys, own = _texts(applying, on), _texts(ours, on)
+    printed: dict[tuple[bool, ...], dict[tuple[str, ...], list[str]]] = {}
+    for key, text in zip(keys.itertuples(index=False, name=None), applying["printed"], strict=True):
+        given = tuple(part != "" for part in key)
+        printed.setdefault(given, {}).setdefault(key, []).append(text)
+    found = [""] * len(ours)
+    for given, texts in sorted(printed.items(), key=lambda item: sum(item[0])):
+        for place, key in enumerate(own.itertuples(index=False, name=None)):
+            masked = tuple(part if use else "" for part, use in zip(key, given, strict=True))
+            found[place] = _range(texts[masked]) if masked in texts else found[place]
+    return ours.assign(**{name: found})
 
 
 def published_errors(figures: pd.DataFrame, quantity: str) -> pd.DataFrame:
@@ -48,7 +97,7 @@ def published_errors(figures: pd.DataFrame, quantity: str) -> pd.DataFrame:
     Parameters
     ----------
     figures : DataFrame
-        See read_published.
+        Those of skurowski2021; see read_published.
     quantity : str
         A field of gap_errors.ErrorStatistics, such as "rmse".
 
@@ -67,7 +116,7 @@ def published_descriptors(figures: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     figures : DataFrame
-        See read_published.
+        Those of skurowski2021; see read_published.
 
     Returns
     -------
@@ -76,3 +125,32 @@ def published_descriptors(figures: pd.DataFrame) -> pd.DataFrame:
     """
     rows = figures[(figures["descriptor"] != "") & (figures["sequence"] != "")]
     return rows.pivot(index="sequence", columns="descriptor", values="value")
+
+
+def _range(printed: Sequence[str]) -> str:
+    """A printed figure, or its bounds from below and above, as text."""
+    bounds = sorted(printed, reverse=True)
+    if [text[:2] for text in bounds] == [">=", "<="]:
+        return f"{bounds[0][3:]} to {bounds[1][3:]}"
+    return " and ".join(printed)
+
+
+def _numbers(keys: pd.Series) -> pd.Series:
+    """Keys as numbers, missing where they are empty, if all of them are numbers."""
+    given = keys[keys != ""]
+    numbers = pd.to_numeric(given, errors="coerce")
+    if given.empty or numbers.isna().any():
+        return keys
+    return numbers.reindex(keys.index).astype("Int64" if (numbers % 1 == 0).all() else "Float64")
+
+
+def _texts(table: pd.DataFrame, columns: Sequence[str]) -> pd.DataFrame:
+    """Columns as text by which figures are matched: numbers without needless decimals, "" where there is none."""
+    return pd.DataFrame({name: [_text(value) for value in table[name]] for name in columns}, index=table.index)
+
+
+def _text(value: object) -> str:
+    """A key as text."""
+    if value is None or value is pd.NA or value != value:
+        return ""
+    return f"{value:g}" if isinstance(value, int | float) and not isinstance(value, bool) else str(value)

@@ -8,6 +8,9 @@ from typing import Annotated, Any, Literal, get_args
 
 from markermend.options.declaration import Distinct, Laboratory, NotEmpty
 
+EXPERIMENTS = "evaluate"
+"""The key of the config that the experiments of the papers read, and no stage."""
+
 Stages = Literal["labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow"]
 """The classes of artifacts that `detect` may list."""
 

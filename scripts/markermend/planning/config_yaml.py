@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import yaml
@@ -38,11 +38,11 @@ def config_yaml() -> str:
         for name, options in sections:
             default = SECTIONS[name]()
             if name == GENERAL:
-                lines += _keys(options, default, "")
+                lines += keys(options, default, "")
             else:
                 heading = title(SECTIONS[name])
                 lines += ["", f"{indent}# {heading[0].upper()}{heading[1:]}.", f"{indent}{name}:"]
-                lines += _keys(options, default, f"{indent}  ")
+                lines += keys(options, default, f"{indent}  ")
     return "\n".join(lines) + "\n"
 
 
@@ -69,8 +69,23 @@ def value(content: Any) -> str:
     return line.strip()[1:-1]
 
 
-def _keys(options: list[Option] | tuple[Option, ...], default: Any, indent: str) -> Iterator[str]:
-    """The lines of some options."""
+def keys(options: Sequence[Option], default: Any, indent: str) -> Iterator[str]:
+    """Write some options, each with its meaning as a comment above.
+
+    Parameters
+    ----------
+    options : sequence of Option
+        The options.
+    default : Any
+        An instance of their class.
+    indent : str
+        Blanks before each line.
+
+    Yields
+    ------
+    str
+        A line.
+    """
     for option in options:
         prefix = f"{indent}# "
         yield from textwrap.wrap(
@@ -79,7 +94,7 @@ def _keys(options: list[Option] | tuple[Option, ...], default: Any, indent: str)
         own = getattr(default, option.name)
         if option.nested is not None:
             yield f"{indent}{option.name}:"
-            yield from _keys(describe(option.nested), own, f"{indent}  ")
+            yield from keys(describe(option.nested), own, f"{indent}  ")
         elif isinstance(own, Mapping) and own and len(value(plain(own))) > 60:
             yield f"{indent}{option.name}:"
             yield from (f"{indent}  {key}: {value(plain(inner))}" for key, inner in own.items())

@@ -14,7 +14,7 @@ from typing import Any
 from markermend.options.general import GeneralOptions
 from markermend.planning import config as planning_config
 from markermend.planning import config_schema, decision_table, recording_table, recordings
-from markermend.planning.recordings import BadDataSet, Entry
+from markermend.planning.recordings import BadDataSet, Entry, NoRecordings
 
 Folders = tuple[str, str]
 """Names of the folders of a subject and a recording."""
@@ -39,8 +39,10 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
 
     Raises
     ------
+    NoRecordings
+        Where there is no such folder or table.
     BadDataSet
-        Where there is no such folder or table, or one that cannot be used.
+        Where it cannot be used.
     """
     path = os.path.abspath(os.path.expanduser(name))
     if os.path.isdir(path):
@@ -52,7 +54,7 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
         config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)
         found = recording_table.from_rows(rows, path)
     else:
-        raise BadDataSet(
+        raise NoRecordings(
             f"recordings: no such folder or table: {path}\n"
             "Name the folder that holds them: --config recordings=FOLDER results=FOLDER\n"
             "or a table of them (config/README.md); `make demo` shows both on made-up recordings"

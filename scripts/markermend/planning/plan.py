@@ -21,11 +21,12 @@ import markermend
 from markermend.core.artifacts import DETECTORS
 from markermend.options.config import write_config
 from markermend.options.flags import write_flags
+from markermend.options.general import EXPERIMENTS, GeneralOptions
 from markermend.options.values import text
 from markermend.planning import code_hashes, data_set, run_facts, run_summary
 from markermend.planning import config as planning_config
 from markermend.planning.data_set import Folders, nameable
-from markermend.planning.recordings import Entry
+from markermend.planning.recordings import BadDataSet, Entry, NoRecordings
 from markermend.planning.result_files import ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.storage.atomic import sha256, write_json, write_text
@@ -65,6 +66,8 @@ class Plan:
         How often each stage failed so far, by subject, recording and stage.
     warnings : sequence of str, optional
         Warnings for the user before anything runs.
+    missing : str, optional
+        Why there are no recordings, where the config names none and the table of its default is not there. Experiments do without.
     started : datetime, optional
         When the run began, with its time zone.
     """
@@ -77,6 +80,7 @@ class Plan:
     decisions: Mapping[Folders, list[dict[str, Any]]]
     failures: Counter[tuple[str, str, str]]
     warnings: Sequence[str] = ()
+    missing: str = ""
     started: datetime = field(default_factory=lambda: datetime.now(UTC))
 
     @property
@@ -101,6 +105,28 @@ class Plan:
     def quality_files(self) -> list[str]:
         """The quality file of every recording."""
         return [self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.entries]
+
+    def judged(self, wildcards: object) -> list[str]:
+        """Name the quality files of all recordings, which the report is made of.
+
+        Parameters
+        ----------
+        wildcards : object
+            Not used: there is one report.
+
+        Returns
+        -------
+        list of str
+            See `Plan.quality_files`.
+
+        Raises
+        ------
+        BadDataSet
+            Where there are no recordings because the config names none.
+        """
+        if self.missing:
+            raise BadDataSet(self.missing)
+        return self.quality_files
 
     def events(self, before: str | None = None) -> list[str]:
         """Name the events files of the detectors that run.
@@ -295,9 +321,9 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         Where a file cannot be read.
     """
     planning_config.prepare(config)
-    options = planning_config.check(config, deployed=deployed)
+    options = planning_config.check({key: config[key] for key in config if key != EXPERIMENTS}, deployed=deployed)
     results = planning_config.folder(options["general"].results)
-    entries = data_set.find_recordings(options["general"].recordings, results, schemas=project / "workflow/schemas")
+    entries, missing = _entries(options["general"].recordings, results, project / "workflow/schemas")
     meshes = data_set.supplied_meshes(entries, options["mesh"].files)
     decisions, warnings = data_set.find_decisions(options, list(entries.values()))
     return Plan(
@@ -309,4 +335,15 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         decisions=decisions,
         failures=planning_config.failures(results),
         warnings=[*planning_config.warnings(options), *warnings],
+        missing=missing,
     )
+
+
+def _entries(name: str, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str]:
+    """The recordings; none, and why, where the config does not name any."""
+    try:
+        return data_set.find_recordings(name, results, schemas=schemas), ""
+    except NoRecordings as error:
+        if name != GeneralOptions().recordings:
+            raise
+        return {}, str(error)

@@ -18,6 +18,10 @@ class BadDataSet(Exception):
     """A data set or a config that cannot be used; the message says what, where and what to do."""
 
 
+class NoRecordings(BadDataSet):
+    """There is no folder or table of the name that the config has."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """One recording of the data set.

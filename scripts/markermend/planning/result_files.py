@@ -103,6 +103,11 @@ class ResultFiles:
         return f"{self.results}/report"
 
     @property
+    def papers(self) -> str:
+        """The folder of the experiments of the papers."""
+        return f"{self.results}/papers"
+
+    @property
     def markers_list(self) -> str:
         """The list of files that a subject's meshes are inferred from."""
         return f"{self.subject}/logs/recordings.txt"

@@ -11,7 +11,7 @@ from urllib.parse import unquote_to_bytes
 LONGEST = 255
 """Bytes that a file system takes for one name (NAME_MAX)."""
 
-RESERVED_SUBJECTS = frozenset({"report"})
+RESERVED_SUBJECTS = frozenset({"report", "papers"})
 """Names beside the subjects' folders that are ours."""
 
 RESERVED_RECORDINGS = frozenset({"mesh.json", "logs", "failures.tsv"})

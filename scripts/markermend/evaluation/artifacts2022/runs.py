@@ -1,8 +1,8 @@
-"""The first experiment of the artifact detection paper: contaminate, detect, and count samples by class (skurowski2022, 4.1.2, E1)."""
+"""The runs of the experiment on classification: contaminate, detect, and count samples by class (skurowski2022, 4.1.2, E1)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +10,8 @@ import pandas as pd
 
 from markermend import api
 from markermend.core.recording import Recording
-from markermend.evaluation.classification import CLASSES, average, count_samples, measures, sample_classes
+from markermend.evaluation.classification import CLASSES, count_samples, sample_classes
+from markermend.evaluation.randomness import generator
 from markermend.numerics import filters
 from markermend.simulation.published_contamination import contaminate_coordinates
 
@@ -74,7 +75,7 @@ def denoise(recording: Recording, *, cutoff_hz: float) -> Recording:
 
 
 def count_run(
-    clean: Recording, condition: Condition, *, run: int, seed: int, options: api.Options | None = None
+    clean: Recording, condition: Condition, *, rng: np.random.Generator, options: api.Options | None = None
 ) -> np.ndarray:
     """Contaminate a recording once, detect, and count.
 
@@ -84,10 +85,8 @@ def count_run(
         The recording, cleaned and denoised.
     condition : Condition
         What is put in, and what is to find it.
-    run : int
-        Number of the run.
-    seed : int
-        Equal seeds give equal contaminations, whatever finds them.
+    rng : Generator
+        Source of the contamination's randomness.
     options : Options, optional
         Options in place of those of the condition, for ablations.
 
@@ -101,13 +100,35 @@ def count_run(
         clean.markers,
         amplitude=condition.amplitude_mm,
         share=condition.share_percent / 100,
-        rng=np.random.default_rng([seed, run]),
+        rng=rng,
     )
     contaminated = replace(clean, positions=made.positions)
     mesh = api.infer_mesh([contaminated])
     found = api.detect(contaminated, mesh, options or condition.options())
     truth, called = (sample_classes(own, clean.frames, clean.markers) for own in (made.events, found))
     return count_samples(truth, called, ~np.isnan(clean.positions))
+
+
+def run_generator(seed: int, recording: str, condition: Condition, run: int) -> np.random.Generator:
+    """Make the source of randomness of a run, which all presets share.
+
+    Parameters
+    ----------
+    seed : int
+        Equal seeds give equal contaminations.
+    recording : str
+        Name of the recording.
+    condition : Condition
+        The condition.
+    run : int
+        Number of the run.
+
+    Returns
+    -------
+    Generator
+        The source.
+    """
+    return generator(seed, recording, condition.amplitude_mm, condition.share_percent, run)
 
 
 def run_rows(recording: str, condition: Condition, confusions: Iterable[tuple[int, np.ndarray]]) -> pd.DataFrame:
@@ -136,67 +157,3 @@ def run_rows(recording: str, condition: Condition, confusions: Iterable[tuple[in
         ],
         columns=list(RUN_COLUMNS),
     )
-
-
-def average_runs(runs: pd.DataFrame) -> pd.DataFrame:
-    """Average the confusion matrices of each condition.
-
-    Parameters
-    ----------
-    runs : DataFrame
-        The columns RUN_COLUMNS.
-
-    Returns
-    -------
-    DataFrame
-        One row for each true class of each condition: the number of runs, and the mean number of samples in each found class.
-    """
-    parts = []
-    for names, own in runs.groupby(CONDITION, sort=False):
-        confusion = pd.DataFrame(average(_confusions(own)), columns=list(CLASSES))
-        confusion.insert(0, "true", list(CLASSES))
-        confusion.insert(0, "runs", own["run"].nunique())
-        parts.append(_with_condition(confusion, names))
-    return pd.concat(parts, ignore_index=True)
-
-
-def measure_runs(runs: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Compute the measures of each condition from its averaged confusion matrix, with the published ones beside.
-
-    Parameters
-    ----------
-    runs : DataFrame
-        The columns RUN_COLUMNS.
-    published : DataFrame
-        Rows of text: amplitude_mm ("" for all), class, quantity and published; see config/evaluate/published/skurowski2022.tsv.
-
-    Returns
-    -------
-    DataFrame
-        One row for each class of each condition, and one for all classes: the measures of `classification.measures`, and `TPR_published`,
-        `FDR_published` and `F_published` as text.
-    """
-    parts = []
-    for names, own in runs.groupby(CONDITION, sort=False):
-        table = measures(average(_confusions(own))).reset_index()
-        stated = published[published["amplitude_mm"].isin(["", f"{names[2]:g}"])]
-        for quantity in ("TPR", "FDR", "F"):
-            texts = stated[stated["quantity"] == quantity].set_index("class")["published"]
-            table[f"{quantity}_published"] = [texts.get(name, "") for name in table["class"]]
-        parts.append(_with_condition(table, names))
-    return pd.concat(parts, ignore_index=True)
-
-
-def _confusions(runs: pd.DataFrame) -> list[np.ndarray]:
-    """The confusion matrix of each run of one condition."""
-    return [
-        own.pivot(index="true", columns="found", values="samples").loc[list(CLASSES), list(CLASSES)].to_numpy(float)
-        for _, own in runs.groupby("run")
-    ]
-
-
-def _with_condition(table: pd.DataFrame, names: Sequence[object]) -> pd.DataFrame:
-    """A table with the condition in front."""
-    for place, (column, value) in enumerate(zip(CONDITION, names, strict=True)):
-        table.insert(place, column, value)
-    return table

@@ -1,0 +1,1 @@
+"""The experiments of the artifact detection paper (skurowski2022)."""

@@ -1,0 +1,55 @@
+"""What the artifact detection paper states, and whether it holds for its detectors here (skurowski2022, section 4.2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pandas as pd
+
+from markermend.evaluation.claims import Claim, claims_table, span, verdict
+
+Test = Callable[[pd.Series], bool]
+
+STATEMENTS: tuple[tuple[str, str, str, float | None, str, Test], ...] = (
+    ("More than 99 % of the clean samples are found clean", "clean", "TPR", None, "> 99 %", lambda own: own.min() > 99),
+    ("F over all classes is above 0.999", "all", "F", None, "> 0.999", lambda own: own.min() > 0.999),
+    ("Two thirds of the peaks of 5 mm are found", "peaks", "TPR", 5, "about 66 %", lambda own: own.between(56, 76).all()),
+    ("Nine tenths of the peaks of 10 mm are found", "peaks", "TPR", 10, "about 90 %", lambda own: own.between(80, 100).all()),
+    ("Less than half of what is found as peaks is something else", "peaks", "FDR", None, "< 50 %", lambda own: own.max() < 50),
+    ("More than 88 % of the heavy noise is found", "noise", "TPR", None, "> 88 %", lambda own: own.min() > 88),
+    ("4 to 8 % of what is found as noise is something else", "noise", "FDR", None, "4 to 8 %", lambda own: own.between(4, 8).all()),
+    ("Seven tenths of the steps are found", "steps", "TPR", None, "about 70 %", lambda own: own.between(60, 80).all()),
+    ("12 to 27 % of what is found as steps is something else", "steps", "FDR", None, "12 to 27 %", lambda own: own.between(12, 27).all()),
+    ("A bit more than half of the slow changes is found", "slow", "TPR", None, "> 50 %", lambda own: own.between(50, 60).all()),
+    ("80 to 90 % of what is found as slow changes is something else", "slow", "FDR", None, "80 to 90 %", lambda own: own.between(80, 90).all()),
+)  # fmt: skip
+"""Statement, class, measure, amplitude in mm (None for all), what is printed, and when it holds; `about` is within 10 points."""
+
+
+def judge(measures: pd.DataFrame) -> pd.DataFrame:
+    """Judge what the paper states of its detectors.
+
+    Parameters
+    ----------
+    measures : DataFrame
+        See tables.measure_runs.
+
+    Returns
+    -------
+    DataFrame
+        See claims.claims_table; one statement holds if it does so on each recording, at each share and amplitude.
+    """
+    return claims_table(_claims(measures[measures["preset"] == "paper"]))
+
+
+def _claims(measures: pd.DataFrame) -> Iterator[Claim]:
+    """The statements on the classification of contaminated recordings."""
+    for claim, kind, measure, amplitude, published, holds in STATEMENTS:
+        chosen = measures["class"] == kind
+        if amplitude is not None:
+            chosen &= measures["amplitude_mm"] == amplitude
+        own = pd.to_numeric(measures.loc[chosen, measure]).dropna()
+        unit, digits = ("", 4) if measure in ("F", "MCC") else (" %", 1)
+        tested = None if own.empty else bool(holds(own))
+        reason = "" if tested is not None else "the preset paper, or this amplitude, was not run"
+        yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)

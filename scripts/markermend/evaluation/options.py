@@ -1,0 +1,149 @@
+"""The options of the published experiments: the key `evaluate` of the config, and the files in config/evaluate.
+
+Every option has its default here or in the `options` module of its paper; config/evaluate/full.yaml is made of them (`make config`).
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal, TypeVar
+
+from markermend.evaluation.artifacts2022.options import Artifacts2022Options
+from markermend.options.declaration import (
+    Above,
+    CountOrNone,
+    Millimetres,
+    NotEmpty,
+    PositiveSeconds,
+    Unit,
+    describe,
+)
+from markermend.options.general import EXPERIMENTS
+from markermend.options.reader import BadOptions, Reader
+from markermend.options.values import plain
+
+Activity = Literal["stand", "walk", "reach", "sit", "exercise"]
+
+ACTIVITIES: Mapping[str, tuple[Activity, ...]] = {
+    "stand_and_reach": ("stand", "reach"),
+    "walk": ("walk",),
+    "sit": ("stand", "sit"),
+    "exercise": ("exercise",),
+}
+"""What the synthetic person does in each recording."""
+
+Section = TypeVar("Section")
+
+
+@dataclass(frozen=True)
+class SyntheticOptions:
+    """The recordings of a synthetic person, for experiments without recordings."""
+
+    activities: Annotated[Mapping[str, tuple[Activity, ...]], NotEmpty] = field(default_factory=lambda: ACTIVITIES)
+    """What the person does in each recording, over and over again."""
+
+    duration_s: PositiveSeconds = 32
+    """Their duration."""
+
+    rate_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] = 100
+    """Their frame rate."""
+
+    noise_mm: Millimetres = 0.2
+    """Standard deviation of the measurement noise of each coordinate."""
+
+
+@dataclass(frozen=True)
+class EvaluationOptions:
+    """The experiments of all papers."""
+
+    seed: CountOrNone = 1
+    """Equal seeds give equal tables."""
+
+    max_duration_s: PositiveSeconds | None = None
+    """What is used of a recording at most, from its beginning; null for all of it."""
+
+    synthetic: SyntheticOptions = field(default_factory=SyntheticOptions)
+    """The recordings of a synthetic person, on which the experiments run where no recordings are given."""
+
+    artifacts2022: Artifacts2022Options = field(default_factory=Artifacts2022Options)
+    """Detection of artifacts (skurowski2022)."""
+
+
+def read_options(value: Any) -> EvaluationOptions:
+    """Read the options of a run.
+
+    Parameters
+    ----------
+    value : Any
+        What the config has below EXPERIMENTS; options that are not there have their defaults.
+
+    Returns
+    -------
+    EvaluationOptions
+        The options.
+
+    Raises
+    ------
+    BadOptions
+        With all that cannot be used.
+    """
+    reader = Reader()
+    read: EvaluationOptions = reader.read_class(EvaluationOptions, {} if value is None else value, EXPERIMENTS)
+    if not reader.problems:
+        known = read.synthetic.activities
+        for option in describe(EvaluationOptions):
+            for name in getattr(getattr(read, option.name), "synthetic", ()):
+                if name not in known:
+                    reader.unknown(f"{EXPERIMENTS}.{option.name}.synthetic.{name}", name, known)
+    reader.finish()
+    return read
+
+
+def write_flag(options: Any, *names: str) -> str:
+    """Write options for the command of a job, which sees only those that it reads.
+
+    Parameters
+    ----------
+    options : Any
+        An instance of a class of options.
+    *names : str
+        The options that the command reads.
+
+    Returns
+    -------
+    str
+        JSON.
+    """
+    return json.dumps({name: plain(getattr(options, name)) for name in names}, sort_keys=True)
+
+
+def read_flag(cls: type[Section], words: str) -> Section:
+    """Read what write_flag wrote.
+
+    Parameters
+    ----------
+    cls : type
+        The class of options.
+    words : str
+        JSON.
+
+    Returns
+    -------
+    object
+        An instance; options that are not there have their defaults.
+
+    Raises
+    ------
+    BadOptions
+        With all that cannot be used.
+    """
+    try:
+        value = json.loads(words)
+    except json.JSONDecodeError as error:
+        raise BadOptions(f"--options: {error}") from error
+    reader = Reader()
+    read: Section = reader.read_class(cls, value, "")
+    reader.finish()
+    return read

@@ -1,0 +1,13 @@
+"""The papers whose experiments are repeated, and what makes the page of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import pandas as pd
+
+from markermend.evaluation.artifacts2022 import page as artifacts2022
+from markermend.evaluation.pages import Page
+
+PAGES: Mapping[str, Callable[[Mapping[str, pd.DataFrame]], Page]] = {"artifacts2022": artifacts2022.make_page}
+"""What makes the page of each paper of its tables; see experiments.PAPERS."""

@@ -1,0 +1,56 @@
+"""The runs of the experiment on classification: what is put in is counted."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from markermend import api
+from markermend.evaluation.artifacts2022 import runs as classification
+from markermend.evaluation.classification import CLASSES
+
+SUDDEN = api.Options.read(
+    {"detect": ["peaks", "noise", "steps"], **{kind: {"preset": "paper"} for kind in ("peaks", "noise", "steps")}}
+)
+
+
+@pytest.fixture(scope="module")
+def clean(walker):
+    recording = walker.recording
+    return classification.denoise(replace(recording, positions=recording.positions[:, :12], markers=recording.markers[:12]), cutoff_hz=6)  # fmt: skip
+
+
+def test_a_run_counts_every_coordinate_sample_once(clean):
+    condition = classification.Condition("paper", 10.0, 10.0)
+
+    def drawn(run):
+        return classification.run_generator(1, "walk", condition, run)
+
+    counts = classification.count_run(clean, condition, rng=drawn(3), options=SUDDEN)
+    assert counts.sum() == clean.positions.size
+    again = classification.count_run(clean, condition, rng=drawn(3), options=SUDDEN)
+    other = classification.count_run(clean, condition, rng=drawn(4), options=SUDDEN)
+    assert np.array_equal(counts, again) and not np.array_equal(counts, other)
+    distorted = (counts + other)[1:].sum() / (2 * clean.frames)
+    assert 0.2 < distorted < 0.6  # a tenth of the time for each of four classes
+
+
+def test_all_presets_meet_the_same_damage():
+    paper, default = (classification.Condition(name, 10.0, 10.0) for name in ("paper", "default"))
+    one, other = (classification.run_generator(1, "walk", condition, 0).random(3) for condition in (paper, default))
+    assert np.array_equal(one, other)
+
+
+def test_the_paper_runs_its_four_detectors_alone():
+    paper, default = (classification.Condition(name, 10.0, 10.0).options() for name in ("paper", "default"))
+    assert tuple(paper.general.detect) == CLASSES[1:] and paper.slow.preset == paper.peaks.preset == "paper"
+    assert "labels" in default.general.detect and default.slow.preset == "default"
+
+
+def test_noise_is_removed_and_motion_is_not(walker):
+    recording = walker.recording
+    noisy = replace(recording, positions=recording.positions + np.random.default_rng(0).normal(0, 1, recording.positions.shape))  # fmt: skip
+    left = classification.denoise(noisy, cutoff_hz=6).positions
+    roughness = [np.diff(positions, 2, axis=0).std() for positions in (noisy.positions, left)]
+    assert roughness[1] < 0.3 * roughness[0]
+    assert np.sqrt(((left - recording.positions) ** 2).mean()) < 1  # the noise was 1 mm
