@@ -137,9 +137,9 @@ class PublishedSlowOptions(ThresholdOptions):
     replicated_network_changes: Annotated[Mapping[str, Any], Changes(ReplicatedNetworkOptions)] = field(
         default_factory=dict
     )
-    """Options of the predictor replicated_network that differ in this stage: trained for long, the network follows slow changes.
+    """Options of the predictor replicated_network that differ in this stage.
 
-    Change it when slow changes are missed (fewer `max_iterations`), or motion is taken for slow changes (more)."""
+    Change it when training takes too long (fewer `max_iterations`)."""
 
     smoothing_window_s: PositiveSeconds = 2
     """Window of the predictors savitzky_golay and moving_median."""
@@ -163,7 +163,7 @@ class PublishedSlowOptions(ThresholdOptions):
     """Shortest time beyond the upper threshold."""
 
     min_duration_s: Seconds = 0.5
-    """Shortest time beyond the lower threshold."""
+    """Shortest time beyond the lower threshold. The paper has 0.5 s, by which most slow changes of 0.5 s are lost; its results fit 0.3 s."""
 
     slope_window_s: PositiveSeconds = 0.05
     """Window over which slopes next to earlier findings are taken."""

@@ -152,6 +152,6 @@ class SlowOptions(DetectorOptions):
     """Options of the drifts that are estimated together with the regression."""
 
     paper: PublishedSlowOptions = field(
-        default_factory=lambda: PublishedSlowOptions(scale_estimator="std", sigma_over="recording")
+        default_factory=lambda: PublishedSlowOptions(scale_estimator="std", sigma_over="marker", min_duration_s=0.3)
     )
     """Options of the preset `paper`: as published (skurowski2022)."""

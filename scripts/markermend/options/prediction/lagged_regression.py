@@ -54,7 +54,7 @@ class ReplicatedNetworkOptions(LaggedRegressionOptions):
     max_power: Count = 2
     """Highest power of a coordinate."""
 
-    max_training_frames: Annotated[int, AtLeast(10)] = 1500
+    max_training_frames: Annotated[int, AtLeast(10)] = 800
     """Training frames, at most; they are evenly spaced."""
 
     moving_average_s: PositiveSeconds = 2
@@ -71,7 +71,7 @@ class ReplicatedNetworkOptions(LaggedRegressionOptions):
     validation_share: Annotated[float, Above(0), AtMost(0.5)] = 0.15
     """Share of the frames that is held out to decide when training stops (0 to 0.5)."""
 
-    max_iterations: Count = 500
+    max_iterations: Count = 1000
     """Steps of the training, at most.
 
     Change it when you trade time for accuracy."""

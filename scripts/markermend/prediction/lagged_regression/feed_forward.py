@@ -18,6 +18,10 @@ CACHED = 200_000
 """Numbers processed at once: beyond a processor's cache, many small networks together are slower than in turn."""
 
 
+NGUYEN_WIDROW = 0.7
+"""Length of the first weights of a unit, for one input and one unit."""
+
+
 def split(parameters: np.ndarray, sizes: Sequence[int]) -> Layers:
     """Split parameters into the weights and offsets of the layers.
 
@@ -45,8 +49,8 @@ def split(parameters: np.ndarray, sizes: Sequence[int]) -> Layers:
 def initial(sizes: Sequence[int], *, rng: np.random.Generator) -> np.ndarray:
     """Draw the first parameters of one network.
 
-    Weights have a standard deviation of one over the root of the number of inputs; offsets one of 1, so that the units
-    bend at different places.
+    The hidden units bend at places that are evenly spread over inputs from -1 to 1, in random directions; the weights and offsets of
+    the output are uniform.
 
     Parameters
     ----------
@@ -59,11 +63,19 @@ def initial(sizes: Sequence[int], *, rng: np.random.Generator) -> np.ndarray:
     -------
     np.ndarray
         Parameters (n,).
+
+    References
+    ----------
+    Nguyen & Widrow (1990), "Improving the learning speed of 2-layer neural networks by choosing initial values of the adaptive
+    weights", IJCNN, with a factor of 0.7.
     """
     parts = []
-    for inputs, outputs in pairwise(sizes):
-        parts += [rng.normal(0, 1 / np.sqrt(inputs), inputs * outputs), rng.normal(0, 1, outputs)]
-    return np.concatenate(parts)
+    for inputs, units in pairwise(sizes[:-1]):
+        weights = rng.uniform(-1, 1, (inputs, units))
+        length = NGUYEN_WIDROW * units ** (1 / inputs)
+        weights *= length / np.linalg.norm(weights, axis=0)
+        parts += [weights.ravel(), length * np.linspace(-1, 1, units) * np.sign(weights[0])]
+    return np.concatenate([*parts, rng.uniform(-1, 1, sizes[-2] * sizes[-1]), rng.uniform(-1, 1, sizes[-1])])
 
 
 def activations(parameters: np.ndarray, sizes: Sequence[int], rows: np.ndarray) -> list[np.ndarray]:
@@ -136,7 +148,7 @@ def loss(
     target : np.ndarray
         Targets (networks, rows, size of one replica).
     weight : np.ndarray
-        Weights of the rows (networks, rows).
+        Weights of the square errors (networks, rows, size of one replica).
 
     Returns
     -------
@@ -149,7 +161,7 @@ def loss(
     inward = activations(parameters, sizes, rows)
     replicas = sizes[-1] // target.shape[2]
     error = inward[-1] - np.tile(target, replicas)
-    slope = error * (weight[..., None] / replicas)
+    slope = error * np.tile(weight / replicas, replicas)
     value = np.einsum("bno,bno->b", error, slope) / 2
     parts = []
     for number in range(len(layers) - 1, -1, -1):
@@ -171,14 +183,19 @@ class Stack:
         Inputs (rows, inputs) and targets (rows, size of one replica) of each network.
     sizes : Sequence[int]
         Sizes of the input, the hidden layers and the output.
+    units : Sequence[np.ndarray]
+        What one is in each target of each network, in a unit that its targets share (size of one replica,).
     """
 
-    def __init__(self, data: Sequence[tuple[np.ndarray, np.ndarray]], sizes: Sequence[int]) -> None:
+    def __init__(
+        self, data: Sequence[tuple[np.ndarray, np.ndarray]], sizes: Sequence[int], units: Sequence[np.ndarray]
+    ) -> None:
         longest = max(len(rows) for rows, _ in data)
         self.sizes = sizes
         self.rows = np.stack([_padded(rows, longest) for rows, _ in data])
         self.target = np.stack([_padded(target, longest) for _, target in data])
-        self.weight = np.stack([_padded(np.full(len(rows), 1 / len(rows)), longest) for rows, _ in data])
+        weights = [np.tile(own**2 / len(rows), (len(rows), 1)) for (rows, _), own in zip(data, units, strict=True)]
+        self.weight = np.stack([_padded(own, longest) for own in weights])
         self._together = max(1, CACHED // (longest * sum(sizes)))
 
     def loss(self, parameters: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -194,7 +211,7 @@ class Stack:
         Returns
         -------
         loss : np.ndarray
-            Half the mean square errors (b,).
+            Half the mean square errors (b,), in the unit that the targets share.
         gradient : np.ndarray
             Gradients (b, n).
         """
@@ -214,12 +231,12 @@ class Stack:
         Returns
         -------
         np.ndarray
-            Mean square errors (b,).
+            Mean square errors (b,), in the unit that the targets share.
         """
         out = []
         for own, rows, target, weight in self._blocks(parameters, which):
             difference = mean_output(own, self.sizes, rows, size=target.shape[2]) - target
-            out.append(np.einsum("bna,bna,bn->b", difference, difference, weight))
+            out.append(np.einsum("bna,bna,bna->b", difference, difference, weight))
         return np.concatenate(out)
 
     def _blocks(self, parameters: np.ndarray, which: np.ndarray) -> Iterator[tuple[np.ndarray, ...]]:

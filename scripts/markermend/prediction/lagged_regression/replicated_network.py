@@ -1,7 +1,9 @@
 """Replicated feed-forward network (skurowski2022 3.3.3): a marker from its segment mates and its own moving average.
 
 The output is replicated, and the mean of the replicas is the prediction: started at random and stopped early, they err
-in different ways. The networks of many markers are trained together.
+in different ways. Training is that of Matlab's `feedforwardnet`, by whose algorithm the paper trains: inputs and targets from -1 to 1, the
+start of Nguyen and Widrow, errors in mm, and an end when held-out frames are predicted no better. The networks of many markers are
+trained together.
 """
 
 from __future__ import annotations
@@ -58,8 +60,9 @@ class ReplicatedNetwork(LaggedRegression):
         every = round(1 / options.validation_share)
         held = [np.arange(len(own.frames)) % every == every // 2 for own in training]
         parts = list(zip(training, scalings, held, strict=True))
-        trained = Stack([scaling.data(own, ~out) for own, scaling, out in parts], sizes)
-        validation = Stack([scaling.data(own, out) for own, scaling, out in parts], sizes)
+        units = [scaling.units for scaling in scalings]
+        trained = Stack([scaling.data(own, ~out) for own, scaling, out in parts], sizes, units)
+        validation = Stack([scaling.data(own, out) for own, scaling, out in parts], sizes, units)
         start = [initial(sizes, rng=np.random.default_rng([options.seed, own.marker])) for own in training]
         return minimise(
             trained.loss,
@@ -72,23 +75,21 @@ class ReplicatedNetwork(LaggedRegression):
 
 
 class Scaling:
-    """How rows of inputs become those of the network: standardised coordinates, their powers, and the average.
+    """How rows of inputs become those of the network: coordinates, their powers, and the average, each from -1 to 1 in training.
 
     Parameters
     ----------
     training : TrainingSet
-        The training set that sets means and deviations.
+        The training set that sets the ranges.
     max_power : int
         Highest power of a coordinate.
     """
 
     def __init__(self, training: TrainingSet, max_power: int) -> None:
         self.max_power = max_power
-        self.mean, self.deviation = _moments(training.rows)
-        self.feature_mean, self.feature_deviation = np.zeros(1), np.ones(1)
-        self.feature_mean, self.feature_deviation = _moments(self.features(training.rows))
-        self.target_mean, self.target_deviation = _moments(training.target)
-        self.width = len(self.feature_mean)
+        self.centre, self.half_range = _range(self._inputs(training.rows))
+        self.target_centre, self.target_half_range = _range(training.target)
+        self.width = len(self.centre)
 
     def features(self, rows: np.ndarray) -> np.ndarray:
         """Compute the inputs of the network.
@@ -101,15 +102,13 @@ class Scaling:
         Returns
         -------
         np.ndarray
-            Standardised features (n, width).
+            Features (n, width).
         """
-        scores = (rows - self.mean) / self.deviation
-        features = np.concatenate([*powers(scores[:, :-3], self.max_power), scores[:, -3:]], axis=1)
-        standardised: np.ndarray = (features - self.feature_mean) / self.feature_deviation
-        return standardised
+        scaled: np.ndarray = (self._inputs(rows) - self.centre) / self.half_range
+        return scaled
 
     def data(self, training: TrainingSet, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Standardise some frames of a training set.
+        """Scale some frames of a training set.
 
         Parameters
         ----------
@@ -123,10 +122,16 @@ class Scaling:
         features : np.ndarray
             Inputs (m, width).
         targets : np.ndarray
-            Standardised targets (m, 3).
+            Scaled targets (m, 3).
         """
-        targets = (training.target[chosen] - self.target_mean) / self.target_deviation
+        targets = (training.target[chosen] - self.target_centre) / self.target_half_range
         return self.features(training.rows[chosen]), targets
+
+    @property
+    def units(self) -> np.ndarray:
+        """What one is in each target (3,), as a part of the largest of them: so errors count in mm."""
+        units: np.ndarray = self.target_half_range / self.target_half_range.max()
+        return units
 
     def regression(self, parameters: np.ndarray, sizes: Sequence[int]) -> Regression:
         """Make a regression of a trained network.
@@ -145,11 +150,15 @@ class Scaling:
         """
 
         def predict(rows: np.ndarray) -> np.ndarray:
-            scores = mean_output(parameters[None], sizes, self.features(rows)[None], size=3)[0]
-            positions: np.ndarray = scores * self.target_deviation + self.target_mean
+            outputs = mean_output(parameters[None], sizes, self.features(rows)[None], size=3)[0]
+            positions: np.ndarray = outputs * self.target_half_range + self.target_centre
             return positions
 
         return Regression(predict, np.nan)
+
+    def _inputs(self, rows: np.ndarray) -> np.ndarray:
+        """The coordinates, their powers, and the average (skurowski2022 eq 11)."""
+        return np.concatenate([*powers(rows[:, :-3], self.max_power), rows[:, -3:]], axis=1)
 
 
 def moving_average(trajectory: np.ndarray, window: int) -> np.ndarray:
@@ -180,6 +189,7 @@ def moving_average(trajectory: np.ndarray, window: int) -> np.ndarray:
     return np.stack([np.interp(frames, known, axis) for axis in mean.T], axis=1)
 
 
-def _moments(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and standard deviation of each column, the latter bounded from below."""
-    return rows.mean(axis=0), np.maximum(rows.std(axis=0), MIN_DEVIATION_MM)
+def _range(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centre and half the range of each column, the latter bounded from below."""
+    least, largest = rows.min(axis=0), rows.max(axis=0)
+    return (least + largest) / 2, np.maximum((largest - least) / 2, MIN_DEVIATION_MM)

@@ -13,7 +13,8 @@ from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 from support.signals import RATES, find_in, frames, neighbours, options_of, put
 
-PAPER = options_of("slow", "paper")
+PAPER = replace(options_of("slow", "paper"), min_duration_s=0.5)
+"""With the shortest slow change as printed."""
 ROBUST = replace(PAPER, scale_estimator="mad", sigma_over="coordinate")
 """The scale of the residual is not widened by what is to be found."""
 
