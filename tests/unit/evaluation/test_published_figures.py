@@ -2,9 +2,10 @@
 
 from itertools import product
 
+import pandas as pd
 import pytest
 
-from markermend.evaluation.published_figures import published_descriptors, published_errors, read_published
+from markermend.evaluation.published_figures import beside, published_descriptors, published_errors, read_published
 from markermend.prediction.registry import REGISTRY
 from support.paths import PROJECT
 
@@ -76,4 +77,31 @@ def test_tables_that_are_no_such_tables_are_refused(tmp_path):
         read_published(path)
     path.write_text(HEADER + 2 * "1\tstatic\t10\tspline\t\trmse\t0.3\n", encoding="utf-8")
     with pytest.raises(ValueError, match="line 3: this figure was there before"):
+        read_published(path)
+
+
+def test_figures_stand_beside_ours_the_one_with_more_keys_first(tmp_path):
+    path = tmp_path / "figures.tsv"
+    path.write_text(
+        "table\tamplitude_mm\tclass\tmethod\tquantity\trelation\tvalue\n"
+        "1\t\tpeaks\t\tTPR\t>\t50\n1\t10\tpeaks\t\tTPR\t\t90\n1\t\tnoise\t\tTPR\t>=\t4\n1\t\tnoise\t\tTPR\t<=\t8.0\n"
+        "1\t\tsteps\tlinear\tTPR\t\t1\n",
+        encoding="utf-8",
+    )
+    figures = read_published(path)
+    ours = pd.DataFrame(
+        {"amplitude_mm": [5.0, 10.0, 5.0, 5.0], "class": ["peaks", "peaks", "noise", "steps"], "TPR": 1.0}
+    )
+    found = beside(ours, figures, on=["amplitude_mm", "class"])
+    assert found["published"].tolist() == ["> 50", "90", "4 to 8.0", ""]
+    assert found.drop(columns="published").equals(ours)
+
+
+@pytest.mark.parametrize(
+    ("row", "message"), [("1\ta\tx\t\tmuch", "no number"), ("1\ta\tx\t~\t1", "the relation is none of")]
+)
+def test_wrong_figures_are_named(tmp_path, row, message):
+    path = tmp_path / "figures.tsv"
+    path.write_text(f"table\tmethod\tquantity\trelation\tvalue\n{row}\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=f"line 2: .*{message}"):
         read_published(path)

@@ -1,0 +1,60 @@
+"""The experiments of a run: their recordings, files and targets."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from markermend.evaluation.experiments import PAPERS, make_experiments, only_experiments
+from markermend.planning.recordings import Entry
+
+GIVEN = [
+    Entry("S1", "walk", "/data/S1/walk.c3d"),
+    Entry("S2", "walk", "/data/S2/walk.trc", rate=120.0),
+    Entry("S2", "a b", "/data/S2/a b.trc"),
+]
+
+
+def about(recording="walk", paper="artifacts2022"):
+    return SimpleNamespace(recording=recording, paper=paper)
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_without_recordings_each_paper_has_synthetic_ones(paper):
+    papers = make_experiments({}, [], "/out/papers")
+    known = papers.options.synthetic.activities
+    assert papers.recordings(paper) and set(papers.recordings(paper)) <= set(known)
+    assert papers.source(about()) == []
+    assert papers.recording_flags(about())[0].startswith('--synthetic={"activities": ')
+    assert all(file.startswith(f"/out/papers/{paper}/") for jobs in papers.jobs[paper].values() for file in jobs.files)
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_claims_are_among_the_tables_of_a_page(paper):
+    papers = make_experiments({}, [], "/out/papers")
+    assert f"/out/papers/{paper}/tables/claims.tsv" in papers.tables(about(paper=paper))
+    assert set(papers.tables(about(paper=paper))) <= set(papers.all_tables)
+
+
+def test_given_recordings_are_named_by_their_folders_and_by_their_subjects_where_they_share_a_name():
+    papers = make_experiments({"evaluate": {"max_duration_s": 10}}, GIVEN, "/out/papers")
+    assert list(papers.named) == ["S1_walk", "S2_walk", "a%20b"]
+    assert papers.recordings("artifacts2022") == list(papers.named)
+    assert papers.source(about("a%20b")) == ["/data/S2/a b.trc"]
+    assert papers.recording_flags(about("S2_walk")) == ["--source=/data/S2/walk.trc", "--rate=120", "--max-duration-s=10"]  # fmt: skip
+    assert papers.sizes(about())[0] == "/out/papers/recordings/S1_walk.tsv"
+
+
+@pytest.mark.parametrize(
+    ("targets", "expected"),
+    [
+        ([], False),
+        (["all"], False),
+        (["papers"], True),
+        (["artifacts2022", "report"], False),
+        (["artifacts2022_tables"], True),
+        (["/out/papers/index.html"], True),
+        (["/out/report/index.html"], False),
+    ],
+)
+def test_a_run_for_papers_alone_cleans_nothing(targets, expected):
+    assert only_experiments(targets, "/out/papers") is expected

@@ -1,0 +1,20 @@
+"""Tables read back as they were written."""
+
+import numpy as np
+import pandas as pd
+
+from markermend.evaluation.table_files import read_table, read_tables, write_table
+
+
+def test_numbers_and_texts_come_back(tmp_path):
+    table = pd.DataFrame(
+        {"method": ["a", "NA"], "run": [0, 1], "error": [0.5, np.nan], "published": ["> 1", ""], "none": ["", ""]}
+    )
+    for name in ("one", "other"):
+        write_table(tmp_path / f"{name}.tsv", table)
+    read = read_table(tmp_path / "one.tsv")
+    pd.testing.assert_frame_equal(read, table, check_dtype=False)
+    assert read["run"].dtype.kind == "i" and read["error"].dtype.kind == "f"
+    both = read_tables([tmp_path / "one.tsv", tmp_path / "other.tsv"])
+    assert len(both) == 4 and both["method"].tolist() == ["a", "NA"] * 2
+    assert (tmp_path / "one.tsv").read_bytes() == (tmp_path / "other.tsv").read_bytes()
