@@ -4,13 +4,17 @@ Reads: the recordings, if any; the options below `evaluate` in the config; the p
 Writes: {results}/papers/ with index.html, plotly.min.js, the prepared recordings, and a folder for each paper with its page and tables.
 """
 
-from markermend.evaluation.experiments import TARGETS, make_experiments, only_experiments
+from markermend.evaluation.experiments import make_experiments, of_experiments, only_experiments
 from markermend.options.reader import BadOptions
 
 try:
     papers = make_experiments(config, list(plan.entries.values()), plan.files.papers)
 except BadOptions as error:
     raise WorkflowError(f"The options of the experiments cannot be used (see config/evaluate/full.yaml):\n{error}")
+
+# Snakemake names its targets only when it has read this file: what is missing is said now where none of the experiments is asked for.
+if plan.missing and workflow.is_main_process and not any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
+    raise WorkflowError(plan.missing)
 
 PUBLISHED = PROJECT / "config/evaluate/published"
 

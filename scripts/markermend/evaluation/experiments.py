@@ -187,9 +187,22 @@ def only_experiments(targets: Collection[Any], folder: str) -> bool:
     bool
         Whether there is a target, and all of them are of the experiments.
     """
-    return bool(targets) and all(_of_experiments(str(target), folder) for target in targets)
+    return bool(targets) and all(of_experiments(str(target), folder) for target in targets)
 
 
-def _of_experiments(target: str, folder: str) -> bool:
-    """Whether a target is one of the experiments."""
+def of_experiments(target: str, folder: str) -> bool:
+    """Say whether a target is one of the experiments.
+
+    Parameters
+    ----------
+    target : str
+        Name of a rule or of a file.
+    folder : str
+        The folder of the experiments' results.
+
+    Returns
+    -------
+    bool
+        Whether it is.
+    """
     return target.startswith(TARGETS) or os.path.abspath(target).startswith(folder + os.sep)
