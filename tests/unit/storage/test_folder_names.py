@@ -32,9 +32,9 @@ def test_everything_else_is_percent_encoded(name, folder):
     assert decode(folder) == name
 
 
-@pytest.mark.parametrize("name", ["report", "Report"])
+@pytest.mark.parametrize("name", ["report", "Report", "papers"])
 def test_reserved_names_are_encoded(name):
-    assert encode(name, RESERVED_SUBJECTS) == f"%{ord(name[0]):02X}eport"
+    assert encode(name, RESERVED_SUBJECTS) == f"%{ord(name[0]):02X}{name[1:]}"
     assert decode(encode(name, RESERVED_SUBJECTS)) == name
     assert encode(name, RESERVED_RECORDINGS) == name
 
