@@ -24,6 +24,8 @@ ENVIRONMENTS = {
     "artifacts2022_runs": ("evaluate",),
     "artifacts2022_tables": ("evaluate",),
     "papers_index": ("evaluate",),
+    "pma2018_runs": ("evaluate",),
+    "pma2018_tables": ("evaluate",),
     "papers_page": ("evaluate",),
     "papers_recording": ("evaluate",),
     "papers_script": ("evaluate",),

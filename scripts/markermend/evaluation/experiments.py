@@ -16,11 +16,12 @@ from typing import Any, Protocol
 from markermend.evaluation.artifacts2022 import jobs as artifacts2022
 from markermend.evaluation.jobs import Jobs
 from markermend.evaluation.options import EvaluationOptions, read_options, write_flag
+from markermend.evaluation.pma2018 import jobs as pma2018
 from markermend.options.general import EXPERIMENTS
 from markermend.options.values import text
 from markermend.planning.recordings import Entry
 
-PAPERS: Mapping[str, ModuleType] = {"artifacts2022": artifacts2022}
+PAPERS: Mapping[str, ModuleType] = {"pma2018": pma2018, "artifacts2022": artifacts2022}
 """The modules that name the jobs and tables of each paper, by the names of the targets, which are those of their options."""
 
 TARGETS = (*PAPERS, "papers")

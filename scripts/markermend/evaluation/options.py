@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, TypeVar
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
+from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.options.declaration import (
     Above,
     CountOrNone,
@@ -69,6 +70,9 @@ class EvaluationOptions:
 
     artifacts2022: Artifacts2022Options = field(default_factory=Artifacts2022Options)
     """Detection of artifacts (skurowski2022)."""
+
+    pma2018: Pma2018Options = field(default_factory=Pma2018Options)
+    """Filling of gaps by model averaging (tits2018)."""
 
 
 def read_options(value: Any) -> EvaluationOptions:

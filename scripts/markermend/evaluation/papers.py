@@ -8,6 +8,10 @@ import pandas as pd
 
 from markermend.evaluation.artifacts2022 import page as artifacts2022
 from markermend.evaluation.pages import Page
+from markermend.evaluation.pma2018 import page as pma2018
 
-PAGES: Mapping[str, Callable[[Mapping[str, pd.DataFrame]], Page]] = {"artifacts2022": artifacts2022.make_page}
+PAGES: Mapping[str, Callable[[Mapping[str, pd.DataFrame]], Page]] = {
+    "pma2018": pma2018.make_page,
+    "artifacts2022": artifacts2022.make_page,
+}
 """What makes the page of each paper of its tables; see experiments.PAPERS."""

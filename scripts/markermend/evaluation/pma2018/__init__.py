@@ -1,0 +1,1 @@
+"""The experiments of the model averaging paper (tits2018)."""

@@ -1,0 +1,192 @@
+"""What the model averaging paper states, and whether it holds here (tits2018, Results)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+import pandas as pd
+
+from markermend.evaluation.claims import Claim, claims_table, verdict
+from markermend.evaluation.pma2018.methods import average
+from markermend.evaluation.pma2018.options import Pma2018Options
+from markermend.evaluation.pma2018.tables import CONDITION
+
+SIGNIFICANT = 0.05
+"""An effect is significant if p is smaller, as in the paper."""
+
+COMPARABLE = 1.1
+"""Errors are comparable if they differ by less than this factor."""
+
+NOT_RUN = "the methods or conditions were not run"
+"""Why a statement was not tested."""
+
+NO_SUCH_SEQUENCE = "the recording of this sequence is not among those that were run"
+"""Why a statement on one sequence was not tested."""
+
+
+def judge(tables: Mapping[str, pd.DataFrame], options: Pma2018Options) -> pd.DataFrame:
+    """Judge what the paper states.
+
+    Parameters
+    ----------
+    tables : mapping of str to DataFrame
+        The tables of the paper by their names, without the claims.
+    options : Pma2018Options
+        What was run.
+
+    Returns
+    -------
+    DataFrame
+        See claims.claims_table.
+    """
+    lengths, gap_counts = (wide(tables[name]) for name in ("lengths", "gap_counts"))
+    durations = wide(tables["durations"])
+    return claims_table(
+        [
+            *_on_models(lengths, options),
+            *_on_averages(pd.concat([lengths, durations, gap_counts]), options),
+            *_on_durations(durations, options),
+            _growing(gap_counts, "gaps", "The error of all methods grows with the number of concurrent gaps"),
+            *_on_means(tables["means"]),
+            *_on_constraints(tables["constraints"]),
+        ]
+    )
+
+
+def wide(table: pd.DataFrame) -> pd.DataFrame:
+    """Arrange the mean errors of a figure by recording and condition.
+
+    Parameters
+    ----------
+    table : DataFrame
+        See tables.figure_table.
+
+    Returns
+    -------
+    DataFrame
+        One row for each recording and condition, one column for each published method, mm; the levels of the index are `sequence`,
+        `recording` and those of the condition.
+    """
+    own = table[table["method"] != "default"]
+    own = own.assign(duration_s=own["duration_s"].astype(float).fillna(np.inf))
+    return own.pivot(index=["sequence", "recording", *CONDITION], columns="method", values="error_mm")
+
+
+def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
+    """On Figure 4."""
+    claim = "BoLeRo has larger errors than all other methods"
+    if "bolero" in lengths:
+        others = lengths.drop(columns="bolero").max(axis=1)
+        largest = lengths["bolero"] > others
+        yield _counted(claim, "in all conditions of CMU1 and CMU3", largest)
+    else:
+        yield Claim(claim, "in all conditions of CMU1 and CMU3", "", verdict(None), NOT_RUN)
+    yield _growing(lengths, "length_s", "The error of all methods grows with the length of the gaps")
+    claim = "On CMU1 the local GRNN is the best single model in gaps of 5 s"
+    own = lengths[
+        (lengths.index.get_level_values("sequence") == "CMU1") & (lengths.index.get_level_values("length_s") == 5)
+    ]
+    known = [name for name in options.models if name in own]
+    if own.empty or "local_grnn" not in known:
+        yield Claim(claim, "20.2 mm", "", verdict(None), NO_SUCH_SEQUENCE if own.empty else NOT_RUN)
+        return
+    errors = own[known].iloc[0]
+    best = str(errors.idxmin())
+    ours = f"{errors['local_grnn']:.1f} mm" + ("" if best == "local_grnn" else f"; {best} {errors[best]:.1f} mm")
+    yield Claim(claim, "20.2 mm", ours, verdict(best == "local_grnn"))
+
+
+def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
+    """On the averages in Figures 4 to 6; errors: all conditions, some of them twice."""
+    errors = errors[~errors.index.duplicated()]
+    names = [average(numbers, options).name for numbers in options.averages]
+    names = [name for name in names if name in errors]
+    models = [name for name in options.models if name in errors]
+    claims = (
+        "The averages have errors like that of the best single model of the condition, or smaller ones",
+        "The average of models 1, 3, 4 and 5 is the best",
+        "Local interpolation is the least effective single model",
+    )
+    published = (f"comparable (here: less than {COMPARABLE:g} times)", "pma_1_3_4_5", "local_interpolation")
+    if not names or len(models) < 2:
+        yield from (
+            Claim(claim, figures, "", verdict(None), NOT_RUN) for claim, figures in zip(claims, published, strict=True)
+        )
+        return
+    ratio = errors[names].div(errors[models].min(axis=1), axis=0)
+    yield _counted(claims[0], published[0], (ratio < COMPARABLE).stack())
+    for claim, figure, own, pick in ((claims[1], published[1], names, "min"), (claims[2], published[2], models, "max")):
+        means = np.exp(np.log(errors[own]).mean())
+        chosen = str(means.idxmin() if pick == "min" else means.idxmax())
+        ours = "; ".join(f"{name} {value:.2f} mm" for name, value in means.items())
+        yield Claim(claim, figure, f"geometric means: {ours}", verdict(chosen == figure))
+
+
+def _on_durations(durations: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
+    """On Figure 5."""
+    claim = "Errors are larger in fragments of 5 s than of 10 s"
+    levels = durations.index.get_level_values("duration_s")
+    short, longer = (durations[levels == duration].droplevel("duration_s") for duration in (5, 10))
+    both = short.index.intersection(longer.index)
+    if len(both):
+        yield _counted(claim, "on most sequences", (short.loc[both] > longer.loc[both]).stack(), share=0.5)
+    else:
+        yield Claim(claim, "on most sequences", "", verdict(None), "no recording has fragments of both durations")
+
+
+def _growing(errors: pd.DataFrame, level: str, claim: str) -> Claim:
+    """A claim that all errors are larger at the last value of a level of the condition than at the first."""
+    values = errors.index.get_level_values(level)
+    if errors.empty or values.min() == values.max():
+        return Claim(claim, "all", "", verdict(None), NOT_RUN)
+    first, last = (errors[values == value].droplevel(level) for value in (values.min(), values.max()))
+    both = first.index.intersection(last.index)
+    return _counted(claim, "all", (last.loc[both] > first.loc[both]).stack())
+
+
+def _counted(claim: str, published: str, holds: pd.Series, *, share: float = 1.0) -> Claim:
+    """A claim that holds if it does in a share of the cases."""
+    if holds.empty:
+        return Claim(claim, published, "", verdict(None), NOT_RUN)
+    ours = f"in {int(holds.sum())} of {len(holds)}"
+    return Claim(claim, published, ours, verdict(bool(holds.mean() >= share)))
+
+
+def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
+    """On Figure 7: the best single models, and the mean errors that the text states."""
+    rows = (
+        ("lengths", 5.0, np.nan, "local_grnn", "In gaps of 5 s the local GRNN has the smallest mean error of all single models"),
+        ("durations", 1.0, 5.0, "local_grnn", "In fragments of 5 s the local GRNN has the smallest mean error of all single models"),
+        ("durations", 1.0, 40.0, "linear_regression", "In fragments of 40 s the global regression has the smallest mean error of all single models"),
+    )  # fmt: skip
+    for figure, length, duration, method, claim in rows:
+        own = means[(means["figure"] == figure) & (means["length_s"] == length)]
+        own = own[(own["duration_s"] == duration) | (np.isnan(duration) & own["duration_s"].isna())]
+        own = own[~own["method"].str.startswith(("pma", "default"))].set_index("method")
+        if method not in own.index:
+            yield Claim(claim, "", "", verdict(None), NOT_RUN)
+            continue
+        best = str(own["error_mm"].idxmin())
+        ours = "; ".join(f"{name} {own.loc[name, 'error_mm']:.1f} mm" for name in dict.fromkeys((best, method)))
+        yield Claim(claim, f"{own.loc[method, 'published']} mm", ours, verdict(best == method))
+
+
+def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
+    """On Tables 2 and 3: sign and significance of the effect, and the errors."""
+    if constraints.empty:
+        yield Claim("The constraints reduce the error", "", "", verdict(None), NOT_RUN)
+    for row in constraints[constraints["sequence"] != ""].itertuples():
+        where = f"{row.sequence}, {row.gaps} gaps of {row.length_s:g} s (Table {row.table}, {row.procedure})"
+        printed = float(row.p_published.strip("< ").replace("10e", "1e"))
+        significant = printed < SIGNIFICANT
+        effect = "significantly reduce the error" if significant else "have no significant effect"
+        published = f"{row.unconstrained_published} to {row.constrained_published} mm, p {row.p_published}"
+        ours = f"{row.unconstrained_mm:.1f} to {row.constrained_mm:.1f} mm, p {row.p:.2g}"
+        same = (row.p < SIGNIFICANT) == significant and (row.difference_mm > 0 or not significant)
+        yield Claim(f"The constraints {effect}: {where}", published, ours, verdict(bool(same)))
+        allowed = 2 * np.sqrt(2) * row.constrained_standard_error_mm
+        near = abs(row.constrained_mm - float(row.constrained_published)) <= allowed
+        spread = f"{row.constrained_mm:.1f} mm, standard error {row.constrained_standard_error_mm:.1f}"
+        text = f"The mean error with the constraints is as published, within chance: {where}"
+        yield Claim(text, f"{row.constrained_published} mm", spread, verdict(bool(near)))

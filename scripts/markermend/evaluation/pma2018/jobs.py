@@ -1,0 +1,147 @@
+"""The jobs and tables of the model averaging paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from markermend.evaluation.jobs import Jobs, batches
+from markermend.evaluation.options import write_flag
+from markermend.evaluation.pma2018.options import Pma2018Options, Procedure
+
+TABLES = ("lengths", "durations", "gap_counts", "means", "constraints", "claims")
+"""The tables of the paper, by the names of their files."""
+
+FIGURES: Mapping[Procedure, tuple[str, ...]] = {
+    "text": ("lengths", "durations", "gap_counts"),
+    "bolero": ("lengths",),
+    "default": ("lengths", "durations", "gap_counts"),
+    "program": (),
+}
+"""The tables of figures for which each procedure is run: in the paper BoLeRo is in Figure 4 alone."""
+
+TESTED: tuple[Procedure, ...] = ("text", "program")
+"""The procedures on which the constraints are tested."""
+
+
+PRESETS: Mapping[Procedure, tuple[str, ...]] = {
+    "text": ("published_pma_text",),
+    "program": ("published_pma_code",),
+    "bolero": ("published_pma_text",),
+    "default": (),
+}
+"""The preset that each procedure follows; none for our ensemble."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """The gaps that are hidden.
+
+    Attributes
+    ----------
+    gaps : int
+        Their number.
+    length_s : float
+        Their length, s.
+    duration_s : float or None
+        Duration of the fragment in which they lie, s; None for the whole recording.
+    """
+
+    gaps: int
+    length_s: float
+    duration_s: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Its name in the names of files, such as `g3_L1` or `g3_L1_T5`."""
+        whole = f"g{self.gaps}_L{self.length_s:g}"
+        return whole if self.duration_s is None else f"{whole}_T{self.duration_s:g}"
+
+    @classmethod
+    def read(cls, name: str) -> Condition:
+        """Read a name.
+
+        Parameters
+        ----------
+        name : str
+            See `Condition.name`.
+
+        Returns
+        -------
+        Condition
+            The condition.
+        """
+        given = {part[0]: part[1:] for part in name.split("_")}
+        return cls(int(given["g"]), float(given["L"]), float(given["T"]) if "T" in given else None)
+
+
+def figure_conditions(options: Pma2018Options) -> dict[str, list[Condition]]:
+    """List the conditions of each figure.
+
+    Parameters
+    ----------
+    options : Pma2018Options
+        What is run.
+
+    Returns
+    -------
+    dict of str to list of Condition
+        By the name of the table of the figure.
+    """
+    return {
+        "lengths": [Condition(options.gaps, length) for length in options.lengths_s],
+        "durations": [Condition(options.gaps, options.length_s, duration) for duration in options.durations_s],
+        "gap_counts": [Condition(count, options.length_s) for count in options.gap_counts],
+    }
+
+
+def tested_conditions(options: Pma2018Options) -> dict[str, Condition]:
+    """List the conditions under which the constraints are tested.
+
+    Parameters
+    ----------
+    options : Pma2018Options
+        What is run.
+
+    Returns
+    -------
+    dict of str to Condition
+        By the number of the published table.
+    """
+    return {table: Condition(test.gaps, test.length_s) for table, test in options.constraint_tests.items()}
+
+
+def jobs(options: Pma2018Options, recordings: Sequence[str], folder: str) -> Mapping[str, Jobs]:
+    """List the jobs of the experiments.
+
+    Parameters
+    ----------
+    options : Pma2018Options
+        What is run.
+    recordings : sequence of str
+        Names of the recordings.
+    folder : str
+        The folder of the paper's results.
+
+    Returns
+    -------
+    mapping of str to Jobs
+        The jobs of each rule, by the name of the folder of its tables.
+    """
+    rows = tuple((recording, *row) for recording, row in product(recordings, _rows(options)))
+    read = write_flag(options, "models", "averages", "tested_average", "constraint_tests")
+    return {"runs": Jobs(folder, "runs", ("recording", "procedure", "condition", "batch"), rows, read)}
+
+
+def _rows(options: Pma2018Options) -> Iterator[tuple[str, str, str]]:
+    """Procedure, condition and batch of each job of a recording."""
+    figures = figure_conditions(options)
+    for procedure in options.procedures:
+        runs = {condition: options.runs for figure in FIGURES[procedure] for condition in figures[figure]}
+        if procedure in TESTED:
+            for condition in tested_conditions(options).values():
+                runs[condition] = max(runs.get(condition, 0), options.constraint_runs)
+        for condition, count in runs.items():
+            for batch in batches(count, options.batch):
+                yield procedure, condition.name, batch

@@ -1,0 +1,79 @@
+"""The methods of the experiments: single models, and averages of several, with and without the constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from markermend.evaluation.pma2018.jobs import Condition, tested_conditions
+from markermend.evaluation.pma2018.options import Pma2018Options, Procedure
+
+UNCONSTRAINED = "_unconstrained"
+"""What is added to the name of a method without the constraints."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A single model, or the average of several.
+
+    Attributes
+    ----------
+    name : str
+        Its name in the tables.
+    models : tuple of str
+        The predictors, by their names in `fill.members`.
+    constrained : bool
+        Whether the time and the spacing constraint are applied.
+    """
+
+    name: str
+    models: tuple[str, ...]
+    constrained: bool = True
+
+
+def published_methods(procedure: Procedure, condition: Condition, options: Pma2018Options) -> list[Method]:
+    """List the methods that fill the gaps of a condition.
+
+    Parameters
+    ----------
+    procedure : str
+        `text`, `program` or `bolero`.
+    condition : Condition
+        The condition; where the constraints are tested, the tested average is also computed without them.
+    options : Pma2018Options
+        Models and averages.
+
+    Returns
+    -------
+    list of Method
+        Single models, averages, and the average without the constraints.
+    """
+    if procedure == "bolero":
+        return [Method("bolero", ("bolero",))]
+    singles = [Method(model, (model,)) for model in options.models]
+    averages = [average(numbers, options) for numbers in options.averages]
+    if procedure == "program":
+        singles, averages = [], [average(options.tested_average, options)]
+    if condition not in tested_conditions(options).values():
+        return [*singles, *averages]
+    tested = average(options.tested_average, options)
+    free = replace(tested, name=tested.name + UNCONSTRAINED, constrained=False)
+    return list(dict.fromkeys([*singles, *averages, tested, free]))
+
+
+def average(numbers: Sequence[int], options: Pma2018Options) -> Method:
+    """Name the average of several models.
+
+    Parameters
+    ----------
+    numbers : sequence of int
+        The numbers of the models in the paper.
+    options : Pma2018Options
+        The models.
+
+    Returns
+    -------
+    Method
+        The average, with the constraints.
+    """
+    return Method(f"pma_{'_'.join(map(str, numbers))}", tuple(options.models[number - 1] for number in numbers))
