@@ -21,6 +21,7 @@ include: "workflow/rules/detect.smk"
 include: "workflow/rules/restore.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/gaps2021.smk"
 include: "workflow/rules/pma2018.smk"
 include: "workflow/rules/artifacts2022.smk"
 

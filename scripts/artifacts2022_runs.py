@@ -10,6 +10,7 @@ from markermend.evaluation.artifacts2022 import runs
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
 from markermend.evaluation.jobs import run_numbers
 from markermend.evaluation.options import read_flag
+from markermend.evaluation.recordings import denoise
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 
@@ -30,9 +31,7 @@ def main(argv: list[str] | None = None) -> None:
     flags = parser.parse_args(argv)
     options = read_flag(Artifacts2022Options, flags.options)
     condition = runs.Condition(flags.preset, flags.amplitude_mm, flags.share_percent)
-    clean = stage_files.read_recording(flags.prepared)
-    if options.denoise_hz is not None:
-        clean = runs.denoise(clean, cutoff_hz=options.denoise_hz)
+    clean = denoise(stage_files.read_recording(flags.prepared), cutoff_hz=options.denoise_hz)
     counts = [
         (run, runs.count_run(clean, condition, rng=runs.run_generator(flags.seed, flags.recording, condition, run)))
         for run in flags.batch

@@ -20,7 +20,8 @@ def main(argv: list[str] | None = None) -> None:
     papers = {}
     for name, make_page in PAGES.items():
         tables = {path.stem: read_table(path) for path in flags.tables if path.parts[-3] == name}
-        papers[name] = (make_page(tables), tables["claims"])
+        if tables:
+            papers[name] = (make_page(tables), tables["claims"])
     atomic.write_text(flags.index, papers_page(papers))
 
 

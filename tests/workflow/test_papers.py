@@ -42,7 +42,7 @@ def test_given_recordings_take_the_place_of_synthetic_ones(project):
     done = run(project, "--dry-run", "papers", *QUICK, config=[f"recordings={project.recordings}"])
     assert done.returncode == 0, done.stdout
     assert "Prepare S01_a" in done.stdout and "Prepare S02_a" in done.stdout
-    assert "walk" not in done.stdout and "ingest" not in done.stdout
+    assert "Prepare walk" not in done.stdout and "ingest" not in done.stdout
 
 
 def test_options_that_cannot_be_used_are_named(project, tmp_path):

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
 from typing import Any, Protocol
 
 from markermend.evaluation.artifacts2022 import jobs as artifacts2022
+from markermend.evaluation.gaps2021 import jobs as gaps2021
 from markermend.evaluation.jobs import Jobs
 from markermend.evaluation.options import EvaluationOptions, read_options, write_flag
 from markermend.evaluation.pma2018 import jobs as pma2018
@@ -21,7 +22,7 @@ from markermend.options.general import EXPERIMENTS
 from markermend.options.values import text
 from markermend.planning.recordings import Entry
 
-PAPERS: Mapping[str, ModuleType] = {"pma2018": pma2018, "artifacts2022": artifacts2022}
+PAPERS: Mapping[str, ModuleType] = {"gaps2021": gaps2021, "pma2018": pma2018, "artifacts2022": artifacts2022}
 """The modules that name the jobs and tables of each paper, by the names of the targets, which are those of their options."""
 
 TARGETS = (*PAPERS, "papers")
@@ -75,6 +76,27 @@ class Experiments:
             Their names.
         """
         return list(self.named or getattr(self.options, paper).synthetic)
+
+    def subject(self, paper: str) -> Callable[[Wildcards], list[str]]:
+        """Name the prepared recordings of a subject.
+
+        Parameters
+        ----------
+        paper : str
+            Name of the paper.
+
+        Returns
+        -------
+        callable
+            Gives for a recording those of a paper's recordings that are of the same subject, as all synthetic ones are.
+        """
+
+        def files(wildcards: Wildcards) -> list[str]:
+            own = self.named.get(wildcards.recording)
+            same = [name for name in self.recordings(paper) if own is None or self.named[name].subject == own.subject]
+            return [self.recording.format(recording=name) for name in same]
+
+        return files
 
     @cached_property
     def jobs(self) -> dict[str, Mapping[str, Jobs]]:
@@ -140,6 +162,23 @@ class Experiments:
         """All options of a paper, for its page; see `Experiments.table`."""
         own = getattr(self.options, wildcards.paper)
         return write_flag(own, *vars(own))
+
+    def flag(self, paper: str, *names: str) -> Callable[[object], str]:
+        """Give options of a paper to a command: a function, so that Snakemake leaves braces in values as they are.
+
+        Parameters
+        ----------
+        paper : str
+            Name of the paper.
+        *names : str
+            The options that the command reads.
+
+        Returns
+        -------
+        callable
+            Gives JSON for any wildcards.
+        """
+        return lambda wildcards: write_flag(getattr(self.options, paper), *names)
 
     def write_lists(self) -> None:
         """Write the lists of the tables of runs that commands read."""

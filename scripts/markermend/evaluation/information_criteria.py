@@ -5,49 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 
-def akaike(mean_square_error: float, samples: int, parameters: int) -> float:
-    """Compute the Akaike information criterion.
+def information_criteria(
+    mean_square_error: np.ndarray, samples: np.ndarray, parameters: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Compute the criteria of Akaike (AIC) and Schwarz (BIC) of models.
 
     Parameters
     ----------
-    mean_square_error : float
-        Mean square error of the test data, mm².
-    samples : int
-        Number of test data. The paper does not say whether it counts frames or coordinates.
-    parameters : int
-        Number of learnable parameters.
+    mean_square_error : ndarray of float, shape (models,)
+        Mean square errors of the test data, mm².
+    samples : ndarray of int, shape (models,)
+        Numbers of test data. The paper does not say whether it counts frames or coordinates.
+    parameters : ndarray of float, shape (models,)
+        Numbers of learnable parameters.
 
     Returns
     -------
-    float
-        The criterion; less is better.
+    dict of str to ndarray of float, shape (models,)
+        `aic` and `bic`; less is better.
 
     References
     ----------
-    skurowski2021, eq 18.
+    skurowski2021, eq 17 and 18.
     """
-    return float(samples * np.log(mean_square_error) + 2 * parameters)
-
-
-def bayesian(mean_square_error: float, samples: int, parameters: int) -> float:
-    """Compute the Bayesian information criterion.
-
-    Parameters
-    ----------
-    mean_square_error : float
-        Mean square error of the test data, mm².
-    samples : int
-        Number of test data. The paper does not say whether it counts frames or coordinates.
-    parameters : int
-        Number of learnable parameters.
-
-    Returns
-    -------
-    float
-        The criterion; less is better.
-
-    References
-    ----------
-    skurowski2021, eq 17.
-    """
-    return float(samples * np.log(mean_square_error) + parameters * np.log(samples))
+    misfit = samples * np.log(mean_square_error)
+    return {"aic": misfit + 2 * parameters, "bic": misfit + parameters * np.log(samples)}

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, TypeVar
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
+from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.options.declaration import (
     Above,
@@ -67,6 +68,9 @@ class EvaluationOptions:
 
     synthetic: SyntheticOptions = field(default_factory=SyntheticOptions)
     """The recordings of a synthetic person, on which the experiments run where no recordings are given."""
+
+    gaps2021: Gaps2021Options = field(default_factory=Gaps2021Options)
+    """Reconstruction of gaps (skurowski2021)."""
 
     artifacts2022: Artifacts2022Options = field(default_factory=Artifacts2022Options)
     """Detection of artifacts (skurowski2022)."""

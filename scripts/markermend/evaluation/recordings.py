@@ -10,6 +10,7 @@ import pandas as pd
 from markermend.core.recording import Recording
 from markermend.evaluation.options import SyntheticOptions
 from markermend.evaluation.randomness import generator
+from markermend.numerics import filters
 from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 
@@ -61,6 +62,29 @@ def begin(recording: Recording, *, duration: float | None) -> Recording:
     seen = ~np.isnan(positions).all(axis=(0, 2))
     markers = tuple(name for name, own in zip(recording.markers, seen, strict=True) if own)
     return replace(recording, positions=positions[:, seen], markers=markers, unlabelled={})
+
+
+def denoise(recording: Recording, *, cutoff_hz: float | None) -> Recording:
+    """Remove the noise of a recording, as the recordings of the papers were.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording, which is not modified.
+    cutoff_hz : float or None
+        Frequency above which is noise; None for none.
+
+    Returns
+    -------
+    Recording
+        The recording with each coordinate low-passed.
+    """
+    if cutoff_hz is None:
+        return recording
+    positions = recording.positions.copy()
+    for place in np.ndindex(positions.shape[1:]):
+        positions[:, *place] = filters.low_pass(positions[:, *place], cutoff_hz=cutoff_hz, rate=recording.rate)
+    return replace(recording, positions=positions)
 
 
 def size(name: str, recording: Recording) -> pd.DataFrame:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.evaluation.options import SyntheticOptions
-from markermend.evaluation.recordings import begin, size, synthetic
+from markermend.evaluation.recordings import begin, denoise, size, synthetic
 
 
 def test_a_synthetic_recording_is_complete_and_always_the_same():
@@ -31,3 +31,16 @@ def test_the_size_of_a_recording(walker):
     assert row["duration_s"] == pytest.approx(12) and row["markers"] == 51 and row["missing_percent"] == 0
     steps = np.linalg.norm(np.diff(walker.recording.positions, axis=0), axis=2)
     assert row["mean_speed_m_per_s"] == pytest.approx(steps.mean() / 10)
+
+
+def test_noise_is_removed_and_motion_is_not(walker):
+    recording = walker.recording
+    noisy = replace(recording, positions=recording.positions + np.random.default_rng(0).normal(0, 1, recording.positions.shape))  # fmt: skip
+    left = denoise(noisy, cutoff_hz=6).positions
+    roughness = [np.diff(positions, 2, axis=0).std() for positions in (noisy.positions, left)]
+    assert roughness[1] < 0.3 * roughness[0]
+    assert np.sqrt(((left - recording.positions) ** 2).mean()) < 1  # the noise was 1 mm
+
+
+def test_nothing_is_removed_without_a_frequency(walker):
+    assert denoise(walker.recording, cutoff_hz=None) is walker.recording

@@ -12,7 +12,6 @@ from markermend import api
 from markermend.core.recording import Recording
 from markermend.evaluation.classification import CLASSES, count_samples, sample_classes
 from markermend.evaluation.randomness import generator
-from markermend.numerics import filters
 from markermend.simulation.published_contamination import contaminate_coordinates
 
 RUN_COLUMNS = ("recording", "preset", "amplitude_mm", "share_percent", "run", "true", "found", "samples")
@@ -51,27 +50,6 @@ class Condition:
         kinds = CLASSES[1:]
         chosen = {kind: {"preset": self.preset} for kind in kinds if (kind, self.preset) != ("slow", "coordinates")}
         return api.Options.read({**chosen, **({"detect": list(kinds)} if self.preset == "paper" else {})})
-
-
-def denoise(recording: Recording, *, cutoff_hz: float) -> Recording:
-    """Remove the noise of a recording, as the recordings of the paper were.
-
-    Parameters
-    ----------
-    recording : Recording
-        The recording, which is not modified.
-    cutoff_hz : float
-        Frequency above which is noise.
-
-    Returns
-    -------
-    Recording
-        The recording with each coordinate low-passed.
-    """
-    positions = recording.positions.copy()
-    for place in np.ndindex(positions.shape[1:]):
-        positions[:, *place] = filters.low_pass(positions[:, *place], cutoff_hz=cutoff_hz, rate=recording.rate)
-    return replace(recording, positions=positions)
 
 
 def count_run(

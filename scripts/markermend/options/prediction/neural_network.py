@@ -23,7 +23,7 @@ from markermend.options.declaration import (
 class NeuralNetworkOptions:
     """Neural networks (Skurowski & Pawlyta 2021), which need torch: network_linear, _tanh, _lstm, _gru and _bilstm."""
 
-    inputs: CountOrNone = 5
+    inputs: Count | None = 5
     """Neighbours that are inputs of a network, at most; `null` for the segment mates and the parent marker, all of them and no others.
 
     Change it when you repeat skurowski2021 (`null`)."""

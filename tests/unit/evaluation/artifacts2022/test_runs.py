@@ -8,6 +8,7 @@ import pytest
 from markermend import api
 from markermend.evaluation.artifacts2022 import runs as classification
 from markermend.evaluation.classification import CLASSES
+from markermend.evaluation.recordings import denoise
 
 SUDDEN = api.Options.read(
     {"detect": ["peaks", "noise", "steps"], **{kind: {"preset": "paper"} for kind in ("peaks", "noise", "steps")}}
@@ -17,7 +18,7 @@ SUDDEN = api.Options.read(
 @pytest.fixture(scope="module")
 def clean(walker):
     recording = walker.recording
-    return classification.denoise(replace(recording, positions=recording.positions[:, :12], markers=recording.markers[:12]), cutoff_hz=6)  # fmt: skip
+    return denoise(replace(recording, positions=recording.positions[:, :12], markers=recording.markers[:12]), cutoff_hz=6)  # fmt: skip
 
 
 def test_a_run_counts_every_coordinate_sample_once(clean):
@@ -45,12 +46,3 @@ def test_the_paper_runs_its_four_detectors_alone():
     paper, default = (classification.Condition(name, 10.0, 10.0).options() for name in ("paper", "default"))
     assert tuple(paper.general.detect) == CLASSES[1:] and paper.slow.preset == paper.peaks.preset == "paper"
     assert "labels" in default.general.detect and default.slow.preset == "default"
-
-
-def test_noise_is_removed_and_motion_is_not(walker):
-    recording = walker.recording
-    noisy = replace(recording, positions=recording.positions + np.random.default_rng(0).normal(0, 1, recording.positions.shape))  # fmt: skip
-    left = classification.denoise(noisy, cutoff_hz=6).positions
-    roughness = [np.diff(positions, 2, axis=0).std() for positions in (noisy.positions, left)]
-    assert roughness[1] < 0.3 * roughness[0]
-    assert np.sqrt(((left - recording.positions) ** 2).mean()) < 1  # the noise was 1 mm

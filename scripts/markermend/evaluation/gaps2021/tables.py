@@ -1,0 +1,288 @@
+"""The tables of the experiment, with the published figures beside ours (skurowski2021, Tables 2 to 6 and A1 to A12)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pandas as pd
+
+from markermend.evaluation.correlations import MIN_SEQUENCES, correlations
+from markermend.evaluation.gap_errors import error_table
+from markermend.evaluation.gaps2021.methods import METHODS, NETWORKS
+from markermend.evaluation.gaps2021.options import Gaps2021Options
+from markermend.evaluation.gaps2021.runs import COLUMNS_PER_INPUT, CONDITION
+from markermend.evaluation.information_criteria import information_criteria
+from markermend.evaluation.published_figures import beside
+from markermend.prediction.neural_network.architecture import learnable_parameters
+from markermend.prediction.neural_network.predictor import KINDS
+
+STATISTICS = ("rmse", "mean", "median", "mode", "deviation", "iqr")
+"""The statistics of the errors that the paper prints (Tables 3 and A1 to A5)."""
+
+DESCRIPTORS = ("entropy", "deviation", "velocity", "acceleration", "jerk", "monotonicity", "complexity")
+"""The descriptors that the paper prints (Table 2)."""
+
+EXEMPLARY_MARKERS = 5
+"""Inputs of the exemplary case of Table 4: its numbers follow from 30 inputs, six for each marker."""
+
+AXES = 3
+"""Coordinates of a sample: the test data of a network are coordinates."""
+
+
+def make_tables(
+    runs: pd.DataFrame, descriptors: pd.DataFrame, figures: pd.DataFrame, options: Gaps2021Options
+) -> dict[str, pd.DataFrame]:
+    """Make the tables of the experiment but that of claims.
+
+    Parameters
+    ----------
+    runs : DataFrame
+        The columns runs.RUN_COLUMNS.
+    descriptors : DataFrame
+        See runs.describe; one row for each recording.
+    figures : DataFrame
+        Those of skurowski2021; see published_figures.read_published.
+    options : Gaps2021Options
+        The networks, and which recordings are like which sequences.
+
+    Returns
+    -------
+    dict of str to DataFrame
+        The tables by the names of their files.
+    """
+    errors = describe_errors(runs, figures, options.published_as)
+    correlated = correlate(errors, descriptors, figures)
+    return {
+        "errors": errors,
+        "descriptors": list_descriptors(descriptors, figures, options.published_as),
+        "parameters": list_parameters(options, runs, figures),
+        "criteria": list_criteria(runs),
+        "correlations": correlated,
+        "mean_correlations": average_correlations(correlated, figures),
+        "descriptor_correlations": correlate_descriptors(descriptors, figures),
+    }
+
+
+def describe_errors(runs: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, str]) -> pd.DataFrame:
+    """Describe the errors of each method (Tables 3 and A1 to A5).
+
+    Parameters
+    ----------
+    runs : DataFrame
+        The columns runs.RUN_COLUMNS.
+    figures : DataFrame
+        Those of skurowski2021; see published_figures.read_published.
+    published_as : mapping of str to str
+        The sequences of the paper by the names of recordings.
+
+    Returns
+    -------
+    DataFrame
+        One row for each recording, length and method: the sequence of the paper, numbers of runs and gaps, the statistics, and each as
+        it is printed.
+    """
+    table = error_table(runs, CONDITION)
+    counts = runs.groupby(CONDITION)["run"].nunique().rename("runs").reset_index()
+    table = _ordered(table.merge(counts, on=CONDITION))
+    table["sequence"] = table["recording"].map(dict(published_as)).fillna("")
+    for name in STATISTICS:
+        printed = figures[(figures["quantity"] == name) & (figures["sequence"] != "")]
+        table = beside(table, printed, on=["sequence", "length", "method"], name=f"{name}_published")
+    pairs = [column for name in STATISTICS for column in (name, f"{name}_published")]
+    return table[["recording", "sequence", "length", "method", "runs", "gaps", "unfilled", *pairs]]
+
+
+def arrange_published(figures: pd.DataFrame) -> pd.DataFrame:
+    """Arrange the published errors as ours are.
+
+    Parameters
+    ----------
+    figures : DataFrame
+        Those of skurowski2021.
+
+    Returns
+    -------
+    DataFrame
+        One row for each sequence, length and method, with STATISTICS as columns.
+    """
+    own = figures[figures["quantity"].isin(STATISTICS) & (figures["sequence"] != "")]
+    keys = ["sequence", "length", "method"]
+    return own.pivot(index=keys, columns="quantity", values="value").reset_index()
+
+
+def list_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, str]) -> pd.DataFrame:
+    """List the descriptors of recordings (Table 2).
+
+    Parameters
+    ----------
+    descriptors : DataFrame
+        See runs.describe; one row for each recording.
+    figures : DataFrame
+        Those of skurowski2021.
+    published_as : mapping of str to str
+        The sequences of the paper by the names of recordings.
+
+    Returns
+    -------
+    DataFrame
+        One row for each recording and descriptor: the sequence of the paper, the value, and the printed one.
+    """
+    table = descriptors.melt("recording", var_name="descriptor", value_name="value")
+    table.insert(1, "sequence", table["recording"].map(dict(published_as)).fillna(""))
+    printed = figures[(figures["table"].astype(str) == "2") & (figures["quantity"] == "value")]
+    return beside(table, printed, on=["sequence", "descriptor"])
+
+
+def list_parameters(options: Gaps2021Options, runs: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
+    """Count the parameters of the networks (Table 4).
+
+    Parameters
+    ----------
+    options : Gaps2021Options
+        The sizes of the networks.
+    runs : DataFrame
+        The columns runs.RUN_COLUMNS.
+    figures : DataFrame
+        Those of skurowski2021.
+
+    Returns
+    -------
+    DataFrame
+        One row for each network: its number of parameters in the exemplary case, as it is printed, and their least and largest number
+        in our runs.
+    """
+    columns = COLUMNS_PER_INPUT * EXEMPLARY_MARKERS
+    rows = []
+    for method in NETWORKS:
+        own = runs.loc[runs["method"] == method, "parameters"].astype(float)
+        rows.append((method, learnable_parameters(KINDS[method], columns, options.networks), own.min(), own.max()))
+    table = pd.DataFrame(rows, columns=["method", "parameters", "least_of_runs", "largest_of_runs"])
+    printed = figures[figures["quantity"] == "parameters"]
+    return beside(table, printed, on=["method"])
+
+
+def list_criteria(runs: pd.DataFrame) -> pd.DataFrame:
+    """Compute the information criteria of the networks over the length of the training sequence (Figure 9).
+
+    Each gap has a network of its own, whose test data are the coordinates in the gap; figures are means over the gaps that were filled.
+
+    Parameters
+    ----------
+    runs : DataFrame
+        The columns runs.RUN_COLUMNS.
+
+    Returns
+    -------
+    DataFrame
+        One row for each recording, length and network: mean training frames, mean square error over all coordinates in mm², Akaike's and the
+        Bayesian information criterion.
+    """
+    own = runs[runs["method"].isin(NETWORKS) & runs["error"].notna() & (runs["error"] > 0)]
+    criteria = information_criteria(
+        own["error"].to_numpy(float) ** 2, AXES * own["samples"].to_numpy(), own["parameters"].to_numpy(float)
+    )
+    squares = own["samples"] * own["error"] ** 2
+    groups = own.assign(squares=squares, **criteria).groupby(CONDITION, sort=True)
+    table = groups[["training_frames", "parameters", "aic", "bic"]].mean().reset_index()
+    mean_square = (groups["squares"].sum() / groups["samples"].sum()).rename("mean_square_error").reset_index()
+    return _ordered(table.merge(mean_square, on=CONDITION))
+
+
+def correlate(errors: pd.DataFrame, descriptors: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
+    """Correlate the errors of each method with the descriptors of the recordings (Tables A6 to A12).
+
+    Parameters
+    ----------
+    errors : DataFrame
+        See describe_errors.
+    descriptors : DataFrame
+        See runs.describe.
+    figures : DataFrame
+        Those of skurowski2021.
+
+    Returns
+    -------
+    DataFrame
+        One row for each descriptor, length and method: correlation, p, number of recordings, and correlation and p as they are printed; no rows
+        for fewer than three recordings.
+    """
+    names = ["descriptor", "length", "method", "correlation", "p", "sequences"]
+    if len(descriptors) < MIN_SEQUENCES:
+        table = pd.DataFrame(columns=names)
+    else:
+        arranged = errors.pivot(index="recording", columns=["length", "method"], values="rmse")
+        table = _ordered(correlations(_indexed(descriptors), arranged))[names]
+    for name in ("correlation", "p"):
+        printed = figures[(figures["quantity"] == name) & figures["table"].astype(str).str.startswith("A")]
+        table = beside(table, printed, on=["descriptor", "length", "method"], name=f"{name}_published")
+    return table.rename(columns={"sequences": "recordings"})
+
+
+def average_correlations(table: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
+    """Average correlations over the lengths of gaps (Table 5).
+
+    Parameters
+    ----------
+    table : DataFrame
+        See correlate.
+    figures : DataFrame
+        Those of skurowski2021.
+
+    Returns
+    -------
+    DataFrame
+        One row for each descriptor and method: mean correlation, and the printed one.
+    """
+    means = table.groupby(["descriptor", "method"], sort=False)["correlation"].mean().reset_index()
+    printed = figures[(figures["table"].astype(str) == "5") & (figures["quantity"] == "correlation")]
+    return beside(means, printed, on=["descriptor", "method"])
+
+
+def correlate_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
+    """Correlate the descriptors of recordings with each other (Table 6).
+
+    Parameters
+    ----------
+    descriptors : DataFrame
+        See runs.describe.
+    figures : DataFrame
+        Those of skurowski2021.
+
+    Returns
+    -------
+    DataFrame
+        One row for each pair of descriptors: correlation, p, and both as they are printed; no rows for fewer than three recordings.
+    """
+    parts = []
+    for other in DESCRIPTORS if len(descriptors) >= MIN_SEQUENCES else ():
+        own = _indexed(descriptors)
+        table = correlations(own.drop(columns=other), own[[other]].rename_axis(columns="other"))[
+            ["descriptor", "other", "correlation", "p"]
+        ]
+        for name in ("correlation", "p"):
+            printed = figures[figures["quantity"] == f"{name}_with_{other}"]
+            table = beside(table, printed, on=["descriptor"], name=f"{name}_published")
+        parts.append(table)
+    columns = ["descriptor", "other", "correlation", "p", "correlation_published", "p_published"]
+    return pd.concat(parts, ignore_index=True)[columns] if parts else pd.DataFrame(columns=columns)
+
+
+def _indexed(descriptors: pd.DataFrame) -> pd.DataFrame:
+    """The descriptors that the paper prints, one row for each recording, named by the index."""
+    return descriptors.set_index("recording")[list(DESCRIPTORS)]
+
+
+def _ordered(table: pd.DataFrame) -> pd.DataFrame:
+    """A table with the methods in the order of the paper, within all other columns as they are."""
+    order = {method: place for place, method in enumerate(METHODS)}
+    keys = [name for name in ("descriptor", "recording", "length") if name in table]
+    ranks = {
+        name: {value: n for n, value in enumerate(dict.fromkeys(table[name]))}
+        for name in ("descriptor", "recording")
+        if name in table
+    }
+    ranked = table.assign(
+        **{f"_{name}": table[name].map(rank) for name, rank in ranks.items()}, _method=table["method"].map(order)
+    )
+    by = [f"_{name}" if name in ranks else name for name in keys]
+    return table.loc[ranked.sort_values([*by, "_method"], kind="stable").index].reset_index(drop=True)
