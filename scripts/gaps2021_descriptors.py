@@ -9,7 +9,6 @@ from pathlib import Path
 from markermend.evaluation.gaps2021 import runs
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.options import read_flag
-from markermend.evaluation.recordings import denoise
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 
@@ -22,7 +21,7 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--descriptors", type=Path, required=True, help="its descriptors, to write")
     flags = parser.parse_args(argv)
     options = read_flag(Gaps2021Options, flags.options)
-    clean = denoise(stage_files.read_recording(flags.prepared), cutoff_hz=options.denoise_hz)
+    clean = runs.prepare(stage_files.read_recording(flags.prepared), options)
     write_table(flags.descriptors, runs.describe(flags.recording, clean))
 
 

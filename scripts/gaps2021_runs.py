@@ -11,7 +11,6 @@ from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.jobs import run_numbers
 from markermend.evaluation.options import read_flag
-from markermend.evaluation.recordings import denoise
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 
@@ -29,9 +28,7 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--runs", type=Path, required=True, help="the table of runs, to write")
     flags = parser.parse_args(argv)
     options = read_flag(Gaps2021Options, flags.options)
-    subject = {
-        path.stem: denoise(stage_files.read_recording(path), cutoff_hz=options.denoise_hz) for path in flags.subject
-    }
+    subject = {path.stem: runs.prepare(stage_files.read_recording(path), options) for path in flags.subject}
     clean = subject[flags.recording]
     mesh = runs.subject_mesh(flags.recording, subject)
     drawn = runs.make_runs(flags.recording, clean, options, numbers=flags.batch, seed=flags.seed)

@@ -51,10 +51,14 @@ def jobs(options: Gaps2021Options, recordings: Sequence[str], folder: str) -> Ma
             }
         )
     ]
-    flag = write_flag(options, "denoise_hz", "mean_lengths", "gaps", "knots", "networks", "low_rank")
+    flag = write_flag(options, "max_duration_s", "denoise_hz", "mean_lengths", "gaps", "knots", "networks", "low_rank")
     return {
         "runs": Jobs(folder, "runs", keys, tuple(rows), flag),
         "descriptors": Jobs(
-            folder, "descriptors", ("recording",), product({"recording": recordings}), write_flag(options, "denoise_hz")
+            folder,
+            "descriptors",
+            ("recording",),
+            product({"recording": recordings}),
+            write_flag(options, "max_duration_s", "denoise_hz"),
         ),
     }

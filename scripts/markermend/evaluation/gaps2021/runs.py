@@ -16,6 +16,7 @@ from markermend.evaluation.gap_errors import gap_errors
 from markermend.evaluation.gaps2021.methods import DEFAULT
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.randomness import generator
+from markermend.evaluation.recordings import begin, denoise
 from markermend.evaluation.sequence_descriptors import describe_sequence
 from markermend.filling.fill import fill_gaps
 from markermend.mesh import inference
@@ -75,6 +76,24 @@ class Run:
     number: int
     gaps: Sequence[Event]
     hidden: Recording
+
+
+def prepare(recording: Recording, options: Gaps2021Options) -> Recording:
+    """Make a recording like those of the paper, which were denoised.
+
+    Parameters
+    ----------
+    recording : Recording
+        The recording, which is not modified.
+    options : Gaps2021Options
+        Longest duration, and frequency of the low-pass filter.
+
+    Returns
+    -------
+    Recording
+        The beginning of the recording, low-passed.
+    """
+    return denoise(begin(recording, duration=options.max_duration_s), cutoff_hz=options.denoise_hz)
 
 
 def subject_mesh(name: str, recordings: Mapping[str, Recording]) -> Mesh:
