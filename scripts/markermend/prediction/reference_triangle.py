@@ -323,6 +323,8 @@ def kernel_regression(inputs: np.ndarray, target: np.ndarray, at: np.ndarray, *,
     """
     square = (at**2).sum(axis=1)[:, None] - 2 * at @ inputs.T + (inputs**2).sum(axis=1)
     # The nearest weighs one, so that the weights never vanish.
-    weight = np.exp(-(square - square.min(axis=1, keepdims=True)) / (2 * width**2))
+    square -= square.min(axis=1, keepdims=True)
+    square /= -2 * width**2
+    weight = np.exp(square, out=square)
     expected: np.ndarray = weight @ target / weight.sum(axis=1, keepdims=True)
     return expected
