@@ -12,6 +12,9 @@ import pandas as pd
 PALETTE = ("#0072b2", "#d98c00", "#009e73", "#cc79a7", "#56b4e9", "#c44e00", "#8a6d00", "#7a5195", "#5a6472", "#2cc69a")
 """Colours that remain different without red or green (Okabe & Ito), on white and on dark ground."""
 
+DASHES = ("solid", "dash", "dot")
+"""Lines by how often their colour was used before."""
+
 
 @dataclass(frozen=True)
 class Axes:
@@ -84,7 +87,7 @@ def lines(
         ours = {
             "name": str(name),
             "mode": "lines+markers",
-            "line": {"color": color, "width": 2},
+            "line": {"color": color, "width": 2, "dash": DASHES[number // len(PALETTE) % len(DASHES)]},
             "y": _values(own[axes.y]),
         }
         data.append({**trace, **ours, **bars})

@@ -158,7 +158,7 @@ def cell(value: Any) -> str:
     Returns
     -------
     str
-        Numbers with SIGNIFICANT_DIGITS; an en dash where there is none.
+        Numbers with SIGNIFICANT_DIGITS at most; an en dash where there is none.
     """
     if isinstance(value, str):
         return value
@@ -169,7 +169,24 @@ def cell(value: Any) -> str:
     if abs(value) < 1e-4 or abs(value) >= 1e6:
         return f"{value:.2e}"
     digits = math.floor(math.log10(abs(value))) + 1
-    return f"{value:.{max(0, SIGNIFICANT_DIGITS - digits)}f}"
+    decimals = f"{value:.{max(0, SIGNIFICANT_DIGITS - digits)}f}"
+    return decimals.rstrip("0").rstrip(".") if "." in decimals else decimals
+
+
+def without_empty_columns(table: pd.DataFrame) -> pd.DataFrame:
+    """Leave out columns that say nothing.
+
+    Parameters
+    ----------
+    table : DataFrame
+        A table of a page.
+
+    Returns
+    -------
+    DataFrame
+        The columns in which any value is neither missing nor "".
+    """
+    return table.loc[:, [bool((table[name].notna() & (table[name] != "")).any()) for name in table]]
 
 
 def _render(template: str, **parts: Any) -> str:
@@ -181,5 +198,5 @@ def _render(template: str, **parts: Any) -> str:
 def _environment() -> Environment:
     """The templates of these pages, on top of those of the report."""
     made = rendering.environment().overlay(loader=FileSystemLoader([TEMPLATES, rendering.TEMPLATES]))
-    made.filters = {**made.filters, "cell": cell}
+    made.filters = {**made.filters, "cell": cell, "without_empty_columns": without_empty_columns}
     return made

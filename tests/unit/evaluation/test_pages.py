@@ -9,7 +9,16 @@ import pytest
 
 from markermend.evaluation.charts import Axes, lines
 from markermend.evaluation.claims import Claim, claims_table
-from markermend.evaluation.pages import LONG_TABLE, Page, Section, cell, count_claims, paper_page, papers_page
+from markermend.evaluation.pages import (
+    LONG_TABLE,
+    Page,
+    Section,
+    cell,
+    count_claims,
+    paper_page,
+    papers_page,
+    without_empty_columns,
+)
 from support.html_pages import Page as HtmlPage
 
 TABLES = {
@@ -58,9 +67,14 @@ def test_the_page_over_all_counts_statements():
 @pytest.mark.parametrize(
     ("value", "text"),
     [
-        ("> 99", "> 99"), (np.nan, "–"), (None, "–"), (3.0, "3"), (99.3226, "99.32"), (0.0307412, "0.03074"), (1234.56, "1235"),
-        (-0.0011699, "-0.001170"), (1.5e-5, "1.50e-05"), (2.5e7, "25000000"),
+        ("> 99", "> 99"), (np.nan, "–"), (None, "–"), (3.0, "3"), (0.5, "0.5"), (99.3226, "99.32"), (0.0307412, "0.03074"), (1234.56, "1235"),
+        (-0.0011699, "-0.00117"), (1.5e-5, "1.50e-05"), (2.5e7, "25000000"),
     ],
 )  # fmt: skip
 def test_numbers_have_four_significant_digits(value, text):
     assert cell(value) == text
+
+
+def test_columns_that_say_nothing_are_left_out():
+    table = pd.DataFrame({"a": ["", "x"], "b": ["", ""], "c": [np.nan, np.nan], "d": [0, 0]})
+    assert list(without_empty_columns(table)) == ["a", "d"]

@@ -10,7 +10,7 @@ function themed(layout) {
     yaxis: { ...axis, ...layout.yaxis },
     margin: { l: 56, r: 12, t: 8, b: 44 },
     font: { color: own("--ink"), size: narrow ? 11 : 12 },
-    legend: { orientation: "h", y: -0.24, x: 0 },
+    legend: { orientation: "h", yanchor: "top", y: -0.24, x: 0 },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
   };
