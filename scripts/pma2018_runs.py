@@ -24,7 +24,7 @@ def main(argv: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="pma2018_runs.py", description=__doc__, allow_abbrev=False)
     parser.add_argument("--prepared", type=Path, required=True, help="a recording")
     parser.add_argument("--recording", required=True, help="its name")
-    parser.add_argument("--procedure", required=True, help="what fills the gaps: text, program, bolero or default")
+    parser.add_argument("--procedure", required=True, help="what fills the gaps")
     parser.add_argument("--preset", type=Path, nargs="?", help="config of published filling; by default ours")
     parser.add_argument("--condition", type=Condition.read, required=True, help="gaps, length, duration: g3_L1_T5")
     parser.add_argument("--batch", type=run_numbers, required=True, help="the first run and the one after the last")
@@ -38,7 +38,7 @@ def main(argv: list[str] | None = None) -> None:
     else:
         options = read_config(yaml.safe_load(flags.preset.read_text(encoding="utf-8")))["fill"]
         own = read_flag(Pma2018Options, flags.options)
-        methods = published_methods(flags.procedure, flags.condition, own)
+        methods = published_methods(flags.procedure, own)
         fill = partial(runs.published_errors, methods=methods, options=options)
     job = runs.Job(flags.recording, flags.procedure, flags.condition)
     write_table(flags.runs, runs.run_rows(recording, job, fill, runs=flags.batch, seed=flags.seed))

@@ -9,6 +9,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from functools import cached_property
 from types import ModuleType
 from typing import Any, Protocol
@@ -19,6 +20,7 @@ from markermend.evaluation.jobs import Jobs
 from markermend.evaluation.options import EvaluationOptions, read_options, write_flag
 from markermend.evaluation.pma2018 import jobs as pma2018
 from markermend.options.general import EXPERIMENTS
+from markermend.options.reader import BadOptions
 from markermend.options.values import text
 from markermend.planning.recordings import Entry
 
@@ -75,7 +77,11 @@ class Experiments:
         list of str
             Their names.
         """
-        return list(self.named or getattr(self.options, paper).synthetic)
+        own = getattr(self.options, paper)
+        if not self.named:
+            return list(own.synthetic)
+        patterns = getattr(own, "recordings", ("*",))
+        return [name for name in self.named if any(fnmatchcase(name, pattern) for pattern in patterns)]
 
     def subject(self, paper: str) -> Callable[[Wildcards], list[str]]:
         """Name the prepared recordings of a subject.
@@ -209,7 +215,14 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
     BadOptions
         Where the options cannot be used.
     """
-    return Experiments(read_options(config.get(EXPERIMENTS)), folder, entries)
+    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, entries)
+    if unused := [
+        f"{EXPERIMENTS}.{paper}.recordings: no recording has such a name"
+        for paper in PAPERS
+        if not made.recordings(paper)
+    ]:
+        raise BadOptions("\n".join(unused))
+    return made
 
 
 def only_experiments(targets: Collection[Any], folder: str) -> bool:

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from markermend.evaluation.experiments import PAPERS, make_experiments, only_experiments
+from markermend.options.reader import BadOptions
 from markermend.planning.recordings import Entry
 
 GIVEN = [
@@ -42,6 +43,13 @@ def test_given_recordings_are_named_by_their_folders_and_by_their_subjects_where
     assert papers.source(about("a%20b")) == ["/data/S2/a b.trc"]
     assert papers.recording_flags(about("S2_walk")) == ["--source=/data/S2/walk.trc", "--rate=120", "--max-duration-s=10"]  # fmt: skip
     assert papers.sizes(about())[0] == "/out/papers/recordings/S1_walk.tsv"
+
+
+def test_a_paper_may_use_some_of_the_given_recordings():
+    papers = make_experiments({"evaluate": {"pma2018": {"recordings": ["S?_walk"]}}}, GIVEN, "/out/papers")
+    assert papers.recordings("pma2018") == ["S1_walk", "S2_walk"] and len(papers.recordings("artifacts2022")) == 3
+    with pytest.raises(BadOptions, match="no recording has such a name"):
+        make_experiments({"evaluate": {"pma2018": {"recordings": ["run"]}}}, GIVEN, "/out/papers")
 
 
 @pytest.mark.parametrize(

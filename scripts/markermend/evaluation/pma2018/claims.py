@@ -177,7 +177,7 @@ def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
     if constraints.empty:
         yield Claim("The constraints reduce the error", "", "", verdict(None), NOT_RUN)
     for row in constraints[constraints["sequence"] != ""].itertuples():
-        where = f"{row.sequence}, {row.gaps} gaps of {row.length_s:g} s (Table {row.table}, {row.procedure})"
+        where = f"{row.sequence}, {row.gaps} gaps of {row.length_s:g} s (Table {row.table}, {row.variant})"
         printed = float(row.p_published.strip("< ").replace("10e", "1e"))
         significant = printed < SIGNIFICANT
         effect = "significantly reduce the error" if significant else "have no significant effect"

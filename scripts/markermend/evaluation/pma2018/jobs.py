@@ -17,19 +17,18 @@ FIGURES: Mapping[Procedure, tuple[str, ...]] = {
     "text": ("lengths", "durations", "gap_counts"),
     "bolero": ("lengths",),
     "default": ("lengths", "durations", "gap_counts"),
-    "program": (),
 }
 """The tables of figures for which each procedure is run: in the paper BoLeRo is in Figure 4 alone."""
 
-TESTED: tuple[Procedure, ...] = ("text", "program")
-"""The procedures on which the constraints are tested."""
+TEST = "test_"
+"""What stands before the variant of the paper in the name of a procedure that tests the constraints."""
 
-
-PRESETS: Mapping[Procedure, tuple[str, ...]] = {
+PRESETS: Mapping[str, tuple[str, ...]] = {
     "text": ("published_pma_text",),
-    "program": ("published_pma_code",),
     "bolero": ("published_pma_text",),
     "default": (),
+    f"{TEST}text": ("published_pma_text",),
+    f"{TEST}program": ("published_pma_code",),
 }
 """The preset that each procedure follows; none for our ensemble."""
 
@@ -130,18 +129,15 @@ def jobs(options: Pma2018Options, recordings: Sequence[str], folder: str) -> Map
         The jobs of each rule, by the name of the folder of its tables.
     """
     rows = tuple((recording, *row) for recording, row in product(recordings, _rows(options)))
-    read = write_flag(options, "models", "averages", "tested_average", "constraint_tests")
+    read = write_flag(options, "models", "averages", "tested_average")
     return {"runs": Jobs(folder, "runs", ("recording", "procedure", "condition", "batch"), rows, read)}
 
 
 def _rows(options: Pma2018Options) -> Iterator[tuple[str, str, str]]:
     """Procedure, condition and batch of each job of a recording."""
-    figures = figure_conditions(options)
+    figures, batch = figure_conditions(options), options.batch
     for procedure in options.procedures:
-        runs = {condition: options.runs for figure in FIGURES[procedure] for condition in figures[figure]}
-        if procedure in TESTED:
-            for condition in tested_conditions(options).values():
-                runs[condition] = max(runs.get(condition, 0), options.constraint_runs)
-        for condition, count in runs.items():
-            for batch in batches(count, options.batch):
-                yield procedure, condition.name, batch
+        for condition in dict.fromkeys(own for name in FIGURES[procedure] for own in figures[name]):
+            yield from ((procedure, condition.name, each) for each in batches(options.runs, batch))
+    for (variant, runs), condition in product(options.constraint_runs.items(), tested_conditions(options).values()):
+        yield from ((TEST + variant, condition.name, each) for each in batches(runs, batch))

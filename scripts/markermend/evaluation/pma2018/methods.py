@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from markermend.evaluation.pma2018.jobs import Condition, tested_conditions
-from markermend.evaluation.pma2018.options import Pma2018Options, Procedure
+from markermend.evaluation.pma2018.jobs import TEST
+from markermend.evaluation.pma2018.options import Pma2018Options
 
 UNCONSTRAINED = "_unconstrained"
 """What is added to the name of a method without the constraints."""
@@ -31,34 +31,28 @@ class Method:
     constrained: bool = True
 
 
-def published_methods(procedure: Procedure, condition: Condition, options: Pma2018Options) -> list[Method]:
-    """List the methods that fill the gaps of a condition.
+def published_methods(procedure: str, options: Pma2018Options) -> list[Method]:
+    """List the published methods that a procedure fills gaps with.
 
     Parameters
     ----------
     procedure : str
-        `text`, `program` or `bolero`.
-    condition : Condition
-        The condition; where the constraints are tested, the tested average is also computed without them.
+        A key of jobs.PRESETS.
     options : Pma2018Options
         Models and averages.
 
     Returns
     -------
     list of Method
-        Single models, averages, and the average without the constraints.
+        The single models and averages of the figures; where the constraints are tested, the tested average with and without them.
     """
     if procedure == "bolero":
         return [Method("bolero", ("bolero",))]
+    if procedure.startswith(TEST):
+        tested = average(options.tested_average, options)
+        return [tested, replace(tested, name=tested.name + UNCONSTRAINED, constrained=False)]
     singles = [Method(model, (model,)) for model in options.models]
-    averages = [average(numbers, options) for numbers in options.averages]
-    if procedure == "program":
-        singles, averages = [], [average(options.tested_average, options)]
-    if condition not in tested_conditions(options).values():
-        return [*singles, *averages]
-    tested = average(options.tested_average, options)
-    free = replace(tested, name=tested.name + UNCONSTRAINED, constrained=False)
-    return list(dict.fromkeys([*singles, *averages, tested, free]))
+    return [*singles, *(average(numbers, options) for numbers in options.averages)]
 
 
 def average(numbers: Sequence[int], options: Pma2018Options) -> Method:

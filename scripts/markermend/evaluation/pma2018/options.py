@@ -12,7 +12,9 @@ PublishedModel = Literal[
     "linear_regression", "local_interpolation", "local_quadratic", "local_grnn", "weighted_pca", "bolero"
 ]
 
-Procedure = Literal["text", "program", "bolero", "default"]
+Procedure = Literal["text", "bolero", "default"]
+
+Variant = Literal["text", "program"]
 
 RECORDINGS: Mapping[str, str] = {
     "HDM1": "HDM_mm_01-02_03_120",
@@ -45,13 +47,15 @@ class Pma2018Options:
     synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("walk", "exercise")
     """The synthetic recordings of the experiments, where no recordings are given."""
 
+    recordings: Annotated[tuple[str, ...], NotEmpty] = ("*",)
+    """Which of the given recordings are used, as name patterns with `*` and `?`."""
+
     published_as: Annotated[Mapping[str, str], NotEmpty] = field(default_factory=lambda: dict(RECORDINGS))
     """The recordings of the published sequences, by their names in the paper."""
 
-    procedures: Annotated[tuple[Procedure, ...], Distinct, NotEmpty] = ("text", "bolero", "default", "program")
-    """What fills the gaps: the paper's models and averages as its `text` says and as its `program` does (the presets published_pma_text and
-    published_pma_code), `bolero`, and our `default` ensemble. Figure 4 has all but the program, Figures 5 to 7 the text and ours,
-    Tables 2 and 3 the text and the program."""
+    procedures: Annotated[tuple[Procedure, ...], Distinct, NotEmpty] = ("text", "bolero", "default")
+    """What is compared in Figures 4 to 7: the models and averages as the `text` of the paper says (preset published_pma_text), `bolero`, which
+    is in Figure 4 alone, and our `default` ensemble."""
 
     models: Annotated[tuple[PublishedModel, ...], Distinct, NotEmpty] = (
         "linear_regression",
@@ -91,8 +95,11 @@ class Pma2018Options:
     )
     """The conditions under which the constraints are tested, by the number of the published table."""
 
-    constraint_runs: Count = 200
-    """Runs with and without the constraints."""
+    constraint_runs: Annotated[Mapping[Variant, Count], NotEmpty] = field(
+        default_factory=lambda: {"text": 200, "program": 200}
+    )
+    """Runs with and without the constraints: of the average as the `text` of the paper says, and as the `program` does that was released with
+    it (preset published_pma_code)."""
 
     batch: Count = 50
     """Runs of one job."""

@@ -16,7 +16,6 @@ from markermend.core.recording import Recording
 from markermend.evaluation.pma2018.fillings import fill_by_methods
 from markermend.evaluation.pma2018.jobs import Condition
 from markermend.evaluation.pma2018.methods import Method
-from markermend.evaluation.pma2018.options import Procedure
 from markermend.evaluation.randomness import generator
 from markermend.filling.gap import Gap
 from markermend.numerics.intervals import samples
@@ -56,7 +55,7 @@ class Job:
     """
 
     recording: str
-    procedure: Procedure
+    procedure: str
     condition: Condition
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import ttest_rel, wilcoxon
 
-from markermend.evaluation.pma2018.jobs import TESTED, Condition, figure_conditions, tested_conditions
+from markermend.evaluation.pma2018.jobs import TEST, Condition, figure_conditions, tested_conditions
 from markermend.evaluation.pma2018.methods import UNCONSTRAINED, average
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.published_figures import beside
@@ -108,8 +108,7 @@ def figure_table(errors: pd.DataFrame, name: str, figures: pd.DataFrame, options
         error and the median of the runs in mm, and the published mean.
     """
     chosen = _of_conditions(errors, figure_conditions(options)[name])
-    chosen = chosen[(chosen["run"] < options.runs) & (chosen["procedure"] != "program")]
-    chosen = chosen[~chosen["method"].str.endswith(UNCONSTRAINED)]
+    chosen = chosen[~chosen["procedure"].str.startswith(TEST)]
     keys = ["recording", *CONDITION, "method"]
     rows = [(*key, *_statistics(own["error_mm"])) for key, own in chosen.groupby(keys, sort=False, dropna=False)]
     ours = pd.DataFrame(rows, columns=[*keys, "runs", "unfilled", "error_mm", "standard_error_mm", "median_mm"])
@@ -161,7 +160,7 @@ def constraint_table(errors: pd.DataFrame, figures: pd.DataFrame, options: Pma20
     Returns
     -------
     DataFrame
-        One row for each published table, recording and procedure: number of runs, mean errors without and with the constraints, their
+        One row for each published table, recording and variant of the paper: number of runs, mean errors without and with the constraints, their
         standard errors, medians and difference in mm, p of Student's paired test and of Wilcoxon's, and the published figures.
 
     References
@@ -170,15 +169,15 @@ def constraint_table(errors: pd.DataFrame, figures: pd.DataFrame, options: Pma20
     """
     name = average(options.tested_average, options).name
     rows = []
-    for (table, condition), procedure in product(tested_conditions(options).items(), TESTED):
+    for (table, condition), variant in product(tested_conditions(options).items(), options.constraint_runs):
         own = _of_conditions(errors, [condition])
-        own = own[(own["procedure"] == procedure) & own["method"].isin([name, name + UNCONSTRAINED])]
+        own = own[own["procedure"] == TEST + variant]
         for recording, each in own.groupby("recording", sort=False):
             paired = each.pivot(index="run", columns="method", values="error_mm").dropna()
-            if len(paired.columns) == 2 and len(paired) > 1:
-                where = table, recording, procedure, condition.gaps, condition.length_s
+            if len(paired) > 1:
+                where = table, recording, variant, condition.gaps, condition.length_s
                 rows.append((*where, len(paired), *_paired(paired[name + UNCONSTRAINED], paired[name])))
-    ours = pd.DataFrame(rows, columns=["table", "recording", "procedure", "gaps", "length_s", "runs", *PAIRED])
+    ours = pd.DataFrame(rows, columns=["table", "recording", "variant", "gaps", "length_s", "runs", *PAIRED])
     out = add_sequences(ours[["recording", *ours.columns.drop("recording")]], options)
     named = {"unconstrained": name + UNCONSTRAINED, "constrained": name, "p": ""}
     for column, method in named.items():

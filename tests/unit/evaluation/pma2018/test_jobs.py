@@ -2,7 +2,7 @@
 
 import pytest
 
-from markermend.evaluation.pma2018.jobs import Condition, jobs
+from markermend.evaluation.pma2018.jobs import PRESETS, Condition, jobs
 from markermend.evaluation.pma2018.options import Pma2018Options
 
 
@@ -15,18 +15,21 @@ def test_the_name_of_a_condition_is_read_back(condition, name):
 
 
 def test_each_procedure_has_the_conditions_of_its_figures_and_tests():
-    options = Pma2018Options(runs=20, constraint_runs=200, batch=100, durations_s=(5,), gap_counts=(1, 3))
+    options = Pma2018Options(
+        runs=20, constraint_runs={"text": 200, "program": 200}, batch=100, durations_s=(5,), gap_counts=(1, 3)
+    )
     rows = jobs(options, ["walk"], "out")["runs"].rows
     found = {}
     for recording, procedure, condition, batch in rows:
         assert recording == "walk"
         found.setdefault(procedure, {}).setdefault(condition, []).append(batch)
-    figures = {"g3_L0.5", "g3_L1", "g3_L2", "g3_L5"}
-    assert set(found["bolero"]) == figures
-    assert set(found["default"]) == figures | {"g3_L1_T5", "g1_L1"}
-    assert set(found["text"]) == figures | {"g3_L1_T5", "g1_L1", "g10_L5"}
-    assert found["program"] == {"g3_L1": ["0-100", "100-200"], "g10_L5": ["0-100", "100-200"]}
-    assert found["text"]["g3_L1"] == ["0-100", "100-200"] and found["text"]["g3_L2"] == ["0-20"]
+    lengths = {"g3_L0.5", "g3_L1", "g3_L2", "g3_L5"}
+    assert set(found["bolero"]) == lengths
+    assert set(found["default"]) == set(found["text"]) == lengths | {"g3_L1_T5", "g1_L1"}
+    assert set(map(tuple, found["text"].values())) == {("0-20",)}
+    tests = {"g3_L1": ["0-100", "100-200"], "g10_L5": ["0-100", "100-200"]}
+    assert found["test_text"] == found["test_program"] == tests
+    assert set(found) == set(PRESETS) and len(set(rows)) == len(rows)
 
 
 def test_the_files_of_jobs_follow_the_pattern_of_the_rule():
