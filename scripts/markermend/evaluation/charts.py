@@ -94,9 +94,42 @@ def lines(
         printed = pd.to_numeric(own[published], errors="coerce") if published else pd.Series(dtype=float)
         if printed.notna().any():
             marker = {"color": color, "size": 11, "symbol": "diamond-open", "line": {"width": 2}}
-            data.append(
-                {**trace, "name": f"{name}, published", "mode": "markers", "marker": marker, "y": _values(printed)}
-            )
+            drawn = {"name": f"{name}, published", "mode": "markers", "showlegend": False}
+            data.append({**trace, **drawn, "marker": marker, "y": _values(printed)})
+    return Chart(title, {"data": data, "layout": _layout(axes)})
+
+
+def points(table: pd.DataFrame, axes: Axes, *, by: str, title: str) -> Chart:
+    """Draw points, with a colour for each value of a column.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row a point.
+    axes : Axes
+        What is drawn against what.
+    by : str
+        The column whose values have a colour each.
+    title : str
+        Title of the chart.
+
+    Returns
+    -------
+    Chart
+        The chart.
+    """
+    data = [
+        {
+            "type": "scatter",
+            "mode": "markers",
+            "name": str(name),
+            "x": _values(own[axes.x]),
+            "y": _values(own[axes.y]),
+            "marker": {"color": PALETTE[number % len(PALETTE)], "size": 7, "opacity": 0.8},
+            "hovertemplate": "%{x}: %{y:.4g}",
+        }
+        for number, (name, own) in enumerate(table.groupby(by, sort=False))
+    ]
     return Chart(title, {"data": data, "layout": _layout(axes)})
 
 

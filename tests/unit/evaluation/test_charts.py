@@ -33,6 +33,14 @@ def test_ours_are_lines_and_published_figures_are_points():
     assert figure["layout"]["yaxis"]["type"] == "log"
 
 
+def test_each_value_has_its_points():
+    figure = charts.points(TABLE, AXES, by="method", title="static").figure
+    json.dumps(figure, allow_nan=False)
+    assert [(trace["name"], trace["mode"], trace["y"]) for trace in figure["data"]] == [
+        ("spline", "markers", [0.5, 9.0]), ("linear", "markers", [1.8, None]),
+    ]  # fmt: skip
+
+
 def test_each_value_has_its_bars():
     figure = charts.bars(TABLE, AXES, by="method", title="static").figure
     json.dumps(figure, allow_nan=False)

@@ -98,7 +98,9 @@ def _criteria(criteria: pd.DataFrame) -> Section:
             "training_frames", name, "frames of which a network learns", title, log_y=name == "mean_square_error"
         )
         drawn.append(
-            charts.lines(_named(criteria), axes, by="method", title=f"{title} over the length of the training sequence")
+            charts.points(
+                _named(criteria), axes, by="method", title=f"{title} over the length of the training sequence"
+            )
         )
     return Section("Information criteria (Figure 9)", sentences, "criteria.tsv", charts=drawn)
 
