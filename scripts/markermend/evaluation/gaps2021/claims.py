@@ -267,7 +267,7 @@ def _significance(table: pd.DataFrame) -> Claim:
     if not len(stated):
         return Claim(claim, "", "", UNTESTED, FEW_RECORDINGS)
     found, recordings = stated["p"].astype(float) < SIGNIFICANT, int(own["recordings"].max())
-    fewer = f"of {recordings} recordings, not 6, only correlations above {_critical(recordings):.2f} are significant"
+    fewer = f"of {recordings} recordings, not 6, only correlations above {_critical(recordings):.3f} are significant"
     return Claim(
         claim,
         f"{len(stated)} of {int(printed.notna().sum())}",
@@ -285,17 +285,19 @@ def _critical(recordings: int) -> float:
 
 def _of_prints(tables: Mapping[str, pd.DataFrame]) -> Iterator[Claim]:
     """Numbers of parameters, and the column of low-rank completion."""
-    table = tables["parameters"]
-    printed = pd.to_numeric(table["published"])
-    equal = table["parameters"] == printed
-    unequal = ", ".join(METHODS[name] for name in table.loc[~equal, "method"])
-    yield Claim(
-        "The networks have the numbers of parameters of Table 4",
-        ", ".join(f"{value:g}" for value in printed),
-        ", ".join(f"{value:g}" for value in table["parameters"]),
-        verdict(bool(equal.all())),
-        "" if equal.all() else f"{unequal}: the printed formula gives our number; the value beside it is a misprint",
-    )
+    table = tables["parameters"].set_index("method")
+    printed = table["published"].astype(int)
+    for methods in (NETWORKS[:-1], NETWORKS[-1:]):
+        own, stated = table.loc[list(methods), "parameters"], printed[list(methods)]
+        names = ", ".join(METHODS[name] for name in methods)
+        equal = bool((own == stated).all())
+        yield Claim(
+            f"{names} {'has the number' if len(methods) == 1 else 'have the numbers'} of parameters of Table 4",
+            ", ".join(map(str, stated)),
+            ", ".join(map(str, own)),
+            verdict(equal),
+            "" if equal else "the printed formula gives our number; the value beside it is a misprint",
+        )
     wide = tables["errors"].pivot(index=["recording", "length"], columns="method", values="rmse")
     tested = {"linear", "msvd"} <= set(wide)
     ratio = wide["msvd"] / wide["linear"] if tested else pd.Series(dtype=float)

@@ -133,7 +133,7 @@ def _mean_correlations(means: pd.DataFrame) -> Section:
 
 def _bars(means: pd.DataFrame) -> Iterator[Chart]:
     """Our correlations beside the published ones."""
-    for method in ("network_linear", "spline"):
+    for method in (name for name in ("network_linear", "spline") if name in set(means["method"])):
         own = means[means["method"] == method].assign(ours=lambda table: table["correlation"])
         long = own.melt(["descriptor"], ["ours", "published"], "whose", "value")
         long["value"] = pd.to_numeric(long["value"], errors="coerce")
