@@ -1,7 +1,7 @@
 """Repeat the experiments of the artifact detection paper (skurowski2022).
 
 Reads: the prepared recordings, the published figures.
-Writes: {results}/papers/artifacts2022/ with runs/ (a table for each batch of runs) and tables/.
+Writes: {results}/papers/artifacts2022/ with a folder of tables of runs for each experiment, and tables/.
 """
 
 artifacts2022 = papers.jobs["artifacts2022"]
@@ -44,13 +44,128 @@ rule artifacts2022_runs:
         " --batch {wildcards.batch} --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
 
+rule artifacts2022_readings:
+    input:
+        prepared=papers.recording,
+    output:
+        runs=artifacts2022["readings"].pattern,
+    log:
+        artifacts2022["readings"].log,
+    benchmark:
+        artifacts2022["readings"].benchmark
+    conda:
+        "../../envs/evaluate.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        *plan.code("artifacts2022_readings"),
+        seed=papers.options.seed,
+        options=artifacts2022["readings"].flag,
+    message:
+        "Find sudden changes under each reading in {wildcards.recording}: {wildcards.amplitude_mm} mm, {wildcards.share_percent} %,"
+        " runs {wildcards.batch}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_readings.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
+        " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
+
+
+rule artifacts2022_slow:
+    input:
+        prepared=papers.recording,
+    output:
+        runs=artifacts2022["slow"].pattern,
+    log:
+        artifacts2022["slow"].log,
+    benchmark:
+        artifacts2022["slow"].benchmark
+    conda:
+        "../../envs/evaluate.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        *plan.code("artifacts2022_slow"),
+        seed=papers.options.seed,
+        options=artifacts2022["slow"].flag,
+    message:
+        "Vary the thresholds of slow changes in {wildcards.recording}: {wildcards.amplitude_mm} mm, {wildcards.share_percent} %,"
+        " runs {wildcards.batch}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_slow.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
+        " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
+
+
+rule artifacts2022_repairs:
+    input:
+        prepared=papers.recording,
+    output:
+        runs=artifacts2022["repairs"].pattern,
+    log:
+        artifacts2022["repairs"].log,
+    benchmark:
+        artifacts2022["repairs"].benchmark
+    conda:
+        "../../envs/evaluate.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        *plan.code("artifacts2022_repairs"),
+        seed=papers.options.seed,
+        options=artifacts2022["repairs"].flag,
+    message:
+        "Contaminate and repair {wildcards.recording}: {wildcards.kind}, {wildcards.share_percent} %, runs {wildcards.batch}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_repairs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --kind {wildcards.kind}"
+        " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
+        " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
+
+
+rule artifacts2022_operators:
+    input:
+        prepared=papers.recording,
+    output:
+        runs=artifacts2022["operators"].pattern,
+    log:
+        artifacts2022["operators"].log,
+    benchmark:
+        artifacts2022["operators"].benchmark
+    conda:
+        "../../envs/evaluate.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        *plan.code("artifacts2022_operators"),
+        seed=papers.options.seed,
+        options=artifacts2022["operators"].flag,
+    message:
+        "Compare persons with the algorithm in {wildcards.recording}: {wildcards.preset}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_operators.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --preset {wildcards.preset}"
+        " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
+
+
 rule artifacts2022_tables:
     input:
-        runs=artifacts2022["runs"].files,
+        runs=[file for own in artifacts2022.values() for file in own.files],
         published=f"{PUBLISHED}/skurowski2022.tsv",
     output:
         confusion=papers.table("artifacts2022", "confusion"),
         measures=papers.table("artifacts2022", "measures"),
+        readings=papers.table("artifacts2022", "readings"),
+        slow=papers.table("artifacts2022", "slow"),
+        repairs=papers.table("artifacts2022", "repairs"),
+        operators=papers.table("artifacts2022", "operators"),
         claims=papers.table("artifacts2022", "claims"),
     log:
         f"{papers.folder}/artifacts2022/logs/tables.log",
@@ -64,9 +179,10 @@ rule artifacts2022_tables:
         runtime=10,
     params:
         *plan.code("artifacts2022_tables"),
-        runs=artifacts2022["runs"].list,
+        runs=[word for name, own in artifacts2022.items() for word in (f"--{name}", f"@{own.list}")],
+        tables=f"{papers.folder}/artifacts2022/tables",
     message:
         "Put the runs of artifacts2022 into tables"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_tables.py --runs @{params.runs:q} --published {input.published:q}"
-        " --confusion {output.confusion:q} --measures {output.measures:q} --claims {output.claims:q} 2> {log:q}"
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_tables.py {params.runs:q} --published {input.published:q}"
+        " --tables {params.tables:q} 2> {log:q}"

@@ -1,4 +1,4 @@
-"""What the artifact detection paper states, and whether it holds for its detectors here (skurowski2022, section 4.2.1)."""
+"""What the artifact detection paper states, and whether it holds for its detectors here (skurowski2022, section 4.2)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pandas as pd
 
+from markermend.evaluation.artifacts2022.repair_claims import repair_claims
 from markermend.evaluation.claims import Claim, claims_table, span, verdict
 
 Test = Callable[[pd.Series], bool]
@@ -26,30 +27,51 @@ STATEMENTS: tuple[tuple[str, str, str, float | None, str, Test], ...] = (
 """Statement, class, measure, amplitude in mm (None for all), what is printed, and when it holds; `about` is within 10 points."""
 
 
-def judge(measures: pd.DataFrame) -> pd.DataFrame:
-    """Judge what the paper states of its detectors.
+def judge(measures: pd.DataFrame, repairs: pd.DataFrame, operators: pd.DataFrame) -> pd.DataFrame:
+    """Judge what the paper states.
 
     Parameters
     ----------
-    measures : DataFrame
-        See tables.measure_runs.
+    measures, repairs, operators : DataFrame
+        See tables.make_tables; without rows where the experiment was not run.
 
     Returns
     -------
     DataFrame
         See claims.claims_table; one statement holds if it does so on each recording, at each share and amplitude.
     """
-    return claims_table(_claims(measures[measures["preset"] == "paper"]))
+    return claims_table([*_classification(measures), *repair_claims(repairs), _operators(operators)])
 
 
-def _claims(measures: pd.DataFrame) -> Iterator[Claim]:
+def _classification(measures: pd.DataFrame) -> Iterator[Claim]:
     """The statements on the classification of contaminated recordings."""
     for claim, kind, measure, amplitude, published, holds in STATEMENTS:
-        chosen = measures["class"] == kind
-        if amplitude is not None:
-            chosen &= measures["amplitude_mm"] == amplitude
-        own = pd.to_numeric(measures.loc[chosen, measure]).dropna()
+        own = pd.Series(dtype=float)
+        if len(measures):
+            chosen = (measures["preset"] == "paper") & (measures["class"] == kind)
+            if amplitude is not None:
+                chosen &= measures["amplitude_mm"] == amplitude
+            own = pd.to_numeric(measures.loc[chosen, measure]).dropna()
         unit, digits = ("", 4) if measure in ("F", "MCC") else (" %", 1)
         tested = None if own.empty else bool(holds(own))
         reason = "" if tested is not None else "the preset paper, or this amplitude, was not run"
         yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)
+
+
+def _operators(operators: pd.DataFrame) -> Claim:
+    """The statement on persons, which needs tables of what persons found."""
+    claim = "What the algorithm finds after an expert has cleaned a recording is none that he missed"
+    reason = "needs raw recordings and what persons found in them (option operators.tables)"
+    published = "9 found, none approved"
+    if operators.empty or "expert" not in set(operators.loc[operators["source"] == "ours", "operator"]):
+        return Claim(claim, published, "", verdict(None), reason)
+    own = operators[(operators["source"] == "ours") & (operators["operator"] == "expert")]
+    own = own[(own["preset"] == "paper") & (own["class"] == "all")]
+    found, shared = int(own["algorithm"].sum()), int(own["algorithm_confirmed"].sum())
+    return Claim(
+        claim,
+        published,
+        f"{found} found, {shared} of them found by the expert",
+        verdict(None),
+        "an expert must judge the others",
+    )

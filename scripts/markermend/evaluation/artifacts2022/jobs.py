@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from markermend.evaluation.artifacts2022.options import Artifacts2022Options
+from markermend.evaluation.artifacts2022.options import Artifacts2022Options, ReadingOptions, SlowSweepOptions
 from markermend.evaluation.jobs import Jobs, batches, product
 from markermend.evaluation.options import write_flag
 
-TABLES = ("measures", "confusion", "claims")
+TABLES = ("measures", "confusion", "readings", "slow", "repairs", "operators", "claims")
 """The tables of the paper, by the names of their files."""
 
 
@@ -29,11 +29,39 @@ def jobs(options: Artifacts2022Options, recordings: Sequence[str], folder: str) 
     mapping of str to Jobs
         The jobs of each rule, by the name of the folder of its tables.
     """
-    conditions = {
+    classification: dict[str, Sequence[object]] = {
         "recording": recordings,
         "preset": options.presets,
         "amplitude_mm": options.amplitudes_mm,
         "share_percent": options.shares_percent,
         "batch": batches(options.runs, options.batch),
     }
-    return {"runs": Jobs(folder, "runs", tuple(conditions), product(conditions), write_flag(options, "denoise_hz"))}
+    repairs, operators = options.repairs, options.operators
+    repair: dict[str, Sequence[object]] = {
+        "recording": recordings,
+        "kind": repairs.classes,
+        "amplitude_mm": [repairs.amplitude_mm],
+        "share_percent": repairs.shares_percent,
+        "batch": batches(repairs.runs, repairs.batch),
+    }
+    conditions: dict[str, tuple[dict[str, Sequence[object]], list[str]]] = {
+        "runs": (classification, ["network_steps"]),
+        "readings": (_contaminated(recordings, options.readings), ["readings"]),
+        "slow": (_contaminated(recordings, options.slow), ["slow"]),
+        "repairs": (repair, ["network_steps", "repairs"]),
+        "operators": ({"recording": recordings, "preset": operators.presets}, ["network_steps", "operators"]),
+    }
+    return {
+        name: Jobs(folder, name, tuple(own), product(own), write_flag(options, "denoise_hz", *read))
+        for name, (own, read) in conditions.items()
+    }
+
+
+def _contaminated(recordings: Sequence[str], options: ReadingOptions | SlowSweepOptions) -> dict[str, Sequence[object]]:
+    """The conditions of an experiment with all classes of artifacts."""
+    return {
+        "recording": recordings,
+        "amplitude_mm": options.amplitudes_mm,
+        "share_percent": options.shares_percent,
+        "batch": batches(options.runs, options.batch),
+    }

@@ -2,12 +2,123 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from markermend.options.declaration import Above, Below, Count, Distinct, NotEmpty, PositiveMillimetres, Unit
+from markermend.options.declaration import (
+    Above,
+    Below,
+    Count,
+    Distinct,
+    NotEmpty,
+    NotNegative,
+    PositiveMillimetres,
+    PositiveSeconds,
+    Unit,
+)
 
 Percent = Annotated[float, Unit("%", "per cent"), Above(0), Below(25)]
+
+Kind = Literal["peaks", "noise", "steps", "slow"]
+
+
+@dataclass(frozen=True)
+class RepairExperimentOptions:
+    """Repair of what is located (E3): one class at a time, each method by itself, without the choice between methods and its vetoes."""
+
+    classes: Annotated[tuple[Kind, ...], Distinct] = ("peaks", "noise", "steps", "slow")
+    """The classes of artifacts."""
+
+    methods: Annotated[
+        tuple[Literal["distorted", "linear", "savitzky_golay", "spline", "network", "default"], ...], Distinct, NotEmpty
+    ] = ("distorted", "linear", "savitzky_golay", "spline", "network", "default")
+    """The methods: none, those of the paper, and our own repair of what our own detectors find."""
+
+    amplitude_mm: PositiveMillimetres = 10
+    """Mean amplitude of artifacts."""
+
+    shares_percent: Annotated[tuple[Percent, ...], Distinct, NotEmpty] = (5, 10, 20)
+    """Shares of the time that are distorted."""
+
+    smoother_samples: Count = 101
+    """Window of the Savitzky-Golay filter, samples."""
+
+    smoother_order: Count = 13
+    """Order of its polynomials."""
+
+    runs: Count = 200
+    """Runs of each condition."""
+
+    batch: Count = 5
+    """Runs of one job."""
+
+
+@dataclass(frozen=True)
+class ReadingOptions:
+    """The readings of the preset `paper`, of which each is switched off in turn; of sudden changes, which need no network."""
+
+    amplitudes_mm: Annotated[tuple[PositiveMillimetres, ...], Distinct] = (10,)
+    """Mean amplitudes of artifacts."""
+
+    shares_percent: Annotated[tuple[Percent, ...], Distinct, NotEmpty] = (5, 20)
+    """Shares of the time that each class distorts."""
+
+    runs: Count = 100
+    """Runs of each condition."""
+
+    batch: Count = 10
+    """Runs of one job."""
+
+
+@dataclass(frozen=True)
+class SlowSweepOptions:
+    """The thresholds of slow changes, and the training of the network whose residual they are of."""
+
+    network_steps: Annotated[tuple[Count, ...], Distinct] = (20, 100, 300, 1000)
+    """Steps of the training, at most."""
+
+    deviations_over: Annotated[tuple[Literal["coordinate", "marker", "recording"], ...], Distinct, NotEmpty] = (
+        "marker",
+        "recording",
+    )
+    """Over what the deviation of the residual is taken."""
+
+    lower_sigmas: Annotated[tuple[NotNegative, ...], Distinct, NotEmpty] = (0.25, 0.5)
+    """Lower thresholds, in deviations."""
+
+    min_durations_s: Annotated[tuple[PositiveSeconds, ...], Distinct, NotEmpty] = (0.3, 0.4, 0.5)
+    """Shortest slow changes."""
+
+    amplitudes_mm: Annotated[tuple[PositiveMillimetres, ...], Distinct] = (10,)
+    """Mean amplitudes of artifacts."""
+
+    shares_percent: Annotated[tuple[Percent, ...], Distinct, NotEmpty] = (20,)
+    """Shares of the time that each class distorts."""
+
+    runs: Count = 20
+    """Runs of each condition."""
+
+    batch: Count = 1
+    """Runs of one job."""
+
+
+@dataclass(frozen=True)
+class OperatorOptions:
+    """What persons found against what the algorithm finds (E2)."""
+
+    tables: Mapping[str, str] = field(default_factory=dict)
+    """Tables of decisions by the names of the persons who made them: their lines `accept` and `class` are what was found in the recordings.
+    Without any, the recordings are contaminated, and the person is one who sees all of it."""
+
+    presets: Annotated[tuple[Literal["paper", "default", "coordinates"], ...], Distinct] = ("paper", "default")
+    """The detectors."""
+
+    amplitude_mm: PositiveMillimetres = 10
+    """Mean amplitude of artifacts that are put in."""
+
+    share_percent: Percent = 5
+    """Share of the time that each class distorts."""
 
 
 @dataclass(frozen=True)
@@ -37,3 +148,18 @@ class Artifacts2022Options:
 
     batch: Count = 20
     """Runs of one job."""
+
+    network_steps: Count | None = None
+    """Steps of the training of the published network, at most; null for as many as the preset has."""
+
+    repairs: RepairExperimentOptions = field(default_factory=RepairExperimentOptions)
+    """Repair of what is located (E3)."""
+
+    readings: ReadingOptions = field(default_factory=ReadingOptions)
+    """Readings of the preset `paper`, each switched off in turn."""
+
+    slow: SlowSweepOptions = field(default_factory=SlowSweepOptions)
+    """Thresholds of slow changes."""
+
+    operators: OperatorOptions = field(default_factory=OperatorOptions)
+    """Findings of persons against those of the algorithm (E2)."""

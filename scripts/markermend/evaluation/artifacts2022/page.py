@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import pandas as pd
 
 from markermend.evaluation import charts
+from markermend.evaluation.artifacts2022.readings import SUDDEN
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.classification import CLASSES
 from markermend.evaluation.pages import Page, Section
@@ -43,7 +44,7 @@ def make_page(tables: Mapping[str, pd.DataFrame]) -> Page:
         "Detection of artifacts",
         REFERENCES["artifacts"],
         LEAD,
-        [_measures(tables["measures"]), _confusion(tables["confusion"])],
+        [section(tables[name]) for name, section in SECTIONS.items() if len(tables[name])],
     )
 
 
@@ -78,3 +79,88 @@ def _confusion(confusion: pd.DataFrame) -> Section:
         maps.append(charts.matrix(indexed, columns=CLASSES, title=title, x_title="found", y_title="true"))
     sentences = ("Mean number of samples a run, by true and by found class; colours are shares of the true class.",)
     return Section("Averaged confusion matrices (Figures 12 and 13)", sentences, "confusion.tsv", charts=maps)
+
+
+def _readings(readings: pd.DataFrame) -> Section:
+    """The measures of sudden changes under each reading."""
+    sentences = (
+        "Where the text leaves a choice, the preset is read as the printed results demand. Here one reading is changed at a time, and sudden "
+        "changes are looked for (slow changes stay clean). Some follow the letter: closings over 39 samples are printed.",
+    )
+    drawn = readings[readings["class"].isin(SUDDEN)]
+    maps = []
+    for (recording, amplitude, share), own in drawn.groupby(["recording", "amplitude_mm", "share_percent"], sort=False):
+        for measure in ("TPR", "FDR"):
+            axes = Axes("class", measure, "", f"{measure}, %")
+            maps.append(
+                charts.bars(own, axes, by="reading", title=f"{recording}, {amplitude:g} mm, {share:g} %: {measure}")
+            )
+    return Section("Readings of the paper", sentences, "readings.tsv", charts=maps)
+
+
+def _slow(slow: pd.DataFrame) -> Section:
+    """What the detection of slow changes depends on."""
+    sentences = (
+        "The network learns the recording in which it detects. `remaining` is the part of a slow change that is left in the residual, "
+        "`deviation_mm` the standard deviation of the residual, whose threefold is the upper threshold. The paper prints a lower threshold of 0.5 "
+        "and a shortest slow change of 0.5 s.",
+    )
+    drawn = slow.assign(
+        setting=[
+            f"{over}, {lower:g} deviations, {duration:g} s"
+            for over, lower, duration in zip(
+                slow["deviation_over"], slow["lower_sigmas"], slow["min_duration_s"], strict=True
+            )
+        ]
+    )
+    plots = []
+    for (recording, amplitude, share), own in drawn.groupby(["recording", "amplitude_mm", "share_percent"], sort=False):
+        for measure in ("TPR", "FDR", "clean_TPR"):
+            axes = Axes("network_steps", measure, "steps of the training, at most", f"{measure}, %", log_x=True)
+            plots.append(
+                charts.lines(own, axes, by="setting", title=f"{recording}, {amplitude:g} mm, {share:g} %: {measure}")
+            )
+    return Section("Thresholds of slow changes", sentences, "slow.tsv", charts=plots)
+
+
+def _repairs(repairs: pd.DataFrame) -> Section:
+    """Errors after repair (Tables 3 to 5)."""
+    sentences = (
+        "Root mean square error over all samples of all coordinates, for as many coordinates as the paper's recordings have. Perfect: what was put "
+        "in is repaired; classified: what the published detectors find is, or, for our own repair, what ours find.",
+    )
+    plots = []
+    for (recording, kind, share), own in repairs.groupby(["recording", "class", "share_percent"], sort=False):
+        axes = Axes("method", "rmse_mm", "", "error, mm", log_y=True)
+        title = f"{recording}, {kind}, {share:g} %"
+        plots.append(charts.bars(_with_published(own), axes, by="located", title=title))
+    return Section("Repair (Tables 3 to 5)", sentences, "repairs.tsv", charts=plots)
+
+
+def _with_published(own: pd.DataFrame) -> pd.DataFrame:
+    """Our errors, and the published ones as further rows."""
+    ours = own.assign(rmse_mm=own["rmse_159_mm"])
+    printed = own.assign(
+        rmse_mm=pd.to_numeric(own["published"], errors="coerce"), located=own["located"] + ", published"
+    )
+    return pd.concat([ours, printed.dropna(subset=["rmse_mm"])])
+
+
+def _operators(operators: pd.DataFrame) -> Section:
+    """Findings of persons and of the algorithm (Table 2)."""
+    sentences = (
+        "`human_confirmed` of what the person found the algorithm finds, too, `same_class` of them in the same class; `algorithm_confirmed` of what "
+        "the algorithm found the person found, too (approved, in the paper). What only one found is missed, or rejected.",
+    )
+    return Section("Persons and the algorithm (Table 2)", sentences, "operators.tsv")
+
+
+SECTIONS: Mapping[str, Callable[[pd.DataFrame], Section]] = {
+    "measures": _measures,
+    "confusion": _confusion,
+    "readings": _readings,
+    "slow": _slow,
+    "repairs": _repairs,
+    "operators": _operators,
+}
+"""The sections of the page, by their tables; those without rows are left out."""

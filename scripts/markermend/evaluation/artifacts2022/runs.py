@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +10,7 @@ import pandas as pd
 
 from markermend import api
 from markermend.core.recording import Recording
+from markermend.evaluation.artifacts2022.readings import published_options
 from markermend.evaluation.classification import CLASSES, count_samples, sample_classes
 from markermend.evaluation.randomness import generator
 from markermend.simulation.published_contamination import contaminate_coordinates
@@ -39,17 +40,41 @@ class Condition:
     amplitude_mm: float
     share_percent: float
 
-    def options(self) -> api.Options:
+    def options(self, network_steps: int | None = None) -> api.Options:
         """Make the options of all stages.
+
+        Parameters
+        ----------
+        network_steps : int, optional
+            Steps of the training of the published network, at most; by default as many as the preset has.
 
         Returns
         -------
         Options
             The default options with the preset.
         """
-        kinds = CLASSES[1:]
-        chosen = {kind: {"preset": self.preset} for kind in kinds if (kind, self.preset) != ("slow", "coordinates")}
-        return api.Options.read({**chosen, **({"detect": list(kinds)} if self.preset == "paper" else {})})
+        return preset_options(self.preset, network_steps=network_steps)
+
+
+def preset_options(preset: str, *, network_steps: int | None = None) -> api.Options:
+    """Make the options of all stages for a preset of the detectors.
+
+    Parameters
+    ----------
+    preset : str
+        See Condition.
+    network_steps : int, optional
+        Steps of the training of the published network, at most; by default as many as the preset has.
+
+    Returns
+    -------
+    Options
+        The default options with the preset.
+    """
+    if preset == "paper":
+        return published_options({}, network_steps=network_steps)
+    kinds = CLASSES[1:]
+    return api.Options.read({kind: {"preset": preset} for kind in kinds if (kind, preset) != ("slow", "coordinates")})
 
 
 def count_run(
@@ -135,3 +160,29 @@ def run_rows(recording: str, condition: Condition, confusions: Iterable[tuple[in
         ],
         columns=list(RUN_COLUMNS),
     )
+
+
+def reading_rows(
+    recording: str, condition: Condition, confusions: Mapping[str, Iterable[tuple[int, np.ndarray]]]
+) -> pd.DataFrame:
+    """Arrange the counts of runs under several readings of the paper as a table.
+
+    Parameters
+    ----------
+    recording : str
+        Name of the recording.
+    condition : Condition
+        The condition of all runs.
+    confusions : mapping of str to iterable of (int, ndarray)
+        Number and confusion matrix of each run, by reading.
+
+    Returns
+    -------
+    DataFrame
+        The columns RUN_COLUMNS with `reading` in place of `preset`.
+    """
+    parts = [
+        run_rows(recording, condition, own).rename(columns={"preset": "reading"}).assign(reading=name)
+        for name, own in confusions.items()
+    ]
+    return pd.concat(parts, ignore_index=True)

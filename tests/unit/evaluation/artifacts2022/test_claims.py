@@ -2,7 +2,13 @@
 
 import pandas as pd
 
-from markermend.evaluation.artifacts2022.claims import judge
+from markermend.evaluation.artifacts2022 import claims
+
+NONE = pd.DataFrame(columns=["recording"])
+
+
+def judge(measures=NONE, repairs=NONE, operators=NONE):
+    return claims.judge(measures, repairs, operators).set_index("claim")
 
 
 def measures(tpr):
@@ -12,12 +18,53 @@ def measures(tpr):
 
 
 def test_statements_are_judged_on_the_published_detectors_alone():
-    holds = judge(measures(91.0)).set_index("claim")["holds"]
+    holds = judge(measures(91.0))["holds"]
     assert holds["Nine tenths of the peaks of 10 mm are found"] == "yes"
     assert holds["F over all classes is above 0.999"] == "yes"
-    assert judge(measures(60.0)).set_index("claim")["holds"]["Nine tenths of the peaks of 10 mm are found"] == "no"
+    assert judge(measures(60.0))["holds"]["Nine tenths of the peaks of 10 mm are found"] == "no"
 
 
 def test_what_was_not_run_is_not_judged():
-    row = judge(measures(91.0)).set_index("claim").loc["Two thirds of the peaks of 5 mm are found"]
+    row = judge(measures(91.0)).loc["Two thirds of the peaks of 5 mm are found"]
     assert row["holds"] == "not tested" and row["reason"] and row["ours"] == ""
+
+
+def repairs(**errors):
+    """Errors of located samples by class: distorted, linear, savitzky_golay, spline, network."""
+    methods = ("distorted", "linear", "savitzky_golay", "spline", "network")
+    rows = [
+        ("walk", kind, 20.0, method, "perfect", error, error, 0.001, "0.4" if method == "distorted" else "")
+        for kind, own in errors.items()
+        for method, error in zip(methods, own, strict=True)
+    ]
+    names = (
+        "recording",
+        "class",
+        "share_percent",
+        "method",
+        "located",
+        "rmse_mm",
+        "rmse_159_mm",
+        "standard_error_mm",
+        "published",
+    )
+    return pd.DataFrame(rows, columns=list(names))
+
+
+def test_statements_on_repair_are_judged_by_ratios_of_errors():
+    table = judge(repairs=repairs(peaks=(0.4, 0.01, 0.04, 0.001, 0.04), steps=(0.4, 0.44, 0.39, 0.3, 0.04)))
+    assert table.loc["So do splines", "holds"] == "yes" and table.loc["So do splines", "ours"] == "0.003"
+    assert table.loc["It leaves located steps", "holds"] == "yes"
+    best = [claim for claim in table.index if claim.startswith("The network is best for located")]
+    assert table.loc[best[0], "ours"] == "7.500" and table.loc[best[0], "holds"] == "yes"
+    assert (
+        table.loc["The Savitzky-Golay filter cleans located noise: error over that of the distorted recording", "holds"]
+        == "not tested"
+    )
+
+
+def test_distorted_recordings_must_have_the_printed_errors():
+    (claim,) = [name for name in judge().index if name.startswith("The distorted")]
+    assert judge(repairs=repairs(peaks=(0.405, 0, 0, 0, 0))).loc[claim, "holds"] == "yes"
+    assert judge(repairs=repairs(peaks=(0.36, 0, 0, 0, 0))).loc[claim, "holds"] == "no"
+    assert judge().loc[claim, "holds"] == "not tested"
