@@ -21,7 +21,11 @@ MODULES = {"yaml": "pyyaml", "sklearn": "scikit-learn"}
 """Packages by the module that is imported, where the names differ."""
 ENVIRONMENTS = {
     "fill": ("base", "torch"),
+    "artifacts2022_operators": ("evaluate",),
+    "artifacts2022_readings": ("evaluate",),
+    "artifacts2022_repairs": ("evaluate",),
     "artifacts2022_runs": ("evaluate",),
+    "artifacts2022_slow": ("evaluate",),
     "artifacts2022_tables": ("evaluate",),
     "gaps2021_descriptors": ("evaluate",),
     "gaps2021_runs": ("evaluate",),

@@ -12,7 +12,6 @@ from markermend import api
 from markermend.core.recording import Recording
 from markermend.evaluation.artifacts2022.readings import published_options
 from markermend.evaluation.classification import CLASSES, count_samples, sample_classes
-from markermend.evaluation.randomness import generator
 from markermend.simulation.published_contamination import contaminate_coordinates
 
 RUN_COLUMNS = ("recording", "preset", "amplitude_mm", "share_percent", "run", "true", "found", "samples")
@@ -110,28 +109,6 @@ def count_run(
     found = api.detect(contaminated, mesh, options or condition.options())
     truth, called = (sample_classes(own, clean.frames, clean.markers) for own in (made.events, found))
     return count_samples(truth, called, ~np.isnan(clean.positions))
-
-
-def run_generator(seed: int, recording: str, condition: Condition, run: int) -> np.random.Generator:
-    """Make the source of randomness of a run, which all presets share.
-
-    Parameters
-    ----------
-    seed : int
-        Equal seeds give equal contaminations.
-    recording : str
-        Name of the recording.
-    condition : Condition
-        The condition.
-    run : int
-        Number of the run.
-
-    Returns
-    -------
-    Generator
-        The source.
-    """
-    return generator(seed, recording, condition.amplitude_mm, condition.share_percent, run)
 
 
 def run_rows(recording: str, condition: Condition, confusions: Iterable[tuple[int, np.ndarray]]) -> pd.DataFrame:
