@@ -7,6 +7,7 @@ import argparse
 from pathlib import Path
 
 from markermend.evaluation.gaps2021 import runs
+from markermend.evaluation.gaps2021.drawn import make_runs
 from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.jobs import run_numbers
@@ -31,7 +32,7 @@ def main(argv: list[str] | None = None) -> None:
     subject = {path.stem: runs.prepare(stage_files.read_recording(path), options) for path in flags.subject}
     clean = subject[flags.recording]
     mesh = runs.subject_mesh(flags.recording, subject)
-    drawn = runs.make_runs(flags.recording, clean, options, numbers=flags.batch, seed=flags.seed)
+    drawn = make_runs(flags.recording, clean, options, numbers=flags.batch, seed=flags.seed)
     table = runs.run_rows(clean, drawn, mesh, GROUPS[flags.methods], options)
     table.insert(0, "recording", flags.recording)
     write_table(flags.runs, table)

@@ -1,4 +1,4 @@
-"""The tables of the experiment, with the published figures beside ours (skurowski2021, Tables 2 to 6 and A1 to A12)."""
+"""The tables of the experiment, with the published figures beside ours (skurowski2021, Tables 2 to 4 and A1 to A5)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from markermend.evaluation.correlations import MIN_SEQUENCES, correlations
 from markermend.evaluation.gap_errors import error_table
-from markermend.evaluation.gaps2021.methods import METHODS, NETWORKS
+from markermend.evaluation.gaps2021.correlation_tables import average_correlations, correlate, correlate_descriptors
+from markermend.evaluation.gaps2021.fillings import COLUMNS_PER_INPUT
+from markermend.evaluation.gaps2021.methods import NETWORKS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
-from markermend.evaluation.gaps2021.runs import COLUMNS_PER_INPUT, CONDITION
+from markermend.evaluation.gaps2021.row_order import in_order
+from markermend.evaluation.gaps2021.runs import CONDITION
 from markermend.evaluation.information_criteria import information_criteria
 from markermend.evaluation.published_figures import beside
 from markermend.prediction.neural_network.architecture import learnable_parameters
@@ -18,9 +20,6 @@ from markermend.prediction.neural_network.predictor import KINDS
 
 STATISTICS = ("rmse", "mean", "median", "mode", "deviation", "iqr")
 """The statistics of the errors that the paper prints (Tables 3 and A1 to A5)."""
-
-DESCRIPTORS = ("entropy", "deviation", "velocity", "acceleration", "jerk", "monotonicity", "complexity")
-"""The descriptors that the paper prints (Table 2)."""
 
 EXEMPLARY_MARKERS = 5
 """Inputs of the exemplary case of Table 4: its numbers follow from 30 inputs, six for each marker."""
@@ -83,7 +82,7 @@ def describe_errors(runs: pd.DataFrame, figures: pd.DataFrame, published_as: Map
     """
     table = error_table(runs, CONDITION)
     counts = runs.groupby(CONDITION)["run"].nunique().rename("runs").reset_index()
-    table = _ordered(table.merge(counts, on=CONDITION))
+    table = in_order(table.merge(counts, on=CONDITION))
     table["sequence"] = table["recording"].map(dict(published_as)).fillna("")
     for name in STATISTICS:
         printed = figures[(figures["quantity"] == name) & (figures["sequence"] != "")]
@@ -185,104 +184,4 @@ def list_criteria(runs: pd.DataFrame) -> pd.DataFrame:
     groups = own.assign(squares=squares, **criteria).groupby(CONDITION, sort=True)
     table = groups[["training_frames", "parameters", "aic", "bic"]].mean().reset_index()
     mean_square = (groups["squares"].sum() / groups["samples"].sum()).rename("mean_square_error").reset_index()
-    return _ordered(table.merge(mean_square, on=CONDITION))
-
-
-def correlate(errors: pd.DataFrame, descriptors: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
-    """Correlate the errors of each method with the descriptors of the recordings (Tables A6 to A12).
-
-    Parameters
-    ----------
-    errors : DataFrame
-        See describe_errors.
-    descriptors : DataFrame
-        See runs.describe.
-    figures : DataFrame
-        Those of skurowski2021.
-
-    Returns
-    -------
-    DataFrame
-        One row for each descriptor, length and method: correlation, p, number of recordings, and correlation and p as they are printed; no rows
-        for fewer than three recordings.
-    """
-    names = ["descriptor", "length", "method", "correlation", "p", "sequences"]
-    if len(descriptors) < MIN_SEQUENCES:
-        table = pd.DataFrame(columns=names)
-    else:
-        arranged = errors.pivot(index="recording", columns=["length", "method"], values="rmse")
-        table = _ordered(correlations(_indexed(descriptors), arranged))[names]
-    for name in ("correlation", "p"):
-        printed = figures[(figures["quantity"] == name) & figures["table"].astype(str).str.startswith("A")]
-        table = beside(table, printed, on=["descriptor", "length", "method"], name=f"{name}_published")
-    return table.rename(columns={"sequences": "recordings"})
-
-
-def average_correlations(table: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
-    """Average correlations over the lengths of gaps (Table 5).
-
-    Parameters
-    ----------
-    table : DataFrame
-        See correlate.
-    figures : DataFrame
-        Those of skurowski2021.
-
-    Returns
-    -------
-    DataFrame
-        One row for each descriptor and method: mean correlation, and the printed one.
-    """
-    means = table.groupby(["descriptor", "method"], sort=False)["correlation"].mean().reset_index()
-    printed = figures[(figures["table"].astype(str) == "5") & (figures["quantity"] == "correlation")]
-    return beside(means, printed, on=["descriptor", "method"])
-
-
-def correlate_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame) -> pd.DataFrame:
-    """Correlate the descriptors of recordings with each other (Table 6).
-
-    Parameters
-    ----------
-    descriptors : DataFrame
-        See runs.describe.
-    figures : DataFrame
-        Those of skurowski2021.
-
-    Returns
-    -------
-    DataFrame
-        One row for each pair of descriptors: correlation, p, and both as they are printed; no rows for fewer than three recordings.
-    """
-    parts = []
-    for other in DESCRIPTORS if len(descriptors) >= MIN_SEQUENCES else ():
-        own = _indexed(descriptors)
-        table = correlations(own.drop(columns=other), own[[other]].rename_axis(columns="other"))[
-            ["descriptor", "other", "correlation", "p"]
-        ]
-        for name in ("correlation", "p"):
-            printed = figures[figures["quantity"] == f"{name}_with_{other}"]
-            table = beside(table, printed, on=["descriptor"], name=f"{name}_published")
-        parts.append(table)
-    columns = ["descriptor", "other", "correlation", "p", "correlation_published", "p_published"]
-    return pd.concat(parts, ignore_index=True)[columns] if parts else pd.DataFrame(columns=columns)
-
-
-def _indexed(descriptors: pd.DataFrame) -> pd.DataFrame:
-    """The descriptors that the paper prints, one row for each recording, named by the index."""
-    return descriptors.set_index("recording")[list(DESCRIPTORS)]
-
-
-def _ordered(table: pd.DataFrame) -> pd.DataFrame:
-    """A table with the methods in the order of the paper, within all other columns as they are."""
-    order = {method: place for place, method in enumerate(METHODS)}
-    keys = [name for name in ("descriptor", "recording", "length") if name in table]
-    ranks = {
-        name: {value: n for n, value in enumerate(dict.fromkeys(table[name]))}
-        for name in ("descriptor", "recording")
-        if name in table
-    }
-    ranked = table.assign(
-        **{f"_{name}": table[name].map(rank) for name, rank in ranks.items()}, _method=table["method"].map(order)
-    )
-    by = [f"_{name}" if name in ranks else name for name in keys]
-    return table.loc[ranked.sort_values([*by, "_method"], kind="stable").index].reset_index(drop=True)
+    return in_order(table.merge(mean_square, on=CONDITION))

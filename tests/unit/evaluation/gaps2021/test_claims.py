@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from markermend.evaluation.claims import NO, UNTESTED, YES
-from markermend.evaluation.gaps2021.claims import common_errors, judge
+from markermend.evaluation.gaps2021.claims import judge
+from markermend.evaluation.gaps2021.comparisons import common_errors
 from markermend.evaluation.gaps2021.methods import RECURRENT
 from markermend.evaluation.gaps2021.tables import arrange_published, make_tables
 

@@ -7,6 +7,8 @@ import pytest
 
 from markermend.core.events import mask
 from markermend.evaluation.gaps2021 import runs as experiment
+from markermend.evaluation.gaps2021.drawn import make_runs
+from markermend.evaluation.gaps2021.fillings import count_parameters, fill_runs
 from markermend.evaluation.gaps2021.methods import GROUPS, METHODS, NETWORKS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.options import SyntheticOptions
@@ -29,7 +31,7 @@ def mesh(subject):
 
 @pytest.fixture(scope="module")
 def drawn(subject):
-    return experiment.make_runs("walk", subject["walk"], OPTIONS, numbers=range(2), seed=1)
+    return make_runs("walk", subject["walk"], OPTIONS, numbers=range(2), seed=1)
 
 
 def test_recordings_are_shortened_and_denoised(subject):
@@ -46,7 +48,7 @@ def test_the_mesh_of_a_subject_comes_from_all_of_its_recordings(subject, mesh):
 def test_runs_differ_and_begin_alike_whatever_their_number(subject, drawn):
     assert [(run.length, run.number) for run in drawn] == [(10, 0), (10, 1), (40, 0), (40, 1)]
     assert len({tuple(run.gaps) for run in drawn}) == 4
-    (last,) = experiment.make_runs("walk", subject["walk"], replace(OPTIONS, mean_lengths=(40,)), numbers=[1], seed=1)
+    (last,) = make_runs("walk", subject["walk"], replace(OPTIONS, mean_lengths=(40,)), numbers=[1], seed=1)
     assert last.gaps == drawn[-1].gaps
     for run in drawn:
         hidden = mask(run.gaps, subject["walk"].frames, subject["walk"].markers)
@@ -64,7 +66,7 @@ def test_every_method_fills_every_gap(subject, mesh, drawn, methods):
 
 
 def test_errors_are_those_of_what_was_filled(subject, mesh, drawn):
-    (filled,) = experiment.fill_runs(drawn[:1], mesh, "linear", OPTIONS)
+    (filled,) = fill_runs(drawn[:1], mesh, "linear", OPTIONS)
     gap = drawn[0].gaps[0]
     m = subject["walk"].markers.index(gap.marker)
     before, after = subject["walk"].positions[[gap.start - 1, gap.stop], m]
@@ -78,7 +80,7 @@ def test_errors_are_those_of_what_was_filled(subject, mesh, drawn):
 def test_parameters_follow_from_the_segment_mates(subject, mesh, drawn):
     mates = mesh.segment_mate_indices(subject["walk"].markers)
     count = [len(mates[subject["walk"].markers.index(gap.marker)]) for gap in drawn[0].gaps]
-    found = experiment.count_parameters(drawn[0], mesh, "network_tanh", OPTIONS)
+    found = count_parameters(drawn[0], mesh, "network_tanh", OPTIONS)
     assert found == [8 * 6 * own + 8 + 3 * 8 + 3 for own in count]
 
 

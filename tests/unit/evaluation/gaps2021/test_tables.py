@@ -4,8 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from markermend.evaluation.gaps2021.correlation_tables import DESCRIPTORS
 from markermend.evaluation.gaps2021.methods import METHODS, NETWORKS
-from markermend.evaluation.gaps2021.tables import DESCRIPTORS, make_tables
+from markermend.evaluation.gaps2021.tables import make_tables
 
 from .conftest import OPTIONS
 
