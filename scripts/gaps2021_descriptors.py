@@ -8,7 +8,7 @@ from pathlib import Path
 
 from markermend.evaluation.gaps2021 import runs
 from markermend.evaluation.gaps2021.options import Gaps2021Options
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 

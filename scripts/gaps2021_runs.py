@@ -11,7 +11,7 @@ from markermend.evaluation.gaps2021.drawn import make_runs
 from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.jobs import run_numbers
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from markermend.evaluation.gaps2021 import claims, tables
 from markermend.evaluation.gaps2021.jobs import TABLES
 from markermend.evaluation.gaps2021.options import Gaps2021Options
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.published_figures import read_published
 from markermend.evaluation.table_files import read_tables, write_table
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from markermend import api
 from markermend.evaluation import recordings
-from markermend.evaluation.options import SyntheticOptions, read_flag
+from markermend.evaluation.option_flags import read_flag
+from markermend.evaluation.synthetic_options import SyntheticOptions
 from markermend.evaluation.table_files import write_table
 from markermend.storage import stage_files
 

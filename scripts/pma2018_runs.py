@@ -10,7 +10,7 @@ from pathlib import Path
 import yaml
 
 from markermend.evaluation.jobs import run_numbers
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.pma2018 import runs
 from markermend.evaluation.pma2018.jobs import Condition
 from markermend.evaluation.pma2018.methods import published_methods

@@ -7,7 +7,7 @@ over recordings (Figure 7); CONSTRAINTS, the effect of the constraints (Tables 2
 import argparse
 from pathlib import Path
 
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.pma2018 import claims, tables
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.published_figures import read_published

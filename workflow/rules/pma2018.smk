@@ -4,7 +4,7 @@ Reads: the prepared recordings, the presets of published filling, the published 
 Writes: {results}/papers/pma2018/ with runs/ (a table for each batch of runs) and tables/.
 """
 
-from markermend.evaluation.options import write_flag
+from markermend.evaluation.option_flags import write_flag
 from markermend.evaluation.pma2018.jobs import PRESETS
 
 pma2018 = papers.jobs["pma2018"]

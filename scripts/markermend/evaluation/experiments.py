@@ -17,7 +17,8 @@ from typing import Any, Protocol
 from markermend.evaluation.artifacts2022 import jobs as artifacts2022
 from markermend.evaluation.gaps2021 import jobs as gaps2021
 from markermend.evaluation.jobs import Jobs
-from markermend.evaluation.options import EvaluationOptions, read_options, write_flag
+from markermend.evaluation.option_flags import write_flag
+from markermend.evaluation.options import EvaluationOptions, read_options
 from markermend.evaluation.pma2018 import jobs as pma2018
 from markermend.options.general import EXPERIMENTS
 from markermend.options.reader import BadOptions
@@ -201,7 +202,7 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
     config : mapping
         The config, as Snakemake put it together.
     entries : sequence of Entry
-        The recordings; synthetic ones are made if there are none.
+        The recordings, of which static ones are left out; synthetic ones are made if there are none.
     folder : str
         The folder of the experiments' results.
 
@@ -215,7 +216,8 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
     BadOptions
         Where the options cannot be used.
     """
-    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, entries)
+    moving = [entry for entry in entries if entry.kind != "static"]
+    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, moving)
     if unused := [
         f"{EXPERIMENTS}.{paper}.recordings: no recording has such a name"
         for paper in PAPERS

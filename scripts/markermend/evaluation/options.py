@@ -5,55 +5,16 @@ Every option has its default here or in the `options` module of its paper; confi
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Any
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.pma2018.options import Pma2018Options
-from markermend.options.declaration import (
-    Above,
-    CountOrNone,
-    Millimetres,
-    NotEmpty,
-    PositiveSeconds,
-    Unit,
-    describe,
-)
+from markermend.evaluation.synthetic_options import SyntheticOptions
+from markermend.options.declaration import CountOrNone, PositiveSeconds, describe
 from markermend.options.general import EXPERIMENTS
-from markermend.options.reader import BadOptions, Reader
-from markermend.options.values import plain
-
-Activity = Literal["stand", "walk", "reach", "sit", "exercise"]
-
-ACTIVITIES: Mapping[str, tuple[Activity, ...]] = {
-    "stand_and_reach": ("stand", "reach"),
-    "walk": ("walk",),
-    "sit": ("stand", "sit"),
-    "exercise": ("exercise",),
-}
-"""What the synthetic person does in each recording."""
-
-Section = TypeVar("Section")
-
-
-@dataclass(frozen=True)
-class SyntheticOptions:
-    """The recordings of a synthetic person, for experiments without recordings."""
-
-    activities: Annotated[Mapping[str, tuple[Activity, ...]], NotEmpty] = field(default_factory=lambda: ACTIVITIES)
-    """What the person does in each recording, over and over again."""
-
-    duration_s: PositiveSeconds = 32
-    """Their duration."""
-
-    rate_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] = 100
-    """Their frame rate."""
-
-    noise_mm: Millimetres = 0.2
-    """Standard deviation of the measurement noise of each coordinate."""
+from markermend.options.reader import Reader
 
 
 @dataclass(frozen=True)
@@ -105,53 +66,5 @@ def read_options(value: Any) -> EvaluationOptions:
             for name in getattr(getattr(read, option.name), "synthetic", ()):
                 if name not in known:
                     reader.unknown(f"{EXPERIMENTS}.{option.name}.synthetic.{name}", name, known)
-    reader.finish()
-    return read
-
-
-def write_flag(options: Any, *names: str) -> str:
-    """Write options for the command of a job, which sees only those that it reads.
-
-    Parameters
-    ----------
-    options : Any
-        An instance of a class of options.
-    *names : str
-        The options that the command reads.
-
-    Returns
-    -------
-    str
-        JSON.
-    """
-    return json.dumps({name: plain(getattr(options, name)) for name in names}, sort_keys=True)
-
-
-def read_flag(cls: type[Section], words: str) -> Section:
-    """Read what write_flag wrote.
-
-    Parameters
-    ----------
-    cls : type
-        The class of options.
-    words : str
-        JSON.
-
-    Returns
-    -------
-    object
-        An instance; options that are not there have their defaults.
-
-    Raises
-    ------
-    BadOptions
-        With all that cannot be used.
-    """
-    try:
-        value = json.loads(words)
-    except json.JSONDecodeError as error:
-        raise BadOptions(f"--options: {error}") from error
-    reader = Reader()
-    read: Section = reader.read_class(cls, value, "")
     reader.finish()
     return read

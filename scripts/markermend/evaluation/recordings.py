@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from markermend.core.recording import Recording
-from markermend.evaluation.options import SyntheticOptions
 from markermend.evaluation.randomness import generator
+from markermend.evaluation.synthetic_options import SyntheticOptions
 from markermend.numerics import filters
 from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body

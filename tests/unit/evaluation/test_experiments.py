@@ -12,6 +12,7 @@ GIVEN = [
     Entry("S1", "walk", "/data/S1/walk.c3d"),
     Entry("S2", "walk", "/data/S2/walk.trc", rate=120.0),
     Entry("S2", "a b", "/data/S2/a b.trc"),
+    Entry("S2", "pose", "/data/S2/pose.c3d", kind="static"),
 ]
 
 
@@ -34,6 +35,10 @@ def test_claims_are_among_the_tables_of_a_page(paper):
     papers = make_experiments({}, [], "/out/papers")
     assert f"/out/papers/{paper}/tables/claims.tsv" in papers.tables(about(paper=paper))
     assert set(papers.tables(about(paper=paper))) <= set(papers.all_tables)
+
+
+def test_static_recordings_are_left_out():
+    assert "pose" not in make_experiments({}, GIVEN, "/out/papers").named
 
 
 def test_given_recordings_are_named_by_their_folders_and_by_their_subjects_where_they_share_a_name():

@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
-from markermend.evaluation.options import EvaluationOptions, read_flag, read_options, write_flag
+from markermend.evaluation.options import EvaluationOptions, read_options
 from markermend.options.reader import BadOptions
 from support.paths import PROJECT
 
@@ -35,12 +35,3 @@ def test_the_files_can_be_used(path):
 def test_what_cannot_be_used_is_named(given, message):
     with pytest.raises(BadOptions, match=message.replace("?", "\\?")):
         read_options(given)
-
-
-def test_a_job_sees_only_what_it_reads():
-    options = Artifacts2022Options(denoise_hz=None, runs=3)
-    words = write_flag(options, "denoise_hz")
-    assert words == '{"denoise_hz": null}'
-    assert read_flag(Artifacts2022Options, words) == Artifacts2022Options(denoise_hz=None)
-    with pytest.raises(BadOptions, match="--options"):
-        read_flag(Artifacts2022Options, "{")

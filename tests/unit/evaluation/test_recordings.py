@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.evaluation.options import SyntheticOptions
 from markermend.evaluation.recordings import begin, denoise, size, synthetic
+from markermend.evaluation.synthetic_options import SyntheticOptions
 
 
 def test_a_synthetic_recording_is_complete_and_always_the_same():

@@ -12,7 +12,7 @@ import numpy as np
 from markermend.core.recording import Recording
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options
 from markermend.evaluation.jobs import run_numbers
-from markermend.evaluation.options import read_flag
+from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.randomness import generator
 from markermend.evaluation.recordings import denoise
 from markermend.storage import stage_files

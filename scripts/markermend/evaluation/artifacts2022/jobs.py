@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options, ReadingOptions, SlowSweepOptions
 from markermend.evaluation.jobs import Jobs, batches, product
-from markermend.evaluation.options import write_flag
+from markermend.evaluation.option_flags import write_flag
 
 TABLES = ("measures", "confusion", "readings", "slow", "repairs", "operators", "claims")
 """The tables of the paper, by the names of their files."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.jobs import Jobs, batches, product
-from markermend.evaluation.options import write_flag
+from markermend.evaluation.option_flags import write_flag
 
 TABLES = (
     "errors",

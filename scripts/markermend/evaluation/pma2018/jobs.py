@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from markermend.evaluation.jobs import Jobs, batches
-from markermend.evaluation.options import write_flag
+from markermend.evaluation.option_flags import write_flag
 from markermend.evaluation.pma2018.options import Pma2018Options, Procedure
 
 TABLES = ("lengths", "durations", "gap_counts", "means", "constraints", "claims")

@@ -11,8 +11,8 @@ from markermend.evaluation.gaps2021.drawn import make_runs
 from markermend.evaluation.gaps2021.fillings import count_parameters, fill_runs
 from markermend.evaluation.gaps2021.methods import GROUPS, METHODS, NETWORKS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
-from markermend.evaluation.options import SyntheticOptions
 from markermend.evaluation.recordings import synthetic
+from markermend.evaluation.synthetic_options import SyntheticOptions
 
 OPTIONS = Gaps2021Options(max_duration_s=4, mean_lengths=(10, 40))
 OPTIONS = replace(OPTIONS, networks=replace(OPTIONS.networks, epochs=3, recurrent_units=5))
