@@ -15,12 +15,18 @@ Frames = Annotated[int, Unit("frames", "frames"), Above(0)]
 Sequence = Literal["static", "walking", "running", "sitting", "boxing", "falling"]
 
 SEQUENCES: Mapping[str, Sequence] = {
+    "static": "static",
+    "walking": "walking",
+    "running": "running",
+    "sitting": "sitting",
+    "boxing": "boxing",
+    "falling": "falling",
     "stand_and_reach": "static",
     "STS1": "sitting",
     "walk": "walking",
     "sit": "sitting",
 }
-"""The sequence of the paper that a recording is like."""
+"""The sequence of the paper that a recording is or is like; the paper's own are among its supplementary files."""
 
 
 @dataclass(frozen=True)

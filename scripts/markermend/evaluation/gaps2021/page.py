@@ -14,9 +14,10 @@ from markermend.report.methods_text import REFERENCES
 
 LEAD = (
     "Two gaps of a mean length are hidden in a clean recording, each in a random marker, and filled by five networks, which learn from the "
-    "rest of the recording, by four interpolations, by low-rank completion, and by our default ensemble. All methods fill the same gaps.",
-    "The sequences of the paper are not public: their figures are put beside those of recordings that are like them. Errors depend on how "
-    "fast and how varied a motion is; compare the order of the methods, and how errors grow with the length of gaps.",
+    "rest of the recording, by four interpolations, by low-rank completion, and by our default ensemble. All methods fill the same gaps; where "
+    "slow ones have fewer runs, as the tables say, statements compare methods on the runs that they share.",
+    "The published figures are of six other sequences, which are no part of this program; they stand beside those of recordings that are "
+    "like them. Errors depend on how fast and how varied a motion is: compare the order of the methods, and how errors grow with the length of gaps.",
 )
 
 LOGARITHMIC = {"log_x": True, "log_y": True}
