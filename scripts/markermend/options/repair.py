@@ -200,6 +200,12 @@ class RepairOptions:
 
     Change it when your purpose can bear a larger error, or only a smaller one."""
 
+    objections: bool = True
+    """Whether a repair is refused that may err by more than it changes or than `max_error_mm`, or that the neighbours or their distances speak
+    against; if not, every finding is repaired by the method of the least expected error.
+
+    Change it when you repeat a paper (`false`)."""
+
     preference_factor: Factor = 1.25
     """Of two methods whose expected errors differ by less than this factor the preferred one is taken, else the better one.
 

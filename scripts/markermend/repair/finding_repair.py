@@ -95,7 +95,8 @@ def _repair(finding: Finding, event: Event, ruling: Ruling, maker: CandidateMake
     candidates = maker.candidates(methods, m, event.start, event.stop)
     best = min(candidates, key=lambda candidate: candidate.expected_error, default=None)
     taken = choose(candidates, max_error_mm=options.max_error_mm, preference_factor=options.preference_factor)
-    if taken is None and best is not None and (ruling.confirmed or _decides_alone(finding, best, options.max_error_mm)):
+    confirmed = ruling.confirmed or not options.objections
+    if taken is None and best is not None and (confirmed or _decides_alone(finding, best, options.max_error_mm)):
         taken = best
     if taken:
         result.write(finding.stage, event, taken, candidates, ruling)
@@ -117,7 +118,12 @@ def _decides_alone(finding: Finding, best: Candidate, max_error_mm: float) -> bo
 def _unless_as_expected(
     reason: Reason, event: Event, maker: CandidateMaker, result: Restoration
 ) -> tuple[Reason, bool]:
-    """The reason why samples are not repaired, and whether they are taken away: not where their distances are as expected."""
+    """The reason why samples are not repaired, and whether they are taken away: not where their distances are as expected.
+
+    Where objections do not count, findings of one class alone are kept: no method could repair them.
+    """
+    if not maker.options.objections:
+        return reason, reason.cause in (Cause.SEVERAL_CLASSES, Cause.TOO_LONG)
     m = result.markers.index(event.marker)
     text = maker.guard.why_kept(m, event.start, maker.positions[event.start : event.stop, m])
     return (reason, True) if text is None else (replace(reason, text=f"{reason.text}; kept as measured: {text}"), False)

@@ -191,6 +191,8 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
     yield f"Artifacts were detected in the order {'; '.join(parts)} {citations.cite('artifacts')}."
     if published := list(_published_repairs(stages)):
         yield f"They were repaired by one method for each class, as published: {enumeration(published)}."
+        if not stages["repair"].get("objections", True):
+            yield "No repair was refused; where findings of several classes overlapped, the samples were set to missing."
     elif "repair" in stages:
         yield (
             f"They were repaired by class{limits(stages['repair'])}, where the repair brought the distances to neighbouring "

@@ -211,6 +211,23 @@ def test_a_sure_repair_away_from_the_neighbours_is_undone_unless_a_person_wants_
     assert wanted.repairs[0].method == "vague"
 
 
+@pytest.mark.parametrize("off", [{"deviation": 50.0}, {"off": 30.0, "deviation": 0.1}, {"deviation": 1.0}], ids=str)
+def test_without_objections_every_finding_is_repaired(clean, shape, off):
+    methods = {**METHODS, "slow": ["vague"]}
+    given = {"methods": methods, "extra": Vague(clean, **off), "shape": shape, "max_error_mm": 5.0}
+    assert not mend(clean, SLOW, **given).repairs
+    (repair,) = mend(clean, SLOW, objections=False, **given).repairs
+    assert repair.method == "vague"
+
+
+def test_without_objections_samples_that_no_method_repairs_are_kept_and_several_classes_become_a_gap(drifting, shape):
+    given = {"methods": {**METHODS, "slow": ["vague"]}, "extra": Vague(drifting, off=np.nan), "objections": False}
+    assert np.array_equal(mend(drifting, SLOW, **given).positions, drifting.positions)
+    both = {"peaks": [Event(MARKER, 610, 613, 2.0)], **SLOW}
+    gap = mend(drifting, both, shape=shape, **given)
+    assert np.isnan(gap.positions[START:STOP, drifting.markers.index(MARKER)]).all()
+
+
 def test_a_peak_on_a_slow_change_becomes_a_gap_of_both(walker):
     """Combined forms (skurowski2022 figure 14), as the detectors find them."""
 

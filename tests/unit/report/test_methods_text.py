@@ -99,6 +99,7 @@ def test_the_published_pipeline_says_what_it_is():
         "They were repaired by one method for each class, as published: isolated peaks by a cubic spline, heavy noise by a "
         "Savitzky-Golay filter, steps by a feed-forward neural network and slow drifts by a feed-forward neural network."
     ) in text
+    assert "No repair was refused; where findings" in text
     assert "several predictors (linear regression, local interpolation, local quadratic, local grnn) [2]." in text
     assert WEIGHTS["pma"] in text
     assert "A linear ramp made each prediction meet the samples at the borders of a gap." in text
