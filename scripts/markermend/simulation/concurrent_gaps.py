@@ -87,19 +87,3 @@ def draw_fragment(frames: int, *, duration_s: float, rate: float, rng: np.random
     length = min(samples(duration_s, rate), frames)
     start = int(rng.integers(frames - length + 1))
     return start, start + length
-
-
-def run_generator(sequence: int, condition: int, run: int) -> np.random.Generator:
-    """Make the source of randomness of a run: the same gaps for every method, and others for every run.
-
-    Parameters
-    ----------
-    sequence, condition, run : int
-        Numbers of the recording, of the condition and of the run.
-
-    Returns
-    -------
-    Generator
-        Depends on nothing but the three numbers.
-    """
-    return np.random.default_rng([2018, sequence, condition, run])
