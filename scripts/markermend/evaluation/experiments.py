@@ -19,6 +19,7 @@ from markermend.evaluation.gaps2021 import jobs as gaps2021
 from markermend.evaluation.jobs import Jobs
 from markermend.evaluation.option_flags import write_flag
 from markermend.evaluation.options import EvaluationOptions, read_options
+from markermend.evaluation.paper_options import PaperOptions
 from markermend.evaluation.pma2018 import jobs as pma2018
 from markermend.options.general import EXPERIMENTS
 from markermend.options.reader import BadOptions
@@ -78,11 +79,10 @@ class Experiments:
         list of str
             Their names.
         """
-        own = getattr(self.options, paper)
+        own: PaperOptions = getattr(self.options, paper)
         if not self.named:
             return list(own.synthetic)
-        patterns = getattr(own, "recordings", ("*",))
-        return [name for name in self.named if any(fnmatchcase(name, pattern) for pattern in patterns)]
+        return [name for name in self.named if any(fnmatchcase(name, pattern) for pattern in own.recordings)]
 
     def subject(self, paper: str) -> Callable[[Wildcards], list[str]]:
         """Name the prepared recordings of a subject.

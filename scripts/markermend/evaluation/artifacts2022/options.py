@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
+from markermend.evaluation.paper_options import PaperOptions
 from markermend.options.declaration import (
     Above,
     Below,
@@ -122,11 +123,8 @@ class OperatorOptions:
 
 
 @dataclass(frozen=True)
-class Artifacts2022Options:
+class Artifacts2022Options(PaperOptions):
     """Artifact detection (skurowski2022): contaminate clean recordings, detect, and count samples by class."""
-
-    synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("stand_and_reach",)
-    """The synthetic recordings of the experiments, where no recordings are given."""
 
     denoise_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] | None = 6
     """Frequency of the low-pass filter by which the recordings are denoised, as those of the paper were; null for none."""

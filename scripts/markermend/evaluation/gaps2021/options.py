@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
+from markermend.evaluation.paper_options import PaperOptions
 from markermend.options.declaration import Above, Count, CountOrNone, Distinct, NotEmpty, PositiveSeconds, Unit
 from markermend.options.prediction.low_rank import IteratedSvdOptions
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
@@ -56,7 +57,7 @@ class MethodRuns:
 
 
 @dataclass(frozen=True)
-class Gaps2021Options:
+class Gaps2021Options(PaperOptions):
     """Reconstruction of gaps (skurowski2021): hide two gaps, fill them by each method, and measure the errors."""
 
     synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("stand_and_reach", "walk", "sit", "exercise")

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
+from markermend.evaluation.paper_options import PaperOptions
 from markermend.options.declaration import Count, Distinct, NotEmpty, PositiveSeconds
 
 PublishedModel = Literal[
@@ -41,14 +42,11 @@ class ConstraintTest:
 
 
 @dataclass(frozen=True)
-class Pma2018Options:
+class Pma2018Options(PaperOptions):
     """Model averaging (tits2018): hide concurrent gaps, fill them with each method, and measure the distance to the true positions."""
 
     synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("walk", "exercise")
     """The synthetic recordings of the experiments, where no recordings are given."""
-
-    recordings: Annotated[tuple[str, ...], NotEmpty] = ("*",)
-    """Which of the given recordings are used, as name patterns with `*` and `?`."""
 
     published_as: Annotated[Mapping[str, str], NotEmpty] = field(default_factory=lambda: dict(RECORDINGS))
     """The recordings of the published sequences, by their names in the paper."""
