@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,8 +19,14 @@ SIGNIFICANT = 0.05
 COMPARABLE = 1.1
 """Errors are comparable if they differ by less than this factor."""
 
+IN_GENERAL = 0.75
+"""What holds in general holds in this share of the cases."""
+
 NOT_RUN = "the methods or conditions were not run"
 """Why a statement was not tested."""
+
+SMOOTHED = "the text does not mention the smoothing of the program, which follows fast motion badly: without it errors are smaller"
+"""Why errors by the text of the paper are smaller than the published ones."""
 
 NO_SUCH_SEQUENCE = "the recording of this sequence is not among those that were run"
 """Why a statement on one sequence was not tested."""
@@ -108,14 +115,18 @@ def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Clai
         "The average of models 1, 3, 4 and 5 is the best",
         "Local interpolation is the least effective single model",
     )
-    published = (f"comparable (here: less than {COMPARABLE:g} times)", "pma_1_3_4_5", "local_interpolation")
+    published = (
+        f"comparable in general (here: less than {COMPARABLE:g} times in {IN_GENERAL:.0%})",
+        "pma_1_3_4_5",
+        "local_interpolation",
+    )
     if not names or len(models) < 2:
         yield from (
             Claim(claim, figures, "", verdict(None), NOT_RUN) for claim, figures in zip(claims, published, strict=True)
         )
         return
     ratio = errors[names].div(errors[models].min(axis=1), axis=0)
-    yield _counted(claims[0], published[0], (ratio < COMPARABLE).stack())
+    yield _counted(claims[0], published[0], (ratio < COMPARABLE).stack(), share=IN_GENERAL)
     for claim, figure, own, pick in ((claims[1], published[1], names, "min"), (claims[2], published[2], models, "max")):
         means = np.exp(np.log(errors[own]).mean())
         chosen = str(means.idxmin() if pick == "min" else means.idxmax())
@@ -176,17 +187,32 @@ def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
     """On Tables 2 and 3: sign and significance of the effect, and the errors."""
     if constraints.empty:
         yield Claim("The constraints reduce the error", "", "", verdict(None), NOT_RUN)
-    for row in constraints[constraints["sequence"] != ""].itertuples():
-        where = f"{row.sequence}, {row.gaps} gaps of {row.length_s:g} s (Table {row.table}, {row.variant})"
-        printed = float(row.p_published.strip("< ").replace("10e", "1e"))
-        significant = printed < SIGNIFICANT
+    for row in constraints[constraints["sequence"] != ""].to_dict("records"):
+        where = (
+            f"{row['sequence']}, {row['gaps']} gaps of {row['length_s']:g} s (Table {row['table']}, {row['variant']})"
+        )
+        significant = float(row["p_published"].strip("< ").replace("10e", "1e")) < SIGNIFICANT
         effect = "significantly reduce the error" if significant else "have no significant effect"
-        published = f"{row.unconstrained_published} to {row.constrained_published} mm, p {row.p_published}"
-        ours = f"{row.unconstrained_mm:.1f} to {row.constrained_mm:.1f} mm, p {row.p:.2g}"
-        same = (row.p < SIGNIFICANT) == significant and (row.difference_mm > 0 or not significant)
-        yield Claim(f"The constraints {effect}: {where}", published, ours, verdict(bool(same)))
-        allowed = 2 * np.sqrt(2) * row.constrained_standard_error_mm
-        near = abs(row.constrained_mm - float(row.constrained_published)) <= allowed
-        spread = f"{row.constrained_mm:.1f} mm, standard error {row.constrained_standard_error_mm:.1f}"
+        published = f"{row['unconstrained_published']} to {row['constrained_published']} mm, p {row['p_published']}"
+        # Where a regression extrapolated beyond all bounds, only ranks can be tested.
+        name, p = ("p", row["p"]) if np.isfinite(row["unconstrained_mm"]) else ("Wilcoxon's p", row["p_wilcoxon"])
+        ours = f"{row['unconstrained_mm']:.1f} to {row['constrained_mm']:.1f} mm, {name} {p:.2g}"
+        same = (p < SIGNIFICANT) == significant and (row["difference_mm"] > 0 or not significant)
+        yield Claim(
+            f"The constraints {effect}: {where}", published, ours, verdict(bool(same)), "" if same else _few_runs(row)
+        )
+        error, printed = row["constrained_standard_error_mm"], float(row["constrained_published"])
+        near = abs(row["constrained_mm"] - printed) <= 2 * np.sqrt(2) * error
+        spread = f"{row['constrained_mm']:.1f} mm, standard error {error:.1f}"
+        smoothed = not near and row["variant"] == "text" and row["constrained_mm"] < printed
         text = f"The mean error with the constraints is as published, within chance: {where}"
-        yield Claim(text, f"{row.constrained_published} mm", spread, verdict(bool(near)))
+        yield Claim(text, f"{printed:g} mm", spread, verdict(bool(near)), SMOOTHED if smoothed else "")
+
+
+def _few_runs(row: Mapping[Hashable, Any]) -> str:
+    """Why the effect of the constraints is another: it is decided by few runs."""
+    medians = " and ".join(f"{row[f'{name}_median_mm']:.1f}" for name in ("unconstrained", "constrained"))
+    return (
+        "means without the constraints are decided by runs in which every likelihood vanishes, so that all models weigh the same, one of "
+        f"which extrapolates; medians here: {medians} mm"
+    )

@@ -196,9 +196,9 @@ PAIRED = (
 
 def _paired(without: pd.Series, constrained: pd.Series) -> Sequence[float]:
     """The values of PAIRED."""
-    described = [value for own in (without, constrained) for value in (own.mean(), own.sem(), own.median())]
     same = bool((without == constrained).all())
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore"):  # an error may be infinite
+        described = [value for own in (without, constrained) for value in (own.mean(), own.sem(), own.median())]
         p = np.nan if same else float(ttest_rel(without, constrained).pvalue)
         ranks = np.nan if same else float(wilcoxon(without, constrained).pvalue)
     return [*described, without.mean() - constrained.mean(), p, ranks]

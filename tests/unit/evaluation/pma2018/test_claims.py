@@ -2,6 +2,7 @@
 
 from itertools import product
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -102,6 +103,12 @@ def test_what_the_paper_found_without_effect_must_have_none(claims):
 )
 def test_statements_fail_on_other_errors(changed, words):
     assert verdict_of(judged({**SIZES, **changed}), words) == "no"
+
+
+def test_where_a_regression_extrapolates_beyond_all_bounds_ranks_are_tested():
+    claims = judged({**SIZES, "pma_1_2_3_4_unconstrained": np.inf})
+    assert verdict_of(claims, "significantly reduce the error: CMU1, 10 gaps of 5 s") == "yes"
+    assert claims["ours"].str.contains("inf to 26.* mm, Wilcoxon's p 0.031").any()
 
 
 def test_what_was_not_run_is_said():
