@@ -1,7 +1,7 @@
 """Compare what persons found in a recording with what the algorithm finds (skurowski2022, E2).
 
 Reads: PREPARED, a recording, and the tables of decisions that the options name; without any, the person is one who sees all artifacts
-that are put into the recording. Writes: RUNS, one row for each class and person.
+that are put into the denoised recording. Writes: RUNS, one row for each class and person.
 """
 
 from pathlib import Path
@@ -19,14 +19,14 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--preset", required=True, help="the detectors")
     job = command.begin(parser, argv)
     flags, options = job.flags, job.options.operators
-    recording = job.clean
+    recording = job.recording
     people = {
         name: operators.read_operator(Path(table), flags.recording, recording) for name, table in options.tables.items()
     }
     if not people:
         rng = generator(flags.seed, flags.recording, "operators")
         recording, truth = operators.synthetic_operator(
-            recording, amplitude_mm=options.amplitude_mm, share_percent=options.share_percent, rng=rng
+            job.clean, amplitude_mm=options.amplitude_mm, share_percent=options.share_percent, rng=rng
         )
         people = {"sees all": {kind: list(own) for kind, own in truth.items()}}
     own = runs.preset_options(flags.preset, network_steps=job.options.network_steps)

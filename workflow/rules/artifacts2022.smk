@@ -131,6 +131,7 @@ rule artifacts2022_repairs:
 rule artifacts2022_operators:
     input:
         prepared=papers.recording,
+        decisions=list(papers.options.artifacts2022.operators.tables.values()),
     output:
         runs=artifacts2022["operators"].pattern,
     log:

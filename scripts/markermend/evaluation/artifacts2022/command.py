@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -28,13 +29,18 @@ class Job:
         The flags as given.
     options : Artifacts2022Options
         The options of the experiments.
-    clean : Recording
-        The recording, denoised as the options say.
+    recording : Recording
+        The recording as prepared.
     """
 
     flags: argparse.Namespace
     options: Artifacts2022Options
-    clean: Recording
+    recording: Recording
+
+    @cached_property
+    def clean(self) -> Recording:
+        """The recording, denoised as the options say."""
+        return denoise(self.recording, cutoff_hz=self.options.denoise_hz)
 
     def generators(self, *about: object) -> Iterator[tuple[int, np.random.Generator]]:
         """Make the sources of randomness of the runs, which are the same for everything that is compared.
@@ -115,4 +121,4 @@ def begin(made: argparse.ArgumentParser, argv: list[str] | None) -> Job:
     """
     flags = made.parse_args(argv)
     options = read_flag(Artifacts2022Options, flags.options)
-    return Job(flags, options, denoise(stage_files.read_recording(flags.prepared), cutoff_hz=options.denoise_hz))
+    return Job(flags, options, stage_files.read_recording(flags.prepared))

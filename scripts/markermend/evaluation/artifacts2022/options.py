@@ -109,8 +109,8 @@ class OperatorOptions:
     """What persons found against what the algorithm finds (E2)."""
 
     tables: Mapping[str, str] = field(default_factory=dict)
-    """Tables of decisions by the names of the persons who made them: their lines `accept` and `class` are what was found in the recordings.
-    Without any, the recordings are contaminated, and the person is one who sees all of it."""
+    """Tables of decisions by the names of the persons who made them: their lines `accept` and `class` are what was found in the recordings,
+    which are not denoised. Without any, the recordings are contaminated, and the person is one who sees all of it."""
 
     presets: Annotated[tuple[Literal["paper", "default", "coordinates"], ...], Distinct] = ("paper", "default")
     """The detectors."""
