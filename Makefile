@@ -18,7 +18,7 @@ demo: .venv/ready
 # The experiments of the papers (config/evaluate): SIZE=quick takes minutes; RECORDINGS=FOLDER in place of a synthetic person.
 papers: .venv/ready
 	$(BIN)/snakemake --cores $(CORES) papers --configfile config/evaluate/$(SIZE).yaml --config results=$(RESULTS) \
-		$(if $(RECORDINGS),recordings=$(RECORDINGS))
+		$(if $(RECORDINGS),"recordings=$(RECORDINGS)")
 	@echo
 	@echo "$(abspath $(RESULTS))/papers/index.html"
 

@@ -60,7 +60,8 @@ def test_the_wheel_holds_the_package_and_the_workflow(wheel):
     scripts = {f"{HERE}/scripts/{path.name}" for path in (PROJECT / "scripts").glob("*.py")}
     rules = {f"{HERE}/workflow/rules/{path.name}" for path in (PROJECT / "workflow/rules").iterdir()}
     others = {"markermend/py.typed", "markermend/report/templates/page.html.j2", f"{HERE}/Snakefile"}
-    assert names >= scripts | rules | others | {f"{HERE}/config/config.yaml"}
+    others |= {"markermend/evaluation/templates/paper.html.j2", f"{HERE}/config/evaluate/published/tits2018.tsv"}
+    assert names >= scripts | rules | others | {f"{HERE}/config/{name}.yaml" for name in ("config", "evaluate/quick")}
     assert not [name for name in names if "__pycache__" in name or name.startswith(f"{HERE}/scripts/markermend")]
 
 
@@ -72,6 +73,11 @@ def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, pro
     names = [path.name for path in there.iterdir() if path.is_file()]
     assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
     assert [name for name in names if (here / name).read_bytes() != (there / name).read_bytes()] == []
+
+
+def test_the_installed_workflow_repeats_the_papers(environment, tmp_path):
+    given = ["papers", "--cores", "1", "--configfile", "config/evaluate/quick.yaml", "--config", f"results={tmp_path}"]
+    assert "papers_index" in run(environment / "markermend", "--dry-run", *given, cwd=tmp_path)
 
 
 def test_ten_lines_clean_a_recording_as_the_workflow_does(environment, project, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from markermend.storage.installation import workflow_folder
 
@@ -15,14 +16,22 @@ def command(arguments: Sequence[str]) -> list[str]:
     Parameters
     ----------
     arguments : sequence of str
-        Arguments of Snakemake, such as `--cores all --config recordings=FOLDER results=FOLDER`.
+        Arguments of Snakemake, such as `--cores all --config recordings=FOLDER results=FOLDER`. A config file of the workflow, such as
+        `config/presets/published.yaml`, is named as in a checkout, in whatever folder the command runs.
 
     Returns
     -------
     list of str
         The whole command line.
     """
-    return [sys.executable, "-m", "snakemake", "--snakefile", str(workflow_folder() / "Snakefile"), *arguments]
+    folder = workflow_folder()
+    given = [str(folder / word) if _of_workflow(word, folder) else word for word in arguments]
+    return [sys.executable, "-m", "snakemake", "--snakefile", str(folder / "Snakefile"), *given]
+
+
+def _of_workflow(word: str, folder: Path) -> bool:
+    """Whether an argument names a config file of the workflow that is not in the working folder."""
+    return word.startswith("config/") and not Path(word).exists() and (folder / word).is_file()
 
 
 def main() -> int:
