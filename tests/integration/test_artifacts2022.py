@@ -26,10 +26,10 @@ def test_batches_of_runs_become_tables_and_pages(tmp_path):
     files = ["--prepared", str(prepared), "--size", str(size)]
     papers_recording.main(["--name", "stand", "--synthetic", synthetic, "--seed", "5", *files])
     batches = []
-    given = ["--prepared", str(prepared), "--recording", "stand", "--preset", "default", "--amplitude-mm", "10"]
+    given = ["--prepared", str(prepared), "--recording", "stand", "--preset", "paper", "--amplitude-mm", "10"]
     for batch in ("0-1", "1-2"):
         batches.append(str(tmp_path / f"{batch}.tsv"))
-        which = ["--share-percent", "20", "--batch", batch, "--seed", "5", "--options", '{"denoise_hz": 6}']
+        which = ["--share-percent", "20", "--batch", batch, "--seed", "5", "--options", '{"network_steps": 3}']
         artifacts2022_runs.main([*given, *which, "--runs", batches[-1]])
     others = other_runs(tmp_path, prepared)
     runs = pd.read_csv(batches[0], sep="\t")
@@ -41,7 +41,7 @@ def test_batches_of_runs_become_tables_and_pages(tmp_path):
     tables = {name: folder / f"{name}.tsv" for name in TABLES}
     measures = pd.read_csv(tables["measures"], sep="\t").set_index("class")
     assert list(measures.index) == [*CLASSES, "all"]
-    assert measures.loc["clean", "TPR"] > 90 and measures.loc["peaks", "TPR_published"] == "90"
+    assert measures.loc["clean", "TPR"] > 80 and measures.loc["peaks", "TPR_published"] == "90"
     assert pd.read_csv(tables["confusion"], sep="\t")["runs"].tolist() == [2] * len(CLASSES)
     repairs = pd.read_csv(tables["repairs"], sep="\t")
     assert repairs["published"].tolist() == [0.38228, 0.00273, 0.07007] and repairs["rmse_mm"].gt(0).all()

@@ -15,7 +15,8 @@ from markermend.report.methods_text import REFERENCES
 
 LEAD = (
     "A clean and denoised recording is contaminated with artifacts of four classes, each in one coordinate of one marker, "
-    "and the detectors say of every sample of every coordinate to which class it belongs. "
+    "and the detectors say of every sample of every coordinate to which class it belongs. Our own detectors look at all axes of a marker "
+    "together: where they name several, those that were not distorted count as falsely found. "
     "The recordings of the paper are not public: their figures are put beside those of other recordings, of like length and speed.",
 )
 
@@ -101,25 +102,23 @@ def _readings(readings: pd.DataFrame) -> Section:
 def _slow(slow: pd.DataFrame) -> Section:
     """What the detection of slow changes depends on."""
     sentences = (
-        "The network learns the recording in which it detects. `remaining` is the part of a slow change that is left in the residual, "
-        "`deviation_mm` the standard deviation of the residual, whose threefold is the upper threshold. The paper prints a lower threshold of 0.5 "
-        "and a shortest slow change of 0.5 s.",
+        "The network learns the recording in which it detects. What remains is the part of a slow change that is left in the residual; the "
+        "deviation of the residual is its standard deviation, of which the upper threshold is three. The charts have the largest lower threshold. "
+        "The paper prints a lower threshold of 0.5, and 0.5 s for the shortest slow change.",
     )
-    drawn = slow.assign(
-        setting=[
-            f"{over}, {lower:g} deviations, {duration:g} s"
-            for over, lower, duration in zip(
-                slow["deviation_over"], slow["lower_sigmas"], slow["min_duration_s"], strict=True
-            )
-        ]
-    )
+    drawn = slow[slow["lower_sigmas"] == slow["lower_sigmas"].max()]
+    names = [
+        f"from {duration:g} s, of each {over}" if over != "recording" else f"from {duration:g} s, of the recording"
+        for over, duration in zip(drawn["deviation_over"], drawn["min_duration_s"], strict=True)
+    ]
     plots = []
-    for (recording, amplitude, share), own in drawn.groupby(["recording", "amplitude_mm", "share_percent"], sort=False):
-        for measure in ("TPR", "FDR", "clean_TPR"):
+    for (recording, amplitude, share), own in drawn.assign(setting=names).groupby(
+        ["recording", "amplitude_mm", "share_percent"], sort=False
+    ):
+        for measure in ("TPR", "FDR"):
             axes = Axes("network_steps", measure, "steps of the training, at most", f"{measure}, %", log_x=True)
-            plots.append(
-                charts.lines(own, axes, by="setting", title=f"{recording}, {amplitude:g} mm, {share:g} %: {measure}")
-            )
+            title = f"{recording}, {amplitude:g} mm, {share:g} %: {measure}"
+            plots.append(charts.lines(own, axes, by="setting", title=title))
     return Section("Thresholds of slow changes", sentences, "slow.tsv", charts=plots)
 
 
@@ -149,8 +148,8 @@ def _with_published(own: pd.DataFrame) -> pd.DataFrame:
 def _operators(operators: pd.DataFrame) -> Section:
     """Findings of persons and of the algorithm (Table 2)."""
     sentences = (
-        "`human_confirmed` of what the person found the algorithm finds, too, `same_class` of them in the same class; `algorithm_confirmed` of what "
-        "the algorithm found the person found, too (approved, in the paper). What only one found is missed, or rejected.",
+        "A finding is confirmed where the other one found anything on this marker in any of its frames. In the words of the paper, what the "
+        "algorithm finds is then approved, or else rejected, and what only the person found is missed.",
     )
     return Section("Persons and the algorithm (Table 2)", sentences, "operators.tsv")
 
