@@ -10,6 +10,7 @@ import pandas as pd
 
 from markermend.evaluation.claims import Claim, claims_table, verdict
 from markermend.evaluation.pma2018.methods import average
+from markermend.evaluation.pma2018.names import display_name
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.pma2018.tables import CONDITION
 
@@ -27,6 +28,12 @@ NOT_RUN = "the methods or conditions were not run"
 
 SMOOTHED = "the text does not mention the smoothing of the program, which follows fast motion badly: without it errors are smaller"
 """Why errors by the text of the paper are smaller than the published ones."""
+
+TOO_SHORT = "no recording is so long, or the condition was not run"
+"""Why a statement on long recordings was not tested."""
+
+FEW_RECORDINGS = "means over the given recordings, of which some may not be among the eight of the paper"
+"""Why a statement on means need not hold."""
 
 NO_SUCH_SEQUENCE = "the recording of this sequence is not among those that were run"
 """Why a statement on one sequence was not tested."""
@@ -100,7 +107,9 @@ def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim
         return
     errors = own[known].iloc[0]
     best = str(errors.idxmin())
-    ours = f"{errors['local_grnn']:.1f} mm" + ("" if best == "local_grnn" else f"; {best} {errors[best]:.1f} mm")
+    ours = f"{errors['local_grnn']:.1f} mm" + (
+        "" if best == "local_grnn" else f"; {display_name(best)} {errors[best]:.1f} mm"
+    )
     yield Claim(claim, "20.2 mm", ours, verdict(best == "local_grnn"))
 
 
@@ -116,7 +125,7 @@ def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Clai
         "Local interpolation is the least effective single model",
     )
     published = (
-        f"comparable in general (here: less than {COMPARABLE:g} times in {IN_GENERAL:.0%})",
+        f"comparable in general (here: less than {COMPARABLE:g} times in {100 * IN_GENERAL:g} %)",
         "pma_1_3_4_5",
         "local_interpolation",
     )
@@ -130,8 +139,8 @@ def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Clai
     for claim, figure, own, pick in ((claims[1], published[1], names, "min"), (claims[2], published[2], models, "max")):
         means = np.exp(np.log(errors[own]).mean())
         chosen = str(means.idxmin() if pick == "min" else means.idxmax())
-        ours = "; ".join(f"{name} {value:.2f} mm" for name, value in means.items())
-        yield Claim(claim, figure, f"geometric means: {ours}", verdict(chosen == figure))
+        ours = "; ".join(f"{display_name(name)} {value:.2f} mm" for name, value in means.items())
+        yield Claim(claim, display_name(figure), f"geometric means: {ours}", verdict(chosen == figure))
 
 
 def _on_durations(durations: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
@@ -167,20 +176,24 @@ def _counted(claim: str, published: str, holds: pd.Series, *, share: float = 1.0
 def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
     """On Figure 7: the best single models, and the mean errors that the text states."""
     rows = (
-        ("lengths", 5.0, np.nan, "local_grnn", "In gaps of 5 s the local GRNN has the smallest mean error of all single models"),
-        ("durations", 1.0, 5.0, "local_grnn", "In fragments of 5 s the local GRNN has the smallest mean error of all single models"),
-        ("durations", 1.0, 40.0, "linear_regression", "In fragments of 40 s the global regression has the smallest mean error of all single models"),
+        ("lengths", 5.0, np.nan, "local_grnn", "10 mm", "In gaps of 5 s the local GRNN has the smallest mean error of all single models"),
+        ("durations", 1.0, 5.0, "local_grnn", "12 mm", "In fragments of 5 s the local GRNN has the smallest mean error of all single models"),
+        ("durations", 1.0, 40.0, "linear_regression", "9 mm", "In fragments of 40 s the global regression has the smallest mean error of all single models"),
     )  # fmt: skip
-    for figure, length, duration, method, claim in rows:
+    for figure, length, duration, method, published, claim in rows:
         own = means[(means["figure"] == figure) & (means["length_s"] == length)]
         own = own[(own["duration_s"] == duration) | (np.isnan(duration) & own["duration_s"].isna())]
         own = own[~own["method"].str.startswith(("pma", "default"))].set_index("method")
         if method not in own.index:
-            yield Claim(claim, "", "", verdict(None), NOT_RUN)
+            yield Claim(
+                claim, published, "", verdict(None), NOT_RUN if own.empty and figure == "lengths" else TOO_SHORT
+            )
             continue
         best = str(own["error_mm"].idxmin())
-        ours = "; ".join(f"{name} {own.loc[name, 'error_mm']:.1f} mm" for name in dict.fromkeys((best, method)))
-        yield Claim(claim, f"{own.loc[method, 'published']} mm", ours, verdict(best == method))
+        ours = "; ".join(
+            f"{display_name(name)} {own.loc[name, 'error_mm']:.1f} mm" for name in dict.fromkeys((best, method))
+        )
+        yield Claim(claim, published, ours, verdict(best == method), "" if best == method else FEW_RECORDINGS)
 
 
 def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
 import pandas as pd
 
 from markermend.evaluation import charts
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.pages import Page, Section
+from markermend.evaluation.pma2018.names import display_name
 from markermend.report.methods_text import REFERENCES
 
 LEAD = (
@@ -19,17 +19,6 @@ LEAD = (
     "The curves of Figures 4 to 7 are printed as drawings only: what is put beside them here is the few figures that the text states. "
     "Of the eight sequences, those are compared whose recordings were given.",
 )
-
-NAMES = {
-    "linear_regression": "1 GLR",
-    "local_interpolation": "2 LI",
-    "local_quadratic": "3 LPR",
-    "local_grnn": "4 LGRNN",
-    "weighted_pca": "5 PCA",
-    "bolero": "6 BoLeRo",
-    "default": "our ensemble",
-}
-"""The methods by their acronyms in the paper."""
 
 FIGURES = {
     "lengths": ("length_s", "length of the gaps, s", "Length of the gaps (Figure 4)"),
@@ -87,24 +76,6 @@ def _charts(table: pd.DataFrame, column: str, x_title: str, title: str) -> Itera
         yield charts.lines(named[table["method"] != "bolero"], axes, title=f"{title}, without BoLeRo", **chart)
 
 
-def display_name(method: str) -> str:
-    """Name a method as the paper does.
-
-    Parameters
-    ----------
-    method : str
-        Its name in the tables.
-
-    Returns
-    -------
-    str
-        Such as `4 LGRNN`, or `PMA 1, 2, 3, 4`.
-    """
-    if method in NAMES:
-        return NAMES[method]
-    return f"PMA {', '.join(method.removeprefix('pma_').split('_'))}"
-
-
 def _means(means: pd.DataFrame) -> Section:
     """Means over the recordings."""
     drawn = []
@@ -128,12 +99,19 @@ def _constraints(constraints: pd.DataFrame) -> Section:
         "medians, some runs in which the polynomial regression extrapolates, and no model leads to likely distances, decide them.",
     )
     return Section(
-        "Effect of the constraints (Tables 2 and 3)", sentences, "constraints.tsv", table=_rounded(constraints)
+        "Effect of the constraints (Tables 2 and 3)", sentences, "constraints.tsv", table=_with_errors(constraints)
     )
 
 
-def _rounded(constraints: pd.DataFrame) -> pd.DataFrame:
-    """The table for the page."""
-    numbers = constraints.select_dtypes("number").columns.difference(["p", "p_wilcoxon"])
-    with np.errstate(over="ignore"):
-        return constraints.assign(**{name: constraints[name].round(1) for name in numbers})
+def _with_errors(constraints: pd.DataFrame) -> pd.DataFrame:
+    """The table for the page: each mean with its standard error, then the published one."""
+    shown = constraints[["sequence", "recording", "table", "variant", "runs"]].copy()
+    for name, words in (("unconstrained", "without"), ("constrained", "with")):
+        means = zip(constraints[f"{name}_mm"], constraints[f"{name}_standard_error_mm"], strict=True)
+        shown[f"{words} constraints, mm"] = [f"{mean:.1f} ± {error:.1f}" for mean, error in means]
+        shown[f"{words}, published"] = constraints[f"{name}_published"]
+    for name in ("unconstrained", "constrained"):
+        shown[f"{name} median, mm"] = constraints[f"{name}_median_mm"].round(1)
+    return shown.assign(
+        p=constraints["p"], **{"p, published": constraints["p_published"], "p, Wilcoxon": constraints["p_wilcoxon"]}
+    )

@@ -1,16 +1,10 @@
-"""The page of the model averaging paper: a chart for each recording and figure, the paper's names."""
+"""The page of the model averaging paper: a chart for each recording and figure, and the tests with their standard errors."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from markermend.evaluation.pma2018.page import display_name, make_page
-
-
-def test_methods_have_the_names_of_the_paper():
-    assert display_name("local_grnn") == "4 LGRNN"
-    assert display_name("pma_1_3_4_5") == "PMA 1, 3, 4, 5"
-    assert display_name("default") == "our ensemble"
+from markermend.evaluation.pma2018.page import make_page
 
 
 @pytest.fixture
@@ -28,7 +22,23 @@ def tables():
     own = {"lengths": figure("length_s", (1, 2)), "durations": figure("duration_s", (5,))}
     own |= {"gap_counts": figure("gaps", (1, 3))}
     means = pd.concat([table[table["recording"] == "a"].assign(figure=name) for name, table in own.items()])
-    constraints = pd.DataFrame({"recording": ["a"], "constrained_mm": [1.234], "p": [0.00123]})
+    row = {
+        "sequence": "CMU1",
+        "recording": "a",
+        "table": 2,
+        "variant": "text",
+        "runs": 8,
+        "p": 0.00123,
+        "p_published": "0.008",
+    }
+    for name in ("unconstrained", "constrained"):
+        row |= {
+            f"{name}_mm": 1.234,
+            f"{name}_standard_error_mm": 0.26,
+            f"{name}_median_mm": 1.06,
+            f"{name}_published": "2.1",
+        }
+    constraints = pd.DataFrame([{**row, "p_wilcoxon": 0.5}])
     return {**own, "means": means, "constraints": constraints}
 
 
@@ -40,5 +50,6 @@ def test_the_page_has_a_chart_for_each_recording_and_figure(tables):
     titles = [chart.title for chart in page.sections[0].charts]
     assert titles == ["a", "a, without BoLeRo", "b", "b, without BoLeRo"]
     assert {trace["name"] for trace in page.sections[0].charts[1].figure["data"]} == {"4 LGRNN"}
-    assert page.sections[4].table["constrained_mm"].tolist() == [1.2]
-    assert page.sections[4].table["p"].tolist() == [0.00123]
+    shown = page.sections[4].table.iloc[0]
+    assert shown["with constraints, mm"] == "1.2 ± 0.3" and shown["with, published"] == "2.1"
+    assert shown["p"] == 0.00123 and shown["constrained median, mm"] == 1.1
