@@ -36,7 +36,7 @@ def page_of(runs):
 
 def test_each_experiment_has_a_section_with_charts(runs):
     sections = page_of(runs).sections
-    assert [own.table for own in sections] == [
+    assert [own.file for own in sections] == [
         "measures.tsv",
         "confusion.tsv",
         "readings.tsv",
@@ -50,4 +50,4 @@ def test_each_experiment_has_a_section_with_charts(runs):
 
 
 def test_experiments_that_were_not_run_have_none(runs):
-    assert [own.table for own in page_of({"runs": runs["runs"]}).sections] == ["measures.tsv", "confusion.tsv"]
+    assert [own.file for own in page_of({"runs": runs["runs"]}).sections] == ["measures.tsv", "confusion.tsv"]
