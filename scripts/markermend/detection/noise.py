@@ -11,7 +11,7 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.detection.neighbour import attribution, excess_variance
+from markermend.detection.neighbour import attribution, excess_variance, flicker
 from markermend.detection.neighbour.excess_variance import BandDetector, Shaking
 from markermend.detection.neighbour.increments import IncrementDetector, IncrementStatistics, clusters
 from markermend.detection.neighbour.neighbourhood import overlap
@@ -48,11 +48,14 @@ def detect_noise(
     list[Event]
         Disjoint events, sorted.
     """
-    found, _ = attribution.attribute(
+    found, statistics = attribution.attribute(
         NoiseDetector(inputs.without_claimed(scene, earlier), markers, options),
         predictor=predictor,
         rounds=options.attribution_rounds,
         neighbours=options.attribution_neighbours,
+    )
+    found += flicker.find_flicker(
+        scene, statistics, markers=markers, earlier=earlier, options=options, predictor=predictor
     )
     return events.disjoint(inputs.of_steady_markers(found, scene, markers, options.shape))
 

@@ -71,11 +71,14 @@ class SeparationOptions:
     """Time over which amplitude and phase of wobble stay alike."""
 
     max_level_error: Share = 0.2
-    """Flicker between two levels: what the levels leave of the changes from frame to frame (root mean square along an axis), as a
-    part of their distance, at most (0 to 1)."""
+    """Flicker between two levels: what the levels leave of the changes from frame to frame (root mean square, per axis and
+    from one level to the other), as a part of their distance, at most (0 to 1)."""
 
     min_level_changes: Annotated[int, AtLeast(2)] = 4
     """Changes between the two levels, at least."""
+
+    level_trend_frames: Count = 9
+    """Changes over which those within levels are averaged: the slow error of the prediction."""
 
     step_ramps_frames: Annotated[tuple[CountOrNone, ...], NotEmpty] = (0, 2)
     """Frames, all of them tried, that a step takes to its level and back."""

@@ -180,11 +180,17 @@ class CandidateMaker:
         return [
             replace(
                 self._candidate(proposal, measured, prediction.positions, radius),
-                shape_objection=self.guard.objection(m, start, measured, proposal.positions),
+                shape_objection=self._shape_objection(proposal, m, start, measured),
             )
             for proposal in proposals
             if proposal is not None
         ]
+
+    def _shape_objection(self, proposal: Proposal, m: int, start: int, measured: np.ndarray) -> Reason | None:
+        """Why the distances to the steadiest neighbours speak against a proposal for marker m from a frame on."""
+        levels = proposal.method == "separate_levels"
+        judge = self.guard.objection_to_level if levels else self.guard.objection
+        return judge(m, start, measured, proposal.positions)
 
     def _candidate(self, proposal: Proposal, measured: np.ndarray, expected: np.ndarray, radius: float) -> Candidate:
         """A proposal, compared with what was measured and with the prediction by the neighbours, each (n, 3), mm."""
@@ -217,17 +223,18 @@ class CandidateMaker:
         return Prediction(prediction.positions[1:-1], prediction.error[1:-1])
 
     def _levels(self, m: int, start: int, stop: int) -> Proposal | None:
-        """The samples of marker m as if it flickered between two levels, see `separate_levels`; None at an end of the recording.
-
-        The one side there says too little: flicker may go on, unfound, beyond the finding.
-        """
-        seen, ridge = self.scene.present[:, m], self.predictors.get("local_ridge")
-        if ridge is None or start < 1 or stop >= len(seen):
+        """The samples of marker m as if it flickered between two levels, see `separate_levels`."""
+        ridge = self.predictors.get("local_ridge")
+        if ridge is None:
             return None
-        expected = ridge.predict(self.scene, m, start, stop).positions
-        outside = bool(seen[start - 1]), bool(seen[stop])
+        # At an end of the recording there is no sample beside the finding.
+        padded = np.pad(self.positions[:, m], ((1, 1), (0, 0)), constant_values=np.nan)[start : stop + 2]
+        seen = np.pad(self.scene.present[:, m], 1)
         return separate_levels(
-            self.positions[start - 1 : stop + 1, m], expected, outside=outside, options=self.options.separation
+            padded,
+            ridge.predict(self.scene, m, start, stop).positions,
+            outside=(bool(seen[start]), bool(seen[stop + 1])),
+            options=self.options.separation,
         )
 
     def worse_exchanged(self, members: Sequence[int], partners: Sequence[int], start: int, stop: int) -> Reason | None:

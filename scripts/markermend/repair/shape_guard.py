@@ -72,9 +72,35 @@ class ShapeGuard:
         nearer = self._nearer(local, gain, measured, seen) or self._calmer(local, measured, seen)
         if self._decide(local, seen - measured) and not nearer:
             return self._against(local, gain, measured, seen)
-        usual = self.distances.usual(marker, local)
-        gain = self._log_densities(usual, seen) - self._log_densities(usual, measured)
-        return self._against(usual, gain, measured, seen) if nan_mean(gain, axis=None) < -options.max_loss else None
+        return self._against_usual(self.distances.usual(marker, local), measured, seen)
+
+    def objection_to_level(self, marker: int, start: int, measured: np.ndarray, proposed: np.ndarray) -> Reason | None:
+        """Find the reason why the usual distances speak against a repair that takes many like jumps out of a trajectory.
+
+        The jumps prove that one of two levels is wrong; which one, the distances must not clearly contradict.
+
+        Parameters
+        ----------
+        marker, start, measured, proposed
+            See `objection`.
+
+        Returns
+        -------
+        Reason or None
+            The reason, with the distance that speaks most clearly against it; None where the repair does not take the distances
+            clearly away from the usual ones, or too few of them are known.
+        """
+        local = self.distances.expected(marker, start, start + len(measured))
+        if local is None:
+            return None
+        seen = np.where(np.isnan(measured), np.nan, proposed)
+        return self._against_usual(self.distances.usual(marker, local), measured, seen)
+
+    def _against_usual(self, usual: ExpectedDistances, measured: np.ndarray, proposed: np.ndarray) -> Reason | None:
+        """The reason against a repair that takes the distances clearly away from the usual ones."""
+        gain = self._log_densities(usual, proposed) - self._log_densities(usual, measured)
+        lost = nan_mean(gain, axis=None) < -self.options.max_loss
+        return self._against(usual, gain, measured, proposed) if lost else None
 
     def _decide(self, expected: ExpectedDistances, change: np.ndarray) -> bool:
         """Whether enough distances are steadier than a repair changes (n, 3) the positions, mm, to fix where the marker is."""

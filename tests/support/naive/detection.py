@@ -95,3 +95,30 @@ def _ends(sudden, at, longest, ratio, localisation):
         return 0, 0
     other = max(others, key=lambda j: abs(sudden[j]))
     return min(largest, other), max(largest, other)
+
+
+def naive_alternating_jumps(vector, score, *, max_dwell, options):
+    """Frames of the runs of jumps of which each undoes the one before: chained jump by jump, from each size that is tried."""
+    chains = []
+    threshold = 1.0
+    while threshold < score.max():
+        chain = []
+        for frame in range(len(score)):
+            if score[frame] <= threshold:
+                continue
+            if chain:
+                before, after = vector[chain[-1]], vector[frame]
+                size = max(np.sqrt(sum(before**2)), np.sqrt(sum(after**2)))
+                near = frame - chain[-1] <= max_dwell
+                if not near or np.sqrt(sum((before + after) ** 2)) > options.max_mismatch * size:
+                    chains.append(chain)
+                    chain = []
+            chain = [*chain, frame]
+        chains.append(chain)
+        threshold *= np.sqrt(2)
+    kept = []
+    for chain in sorted(chains, key=len, reverse=True):
+        alone = all(chain[-1] < other[0] or other[-1] < chain[0] for other in kept)
+        if len(chain) >= options.min_jumps and alone:
+            kept.append(chain)
+    return sorted(kept)

@@ -45,6 +45,16 @@ def test_a_repair_of_what_is_usual_is_objected_to(recording):
     assert guard.why_kept(m, START, true).startswith("the distances to its neighbours are usual (")
 
 
+def test_the_right_one_of_two_levels_is_clearly_wrong_by_the_usual_distances_only(recording):
+    guard, m = guard_of(recording)
+    true = recording.positions[START:STOP, m]
+    assert guard.objection_to_level(m, START, true + 5.0, true) is None
+    assert guard.objection_to_level(m, START, true, true) is None
+    assert guard.objection_to_level(m, START, true, true + 30.0).cause is Cause.AGAINST_SHAPE
+    unknown = replace(guard, scene=replace(guard.scene, shape=None))
+    assert unknown.objection_to_level(m, START, true, true + 30.0) is None
+
+
 def test_a_mate_that_is_itself_off_does_not_decide(recording):
     guard, m = guard_of(recording)
     positions = guard.scene.positions.copy()

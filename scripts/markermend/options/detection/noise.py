@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Annotated
 
 from markermend.options.declaration import (
+    AtLeast,
     Count,
     CountOrNone,
     Factor,
@@ -151,6 +152,24 @@ class WobbleOptions(ExcessVarianceOptions):
 
 
 @dataclass(frozen=True)
+class FlickerOptions:
+    """Options of the detection of flicker between two levels."""
+
+    max_dwell_s: PositiveSeconds = 0.3
+    """Time that a marker stays at either level, at most."""
+
+    min_jumps: Annotated[int, AtLeast(3)] = 4
+    """Jumps between the levels, at least."""
+
+    max_mismatch: Share = 0.3
+    """Difference between a jump and the one before it, which it undoes, as a part of their size, at most (0 to 1)."""
+
+    min_undone_share: Share = 0.5
+    """Part of the first or last jump that a change undoes, at least, to count as the one that an odd number of jumps lacks (0 to
+    1)."""
+
+
+@dataclass(frozen=True)
 class NoiseOptions(IncrementOptions, DetectorOptions):
     """Detect heavy noise.
 
@@ -183,6 +202,9 @@ class NoiseOptions(IncrementOptions, DetectorOptions):
 
     wobble: WobbleOptions = field(default_factory=WobbleOptions)
     """Options of the detection of wobble of several Hz."""
+
+    flicker: FlickerOptions = field(default_factory=FlickerOptions)
+    """Options of the detection of flicker between two levels, whose changes are rarer than those of noise."""
 
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The subject's usual shape."""
