@@ -38,7 +38,8 @@ class Candidate:
         The largest change of a measured sample, mm.
     misfit_before, misfit_after : float
         Root mean square distance of what was measured, and of what is proposed, from the prediction by the neighbours, mm;
-        NaN where there is no prediction, or where the proposal already weighs the prediction against what was measured.
+        NaN where there is no prediction, or where the proposal already weighs the prediction against what was measured, or only
+        its changes.
     prediction_radius : float
         Radius around the prediction that holds the true position with probability 0.95, mm.
     shape_objection : Reason, optional
@@ -195,7 +196,7 @@ class CandidateMaker:
     def _candidate(self, proposal: Proposal, measured: np.ndarray, expected: np.ndarray, radius: float) -> Candidate:
         """A proposal, compared with what was measured and with the prediction by the neighbours, each (n, 3), mm."""
         after = np.nan
-        if proposal.method not in SHAPE_COVARIANCES:
+        if proposal.method not in (*SHAPE_COVARIANCES, "separate_levels"):
             after = rms_distance(np.where(np.isnan(measured), np.nan, proposal.positions), expected)
         return Candidate(
             proposal,

@@ -103,3 +103,17 @@ def test_flicker_is_undone_level_by_level(clean, start, stop):
     assert error(clean, result, start, stop).max() < 0.5
     right = result.positions[start:stop, m][~displaced]
     np.testing.assert_array_equal(right, recording.positions[start:stop, m][~displaced])
+
+
+def test_flicker_is_undone_where_the_prediction_is_further_off_than_the_levels(clean):
+    """The jumps are known from frame to frame, where the error of the prediction cancels; its level says nothing."""
+    m, displaced = clean.markers.index(MARKER), np.tile([False, True, True, False, True], 8)
+    positions = clean.positions.copy()
+    positions[570:670, m] -= 15.0 * np.sin(np.pi * np.arange(100) / 99)[:, None] ** 2 * np.array([0.6, 0.0, 0.8])
+    moving = bodies.recording(clean.markers, positions)
+    recording = distorted(moving, displaced[:, None] * np.array([6.0, 0.0, 8.0]), 600, 640)
+    methods = {**METHODS, "noise": ["separate_levels"]}
+    result = mend(recording, {"noise": [Event(MARKER, 600, 640, 4.0)]}, methods=methods)
+    (change,) = result.repairs
+    assert change.method == "separate_levels"
+    assert error(moving, result, 600, 640).max() < 0.8
