@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
 
 from markermend.evaluation.claims import Claim, claims_table, verdict
+from markermend.evaluation.pma2018 import reasons
 from markermend.evaluation.pma2018.methods import average
-from markermend.evaluation.pma2018.names import display_name
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.pma2018.tables import CONDITION
+from markermend.evaluation.pma2018.wording import display_name, millimetres
 
 SIGNIFICANT = 0.05
 """An effect is significant if p is smaller, as in the paper."""
@@ -22,26 +22,6 @@ COMPARABLE = 1.1
 
 IN_GENERAL = 0.75
 """What holds in general holds in this share of the cases."""
-
-NOT_RUN = "the methods or conditions were not run"
-"""Why a statement was not tested."""
-
-SMOOTHED = "the text does not mention the smoothing of the program, which follows fast motion badly: without it errors are smaller"
-"""Why errors by the text of the paper are smaller than the published ones."""
-
-TOO_SHORT = "no recording is so long, or the condition was not run"
-"""Why a statement on long recordings was not tested."""
-
-FEW_RECORDINGS = "means over the given recordings, of which some may not be among the eight of the paper"
-"""Why a statement on means need not hold."""
-
-RAMP = (
-    "in long gaps the ramp between the offsets at the borders, which the time constraint subtracts, adds to the error"
-)
-"""Why the constraints may raise the error."""
-
-NO_SUCH_SEQUENCE = "the recording of this sequence is not among those that were run"
-"""Why a statement on one sequence was not tested."""
 
 
 def judge(tables: Mapping[str, pd.DataFrame], options: Pma2018Options) -> pd.DataFrame:
@@ -96,11 +76,11 @@ def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim
     """On Figure 4."""
     claim = "BoLeRo has larger errors than all other methods"
     if "bolero" in lengths:
-        others = lengths.drop(columns="bolero").max(axis=1)
-        largest = lengths["bolero"] > others
-        yield _counted(claim, "in all conditions of CMU1 and CMU3", largest)
+        run = lengths.dropna()
+        largest = run["bolero"] > run.drop(columns="bolero").max(axis=1)
+        yield _counted(claim, "in all conditions of CMU1 and CMU3", largest, reason=reasons.WINDOW)
     else:
-        yield Claim(claim, "in all conditions of CMU1 and CMU3", "", verdict(None), NOT_RUN)
+        yield Claim(claim, "in all conditions of CMU1 and CMU3", "", verdict(None), reasons.NOT_RUN)
     yield _growing(lengths, "length_s", "The error of all methods grows with the length of the gaps")
     claim = "On CMU1 the local GRNN is the best single model in gaps of 5 s"
     own = lengths[
@@ -108,7 +88,7 @@ def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim
     ]
     known = [name for name in options.models if name in own]
     if own.empty or "local_grnn" not in known:
-        yield Claim(claim, "20.2 mm", "", verdict(None), NO_SUCH_SEQUENCE if own.empty else NOT_RUN)
+        yield Claim(claim, "20.2 mm", "", verdict(None), reasons.NO_SUCH_SEQUENCE if own.empty else reasons.NOT_RUN)
         return
     errors = own[known].iloc[0]
     best = str(errors.idxmin())
@@ -136,11 +116,12 @@ def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Clai
     )
     if not names or len(models) < 2:
         yield from (
-            Claim(claim, figures, "", verdict(None), NOT_RUN) for claim, figures in zip(claims, published, strict=True)
+            Claim(claim, figures, "", verdict(None), reasons.NOT_RUN)
+            for claim, figures in zip(claims, published, strict=True)
         )
         return
     ratio = errors[names].div(errors[models].min(axis=1), axis=0)
-    yield _counted(claims[0], published[0], (ratio < COMPARABLE).stack(), share=IN_GENERAL)
+    yield _counted(claims[0], published[0], ratio.stack().dropna() < COMPARABLE, share=IN_GENERAL)
     for claim, figure, own, pick in ((claims[1], published[1], names, "min"), (claims[2], published[2], models, "max")):
         means = np.exp(np.log(errors[own]).mean())
         chosen = str(means.idxmin() if pick == "min" else means.idxmax())
@@ -155,7 +136,7 @@ def _on_durations(durations: pd.DataFrame, options: Pma2018Options) -> Iterator[
     short, longer = (durations[levels == duration].droplevel("duration_s") for duration in (5, 10))
     both = short.index.intersection(longer.index)
     if len(both):
-        yield _counted(claim, "on most sequences", (short.loc[both] > longer.loc[both]).stack(), share=0.5)
+        yield _counted(claim, "on most sequences", _larger(short.loc[both], longer.loc[both]), share=0.5)
     else:
         yield Claim(claim, "on most sequences", "", verdict(None), "no recording has fragments of both durations")
 
@@ -164,18 +145,24 @@ def _growing(errors: pd.DataFrame, level: str, claim: str) -> Claim:
     """A claim that all errors are larger at the last value of a level of the condition than at the first."""
     values = errors.index.get_level_values(level)
     if errors.empty or values.min() == values.max():
-        return Claim(claim, "all", "", verdict(None), NOT_RUN)
+        return Claim(claim, "all", "", verdict(None), reasons.NOT_RUN)
     first, last = (errors[values == value].droplevel(level) for value in (values.min(), values.max()))
     both = first.index.intersection(last.index)
-    return _counted(claim, "all", (last.loc[both] > first.loc[both]).stack())
+    return _counted(claim, "all", _larger(last.loc[both], first.loc[both]))
 
 
-def _counted(claim: str, published: str, holds: pd.Series, *, share: float = 1.0) -> Claim:
-    """A claim that holds if it does in a share of the cases."""
+def _larger(one: pd.DataFrame, other: pd.DataFrame) -> pd.Series:
+    """Whether each error is larger than the other, where both are known."""
+    difference = (one - other).stack().dropna()
+    return difference > 0
+
+
+def _counted(claim: str, published: str, holds: pd.Series, *, share: float = 1.0, reason: str = "") -> Claim:
+    """A claim that holds if it does in a share of the cases, and the reason where it does not."""
     if holds.empty:
-        return Claim(claim, published, "", verdict(None), NOT_RUN)
-    ours = f"in {int(holds.sum())} of {len(holds)}"
-    return Claim(claim, published, ours, verdict(bool(holds.mean() >= share)))
+        return Claim(claim, published, "", verdict(None), reasons.NOT_RUN)
+    enough = bool(holds.mean() >= share)
+    return Claim(claim, published, f"in {int(holds.sum())} of {len(holds)}", verdict(enough), "" if enough else reason)
 
 
 def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
@@ -191,20 +178,24 @@ def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
         own = own[~own["method"].str.startswith(("pma", "default"))].set_index("method")
         if method not in own.index:
             yield Claim(
-                claim, published, "", verdict(None), NOT_RUN if own.empty and figure == "lengths" else TOO_SHORT
+                claim,
+                published,
+                "",
+                verdict(None),
+                reasons.NOT_RUN if own.empty and figure == "lengths" else reasons.TOO_SHORT,
             )
             continue
         best = str(own["error_mm"].idxmin())
         ours = "; ".join(
             f"{display_name(name)} {own.loc[name, 'error_mm']:.1f} mm" for name in dict.fromkeys((best, method))
         )
-        yield Claim(claim, published, ours, verdict(best == method), "" if best == method else FEW_RECORDINGS)
+        yield Claim(claim, published, ours, verdict(best == method), "" if best == method else reasons.FEW_RECORDINGS)
 
 
 def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
     """On Tables 2 and 3: sign and significance of the effect, and the errors."""
     if constraints.empty:
-        yield Claim("The constraints reduce the error", "", "", verdict(None), NOT_RUN)
+        yield Claim("The constraints reduce the error", "", "", verdict(None), reasons.NOT_RUN)
     for row in constraints[constraints["sequence"] != ""].to_dict("records"):
         where = (
             f"{row['sequence']}, {row['gaps']} gaps of {row['length_s']:g} s (Table {row['table']}, {row['variant']})"
@@ -214,28 +205,18 @@ def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
         published = f"{row['unconstrained_published']} to {row['constrained_published']} mm, p {row['p_published']}"
         # Where a regression extrapolated beyond all bounds, only ranks can be tested.
         name, p = ("p", row["p"]) if np.isfinite(row["unconstrained_mm"]) else ("Wilcoxon's p", row["p_wilcoxon"])
-        ours = f"{row['unconstrained_mm']:.1f} to {row['constrained_mm']:.1f} mm, {name} {p:.2g}"
+        ours = f"{millimetres(row['unconstrained_mm'])} to {millimetres(row['constrained_mm'])} mm, {name} {p:.2g}"
         same = (p < SIGNIFICANT) == significant and (row["difference_mm"] > 0 or not significant)
         yield Claim(
             f"The constraints {effect}: {where}",
             published,
             ours,
             verdict(bool(same)),
-            "" if same else _why_another_effect(row),
+            "" if same else reasons.why_another_effect(row),
         )
         error, printed = row["constrained_standard_error_mm"], float(row["constrained_published"])
         near = abs(row["constrained_mm"] - printed) <= 2 * np.sqrt(2) * error
         spread = f"{row['constrained_mm']:.1f} mm, standard error {error:.1f}"
         smoothed = not near and row["variant"] == "text" and row["constrained_mm"] < printed
         text = f"The mean error with the constraints is as published, within chance: {where}"
-        yield Claim(text, f"{printed:g} mm", spread, verdict(bool(near)), SMOOTHED if smoothed else "")
-
-
-def _why_another_effect(row: Mapping[Hashable, Any]) -> str:
-    """Why the effect of the constraints is another than the published one."""
-    medians = " and ".join(f"{row[f'{name}_median_mm']:.1f}" for name in ("unconstrained", "constrained"))
-    reason = (
-        "means without the constraints are decided by runs in which every likelihood vanishes, so that all models weigh the same, one of "
-        f"which extrapolates; medians here: {medians} mm"
-    )
-    return reason if row["difference_mm"] > 0 else f"{RAMP}; {reason}"
+        yield Claim(text, f"{printed:g} mm", spread, verdict(bool(near)), reasons.SMOOTHED if smoothed else "")

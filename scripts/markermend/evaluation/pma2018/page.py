@@ -9,7 +9,7 @@ import pandas as pd
 from markermend.evaluation import charts
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.pages import Page, Section
-from markermend.evaluation.pma2018.names import display_name
+from markermend.evaluation.pma2018.wording import display_name, millimetres
 from markermend.report.methods_text import REFERENCES
 
 LEAD = (
@@ -108,7 +108,7 @@ def _with_errors(constraints: pd.DataFrame) -> pd.DataFrame:
     shown = constraints[["sequence", "recording", "table", "variant", "runs"]].copy()
     for name, words in (("unconstrained", "without"), ("constrained", "with")):
         means = zip(constraints[f"{name}_mm"], constraints[f"{name}_standard_error_mm"], strict=True)
-        shown[f"{words} constraints, mm"] = [f"{mean:.1f} ± {error:.1f}" for mean, error in means]
+        shown[f"{words} constraints, mm"] = [f"{millimetres(mean)} ± {millimetres(error)}" for mean, error in means]
         shown[f"{words}, published"] = constraints[f"{name}_published"]
     for name in ("unconstrained", "constrained"):
         shown[f"{name} median, mm"] = constraints[f"{name}_median_mm"].round(1)

@@ -1,4 +1,4 @@
-"""The methods by the names that readers know from the paper."""
+"""How methods and errors are written: by the names that readers know from the paper, and in a millimetre or far beyond."""
 
 from __future__ import annotations
 
@@ -12,6 +12,10 @@ NAMES = {
     "default": "our ensemble",
 }
 """The methods by their acronyms in the paper."""
+
+
+LARGEST_MM = 1e5
+"""Above this no error is that of a marker in a room."""
 
 
 def display_name(method: str) -> str:
@@ -30,3 +34,19 @@ def display_name(method: str) -> str:
     if method in NAMES:
         return NAMES[method]
     return f"PMA {', '.join(method.removeprefix('pma_').split('_'))}"
+
+
+def millimetres(error: float) -> str:
+    """Write an error without its unit.
+
+    Parameters
+    ----------
+    error : float
+        The error, mm.
+
+    Returns
+    -------
+    str
+        With one decimal, such as `12.3`; that of an extrapolation beyond all bounds in powers of ten, such as `1e+19`.
+    """
+    return f"{error:.1f}" if error < LARGEST_MM else f"{error:.0e}"
