@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pandas as pd
 
+from markermend.evaluation.artifacts2022.confusion_reasons import confusion_reason
 from markermend.evaluation.artifacts2022.repair_claims import repair_claims
 from markermend.evaluation.claims import Claim, claims_table, span, verdict
 
@@ -27,12 +28,14 @@ STATEMENTS: tuple[tuple[str, str, str, float | None, str, Test], ...] = (
 """Statement, class, measure, amplitude in mm (None for all), what is printed, and when it holds; `about` is within 10 points."""
 
 
-def judge(measures: pd.DataFrame, repairs: pd.DataFrame, operators: pd.DataFrame) -> pd.DataFrame:
+def judge(
+    measures: pd.DataFrame, confusion: pd.DataFrame, repairs: pd.DataFrame, operators: pd.DataFrame
+) -> pd.DataFrame:
     """Judge what the paper states.
 
     Parameters
     ----------
-    measures, repairs, operators : DataFrame
+    measures, confusion, repairs, operators : DataFrame
         See tables.make_tables; without rows where the experiment was not run.
 
     Returns
@@ -40,22 +43,28 @@ def judge(measures: pd.DataFrame, repairs: pd.DataFrame, operators: pd.DataFrame
     DataFrame
         See claims.claims_table; one statement holds if it does so on each recording, at each share and amplitude.
     """
-    return claims_table([*_classification(measures), *repair_claims(repairs), _operators(operators)])
+    return claims_table([*_classification(measures, confusion), *repair_claims(repairs), _operators(operators)])
 
 
-def _classification(measures: pd.DataFrame) -> Iterator[Claim]:
+def _classification(measures: pd.DataFrame, confusion: pd.DataFrame) -> Iterator[Claim]:
     """The statements on the classification of contaminated recordings."""
     for claim, kind, measure, amplitude, published, holds in STATEMENTS:
         own = pd.Series(dtype=float)
         if len(measures):
-            chosen = (measures["preset"] == "paper") & (measures["class"] == kind)
-            if amplitude is not None:
-                chosen &= measures["amplitude_mm"] == amplitude
-            own = pd.to_numeric(measures.loc[chosen, measure]).dropna()
+            own = _of(measures[measures["class"] == kind], amplitude)
+            own = pd.to_numeric(own[measure]).dropna()
         unit, digits = ("", 4) if measure in ("F", "MCC") else (" %", 1)
         tested = None if own.empty else bool(holds(own))
-        reason = "" if tested is not None else "the preset paper, or this amplitude, was not run"
+        reason = "" if tested else "the preset paper, or this amplitude, was not run"
+        if tested is False:
+            reason = confusion_reason(_of(confusion, amplitude), kind=kind, measure=measure) or "none is wrong here"
         yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)
+
+
+def _of(table: pd.DataFrame, amplitude: float | None) -> pd.DataFrame:
+    """The rows of the published detectors at an amplitude in mm, or at all of them."""
+    own = table[table["preset"] == "paper"]
+    return own if amplitude is None else own[own["amplitude_mm"] == amplitude]
 
 
 def _operators(operators: pd.DataFrame) -> Claim:

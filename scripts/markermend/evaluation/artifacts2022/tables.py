@@ -61,7 +61,7 @@ def make_tables(runs: Mapping[str, pd.DataFrame], figures: pd.DataFrame) -> dict
         name: make(runs[experiment]) if experiment in runs else pd.DataFrame(columns=["recording"])
         for name, (experiment, make) in makers.items()
     }
-    return {**tables, "claims": judge(tables["measures"], tables["repairs"], tables["operators"])}
+    return {**tables, "claims": judge(tables["measures"], tables["confusion"], tables["repairs"], tables["operators"])}
 
 
 def average_runs(runs: pd.DataFrame) -> pd.DataFrame:
