@@ -1,4 +1,4 @@
-"""Bound the share of slow and shaking faults that can be found at all: by an observer who is told marker, moment and length.
+"""Bound the share of slow, shaking and short faults that can be found at all: by an observer who is told marker, moment and length.
 
 Reads: the data folder (support/recording_folds.py says which recordings, in which groups), confirmed_glitches.tsv.
 Writes: a table to stdout, one row for each fault and recording.
@@ -7,7 +7,8 @@ Writes: a table to stdout, one row for each fault and recording.
 
 A displacement is estimated together with the regression of its marker on the neighbours, by generalised least squares with the
 covariance of the residuals, their scale conditional on the motion of the neighbours; the observer knows its course over time, not its
-direction. Of a wobble the band and the length are known: the power of the residual in that band is compared with its scale
+direction. So is the displacement of a dip, in the window about it, from residuals without the others of the recording; their scale is
+the local one by which peaks are judged. Of a wobble the band and the length are known: the power of the residual in that band is compared with its scale
 conditional on the motion in the same band. In the recording as it is, the statistic at all markers and moments shows what is usual;
 the threshold is exceeded by 0.05 % of these. The bound is the share of faults, at places and in directions at random, that exceed
 it. A detector, which knows none of this and has to be silent in recordings of minutes, finds less: where the bound is low, the motion
@@ -36,11 +37,13 @@ from benchmarks.support.defaults import DATA
 from benchmarks.support.recording_folds import CROPS, GROUPS, Crop, load
 from markermend import api
 from markermend.core.recording import Recording
-from markermend.detection.neighbour import nearest_neighbours, residual_scale
+from markermend.detection.neighbour import nearest_neighbours, pulses, residual_scale, residual_windows
 from markermend.detection.neighbour.drifts.regression import MIN_SCALE_MM
+from markermend.detection.peaks import PeakDetector
 from markermend.detection.slow import SlowChanges
 from markermend.numerics import filters, intervals
 from markermend.numerics.pulse_regression import PulseResponses
+from markermend.numerics.window_covariance import sliding_windows
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 from markermend.simulation.displaced_markers import RIGID_MATES, RIGID_MM
@@ -57,6 +60,9 @@ ONSETS_S, LASTING_MM = {"knocked": 0.0, "creeping": 2.0}, (10.0, 20.0)
 
 WOBBLE_SECONDS, WOBBLE_MM = (0.5, 1.0, 2.0), (2.0, 4.0, 6.0)
 """Durations of wobbles, and their amplitudes, mm: the root of two times the root mean square."""
+
+DIP_SECONDS, DIP_MM, DIP_RAMP_FRAMES = (0.04, 0.08, 0.12), (5.0, 10.0, 20.0), 2
+"""Durations of dips, their depths, mm, and the samples of the ramps on either side, fewer in the shortest."""
 
 DIRECTIONS = 8
 """Faults, each in a direction of its own, that are tried at each place."""
@@ -144,6 +150,37 @@ def lasting(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
                 yield _row(f"{kind}, rigid", seconds, size, found_displacements(usual, size, rng), len(usual.height))
 
 
+def dips(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
+    """Bounds of dips with ramps."""
+    options, scene = api.Options.read({}).peaks, observed.scene
+    detector = PeakDetector(scene, observed.recording.markers, options)
+    residual = LocalRidge(options.predictors.local_ridge).residuals(scene)
+    statistics = detector.measure(residual)
+    context = residual_windows.context_samples(scene.rate, options, min_samples=pulses.MIN_CONTEXT)
+    for seconds in DIP_SECONDS:
+        length = intervals.samples(seconds, scene.rate)
+        size = length + 2 * context
+        filters = pulses.pulse_filters(detector.covariance(residual, size), length, size, (context,))
+        ramp, after = min(DIP_RAMP_FRAMES, (length - 1) // 2), np.arange(size) - context + 1
+        course = np.clip(np.minimum(after, length + 1 - after) / (ramp + 1), 0.0, 1.0)
+        across = filters.precision @ course
+        information = float(course @ across)
+        each = []
+        for m in range(residual.shape[1]):
+            for start, stop in intervals.runs(~np.isnan(statistics.local_scale[:, m])):
+                if stop - start >= size:
+                    windows = sliding_windows(residual[start:stop, m], size)
+                    centre = np.arange(len(windows)) + start + size // 2
+                    misfit = filters.misfit(windows, np.zeros(len(windows), int))
+                    noise = np.hypot(misfit, statistics.local_scale[centre, m])
+                    each.append(PulseResponses(windows @ across / information, noise * information**-0.5))
+        if each:
+            usual = together(each)
+            for depth in DIP_MM:
+                share = found_displacements(usual, depth, rng)
+                yield _row("dip", seconds, depth, share, len(usual.height))
+
+
 def wobbles(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
     """Bounds of wobbles: the noise of the band is as large as a sine of the amplitude."""
     options, scene = api.Options.read({}).noise.wobble, observed.scene
@@ -195,6 +232,7 @@ def bounds(data: Path, crop: Crop) -> list[Row]:
     """All bounds of a recording."""
     observed, rng = Observed.of(data, crop), np.random.default_rng(0)
     rows = [row for kind in (drifts, lasting, wobbles) for row in kind(observed, rng)]
+    rows += dips(observed, np.random.default_rng(0))
     return [{"recording": crop.name, "group": crop.group, **row} for row in rows]
 
 
