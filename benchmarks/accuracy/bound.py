@@ -11,15 +11,16 @@ direction. So is the displacement of a dip, in the window about it, from residua
 the local one by which peaks are judged. Of a wobble the band and the length are known: the power of the residual in that band is compared with its scale
 conditional on the motion in the same band. In the recording as it is, the statistic at all markers and moments shows what is usual;
 the threshold is exceeded by 0.05 % of these. The bound is the share of faults, at places and in directions at random, that exceed
-it. A detector, which knows none of this and has to be silent in recordings of minutes, finds less: where the bound is low, the motion
-itself hides the fault. Only the recording itself is used, not the others of its subject.
+it; `silent` is the share that exceeds whatever the recording as it is shows anywhere, as for a detector that alters nothing without
+a fault. A detector knows none of what the observer is told, and finds less: where the bound is low, the motion itself hides the fault.
+Only the recording itself is used, not the others of its subject.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
@@ -49,8 +50,8 @@ from markermend.prediction.scene import Scene
 from markermend.simulation.displaced_markers import RIGID_MATES, RIGID_MM
 from markermend.simulation.marker_geometry import MarkerGeometry
 
-FALSE_SHARE = 0.0005
-"""Share of markers and moments of the recording as it is that exceed the threshold."""
+FALSE_SHARES = {"bound": 0.0005, "silent": 0.0}
+"""Share of markers and moments of the recording as it is that exceed the threshold, for each bound."""
 
 DRIFT_SECONDS, DRIFT_MM = (0.6, 1.0, 1.4, 2.0, 4.0), (5.0, 10.0)
 """Durations of drifts, and their heights, mm."""
@@ -106,9 +107,10 @@ class Observed:
         return cls(recording, scene, SlowChanges.fit(scene, options.slow, LocalRidge(ridge)), rigid)
 
 
-def threshold(usual: np.ndarray) -> float:
-    """The statistic that `FALSE_SHARE` of the usual ones exceed."""
-    return float(np.quantile(usual, 1 - FALSE_SHARE, method="higher"))
+def exceeding(usual: np.ndarray, faulty: np.ndarray) -> dict[str, float]:
+    """Share of the statistics of faults that exceed the threshold of each bound."""
+    limits = {name: np.quantile(usual, 1 - share, method="higher") for name, share in FALSE_SHARES.items()}
+    return {name: float((faulty > limit).mean()) for name, limit in limits.items()}
 
 
 def together(estimated: Sequence[PulseResponses]) -> PulseResponses:
@@ -118,11 +120,11 @@ def together(estimated: Sequence[PulseResponses]) -> PulseResponses:
     return PulseResponses(height[np.isfinite(deviation)], deviation[np.isfinite(deviation)])
 
 
-def found_displacements(usual: PulseResponses, size_mm: float, rng: np.random.Generator) -> float:
-    """Share of displacements of a size that exceed the threshold: each adds to the height that is estimated without it."""
-    limit, direction = threshold(usual.statistic), rng.normal(size=(DIRECTIONS, len(usual.height), 3))
+def found_displacements(usual: PulseResponses, size_mm: float, rng: np.random.Generator) -> dict[str, float]:
+    """Bounds of displacements of a size: each adds to the height that is estimated without it."""
+    direction = rng.normal(size=(DIRECTIONS, len(usual.height), 3))
     direction *= size_mm / np.linalg.norm(direction, axis=2, keepdims=True)
-    return float((np.linalg.norm(usual.height + direction, axis=2) / usual.deviation > limit).mean())
+    return exceeding(usual.statistic, np.linalg.norm(usual.height + direction, axis=2) / usual.deviation)
 
 
 def drifts(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
@@ -177,8 +179,7 @@ def dips(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
         if each:
             usual = together(each)
             for depth in DIP_MM:
-                share = found_displacements(usual, depth, rng)
-                yield _row("dip", seconds, depth, share, len(usual.height))
+                yield _row("dip", seconds, depth, found_displacements(usual, depth, rng), len(usual.height))
 
 
 def wobbles(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
@@ -205,10 +206,10 @@ def wobbles(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
             window=1,
             min_scale=MIN_SCALE_MM,
         )
-        limit = threshold((rms(residual, window) / scale)[whole])
+        usual = (rms(residual, window) / scale)[whole]
         for amplitude in WOBBLE_MM:
-            exceeds = rms(residual + amplitude * noise, window) / scale > limit
-            yield _row("wobble", seconds, amplitude, float(exceeds[whole].mean()), int(whole.sum()))
+            faulty = (rms(residual + amplitude * noise, window) / scale)[whole]
+            yield _row("wobble", seconds, amplitude, exceeding(usual, faulty), int(whole.sum()))
 
 
 def rms(values: np.ndarray, window: int) -> np.ndarray:
@@ -223,9 +224,9 @@ def filtered(band: Callable[[np.ndarray], np.ndarray], values: np.ndarray) -> np
     return np.stack(columns, axis=1).reshape(values.shape)
 
 
-def _row(kind: str, seconds: float, size_mm: float, share: float, places: int) -> Row:
+def _row(kind: str, seconds: float, size_mm: float, shares: Mapping[str, float], places: int) -> Row:
     """A row of the table."""
-    return {"fault": kind, "seconds": seconds, "mm": size_mm, "bound": share, "places": places}
+    return {"fault": kind, "seconds": seconds, "mm": size_mm, **shares, "places": places}
 
 
 def bounds(data: Path, crop: Crop) -> list[Row]:
@@ -241,6 +242,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, default=DATA, help="the folder of recordings")
     parser.add_argument("--groups", nargs="+", choices=GROUPS, default=["calm", "moving"], help="groups of recordings")
+    parser.add_argument("--shown", choices=FALSE_SHARES, default="bound", help="the bound that is printed")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--tsv", type=Path, help="write the table there")
     arguments = parser.parse_args()
@@ -250,7 +252,7 @@ def main() -> None:
     names = [crop.name for crop in crops]
     table: dict[tuple[str, float, float], dict[str, float]] = {}
     for row in (row for own in each for row in own):
-        table.setdefault((row["fault"], row["seconds"], row["mm"]), {})[row["recording"]] = row["bound"]
+        table.setdefault((row["fault"], row["seconds"], row["mm"]), {})[row["recording"]] = row[arguments.shown]
     print(f"{'fault':18}{'s':>5}{'mm':>5}" + "".join(f"{name[:12]:>14}" for name in names))
     for (fault, seconds, size), shares in table.items():
         cells = "".join(f"{shares[name]:14.2f}" if name in shares else " " * 14 for name in names)
