@@ -155,8 +155,8 @@ class WobbleOptions(ExcessVarianceOptions):
 class FlickerOptions:
     """Options of the detection of flicker between two levels."""
 
-    max_dwell_s: PositiveSeconds = 0.3
-    """Time that a marker stays at either level, at most."""
+    max_dwell_s: PositiveSeconds = 0.15
+    """Time that a marker stays at either level, at most: one that is at its place for longer has two displacements of their own."""
 
     min_jumps: Annotated[int, AtLeast(3)] = 4
     """Jumps between the levels, at least."""
