@@ -45,7 +45,7 @@ def judge(tables: Mapping[str, pd.DataFrame], options: Pma2018Options) -> pd.Dat
         [
             *_on_models(lengths, options),
             *_on_averages(pd.concat([lengths, durations, gap_counts]), options),
-            *_on_durations(durations, options),
+            _on_durations(durations),
             _growing(gap_counts, "gaps", "The error of all methods grows with the number of concurrent gaps"),
             *_on_means(tables["means"]),
             *_on_constraints(tables["constraints"]),
@@ -75,7 +75,7 @@ def wide(table: pd.DataFrame) -> pd.DataFrame:
 def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
     """On Figure 4."""
     claim = "BoLeRo has larger errors than all other methods"
-    if "bolero" in lengths:
+    if "bolero" in lengths and len(lengths.columns) > 1:
         run = lengths.dropna()
         largest = run["bolero"] > run.drop(columns="bolero").max(axis=1)
         yield _counted(claim, "in all conditions of CMU1 and CMU3", largest, reason=reasons.WINDOW)
@@ -87,7 +87,7 @@ def _on_models(lengths: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim
         (lengths.index.get_level_values("sequence") == "CMU1") & (lengths.index.get_level_values("length_s") == 5)
     ]
     known = [name for name in options.models if name in own]
-    if own.empty or "local_grnn" not in known:
+    if own.empty or "local_grnn" not in known or len(known) < 2:
         yield Claim(claim, "20.2 mm", "", verdict(None), reasons.NO_SUCH_SEQUENCE if own.empty else reasons.NOT_RUN)
         return
     errors = own[known].iloc[0]
@@ -114,31 +114,30 @@ def _on_averages(errors: pd.DataFrame, options: Pma2018Options) -> Iterator[Clai
         "pma_1_3_4_5",
         "local_interpolation",
     )
-    if not names or len(models) < 2:
-        yield from (
-            Claim(claim, figures, "", verdict(None), reasons.NOT_RUN)
-            for claim, figures in zip(claims, published, strict=True)
-        )
-        return
-    ratio = errors[names].div(errors[models].min(axis=1), axis=0)
-    yield _counted(claims[0], published[0], ratio.stack().dropna() < COMPARABLE, share=IN_GENERAL)
+    if names and len(models) > 1:
+        ratio = errors[names].div(errors[models].min(axis=1), axis=0)
+        yield _counted(claims[0], published[0], ratio.stack().dropna() < COMPARABLE, share=IN_GENERAL)
+    else:
+        yield Claim(claims[0], published[0], "", verdict(None), reasons.NOT_RUN)
     for claim, figure, own, pick in ((claims[1], published[1], names, "min"), (claims[2], published[2], models, "max")):
+        if figure not in own or len(own) < 2:
+            yield Claim(claim, display_name(figure), "", verdict(None), reasons.NOT_RUN)
+            continue
         means = np.exp(np.log(errors[own]).mean())
         chosen = str(means.idxmin() if pick == "min" else means.idxmax())
         ours = "; ".join(f"{display_name(name)} {value:.2f} mm" for name, value in means.items())
         yield Claim(claim, display_name(figure), f"geometric means: {ours}", verdict(chosen == figure))
 
 
-def _on_durations(durations: pd.DataFrame, options: Pma2018Options) -> Iterator[Claim]:
+def _on_durations(durations: pd.DataFrame) -> Claim:
     """On Figure 5."""
     claim = "Errors are larger in fragments of 5 s than of 10 s"
     levels = durations.index.get_level_values("duration_s")
     short, longer = (durations[levels == duration].droplevel("duration_s") for duration in (5, 10))
     both = short.index.intersection(longer.index)
     if len(both):
-        yield _counted(claim, "on most sequences", _larger(short.loc[both], longer.loc[both]), share=0.5)
-    else:
-        yield Claim(claim, "on most sequences", "", verdict(None), "no recording has fragments of both durations")
+        return _counted(claim, "on most sequences", _larger(short.loc[both], longer.loc[both]), share=0.5)
+    return Claim(claim, "on most sequences", "", verdict(None), "no recording has fragments of both durations")
 
 
 def _growing(errors: pd.DataFrame, level: str, claim: str) -> Claim:
@@ -176,7 +175,7 @@ def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
         own = means[(means["figure"] == figure) & (means["length_s"] == length)]
         own = own[(own["duration_s"] == duration) | (np.isnan(duration) & own["duration_s"].isna())]
         own = own[~own["method"].str.startswith(("pma", "default"))].set_index("method")
-        if method not in own.index:
+        if method not in own.index or len(own) < 2:
             yield Claim(
                 claim,
                 published,
@@ -194,9 +193,12 @@ def _on_means(means: pd.DataFrame) -> Iterator[Claim]:
 
 def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
     """On Tables 2 and 3: sign and significance of the effect, and the errors."""
-    if constraints.empty:
-        yield Claim("The constraints reduce the error", "", "", verdict(None), reasons.NOT_RUN)
-    for row in constraints[constraints["sequence"] != ""].to_dict("records"):
+    printed = constraints[["unconstrained_published", "constrained_published", "p_published"]]
+    stated = constraints[(printed != "").all(axis=1)]
+    if stated.empty:
+        reason = reasons.NOT_RUN if constraints.empty else reasons.NOT_PRINTED
+        yield Claim("The constraints reduce the error", "", "", verdict(None), reason)
+    for row in stated.to_dict("records"):
         where = (
             f"{row['sequence']}, {row['gaps']} gaps of {row['length_s']:g} s (Table {row['table']}, {row['variant']})"
         )
@@ -214,9 +216,9 @@ def _on_constraints(constraints: pd.DataFrame) -> Iterator[Claim]:
             verdict(bool(same)),
             "" if same else reasons.why_another_effect(row),
         )
-        error, printed = row["constrained_standard_error_mm"], float(row["constrained_published"])
-        near = abs(row["constrained_mm"] - printed) <= 2 * np.sqrt(2) * error
+        error, figure = row["constrained_standard_error_mm"], float(row["constrained_published"])
+        near = abs(row["constrained_mm"] - figure) <= 2 * np.sqrt(2) * error
         spread = f"{row['constrained_mm']:.1f} mm, standard error {error:.1f}"
-        smoothed = not near and row["variant"] == "text" and row["constrained_mm"] < printed
+        smoothed = not near and row["variant"] == "text" and row["constrained_mm"] < figure
         text = f"The mean error with the constraints is as published, within chance: {where}"
-        yield Claim(text, f"{printed:g} mm", spread, verdict(bool(near)), reasons.SMOOTHED if smoothed else "")
+        yield Claim(text, f"{figure:g} mm", spread, verdict(bool(near)), reasons.SMOOTHED if smoothed else "")

@@ -31,6 +31,10 @@ NO_SUCH_SEQUENCE = "the recording of this sequence is not among those that were 
 """Why a statement on one sequence was not tested."""
 
 
+NOT_PRINTED = "the paper prints no figures of these recordings, conditions or averages"
+"""Why a statement on the constraints was not tested."""
+
+
 def why_another_effect(row: Mapping[Hashable, Any]) -> str:
     """Say why the effect of the constraints is another than the published one.
 

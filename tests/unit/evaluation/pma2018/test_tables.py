@@ -80,6 +80,17 @@ def test_means_over_recordings(made):
     assert short["published"].tolist() == ["12"]
 
 
+def test_a_recording_that_was_not_filled_does_not_make_the_standard_error_smaller(runs, figures):
+    held = (runs["recording"] == "mine") & (runs["method"] == "local_grnn")
+    made = tables.all_tables(runs.assign(error_mm=runs["error_mm"].where(~held)), figures, OPTIONS)
+    own, means = (
+        made[name][lambda table: (table["length_s"] == 5) & (table["method"] == "local_grnn")]
+        for name in ("lengths", "means")
+    )
+    own, mean = own[own["recording"] == "85_02"].iloc[0], means[means["figure"] == "lengths"].iloc[0]
+    assert mean["recordings"] == 1 and mean["standard_error_mm"] == pytest.approx(own["standard_error_mm"])
+
+
 def test_the_constraints_are_tested_in_pairs(runs, made):
     table = made["constraints"]
     assert len(table) == 2 * 2 * 2
