@@ -56,6 +56,8 @@ def _classification(measures: pd.DataFrame, confusion: pd.DataFrame) -> Iterator
         unit, digits = ("", 4) if measure in ("F", "MCC") else (" %", 1)
         tested = None if own.empty else bool(holds(own))
         reason = "" if tested else "the preset paper, or this amplitude, was not run"
+        if tested is None and len(measures) and len(_of(measures, amplitude)):
+            reason = f"nothing was found as {kind}" if measure == "FDR" else f"no samples of {kind} were there"
         if tested is False:
             reason = confusion_reason(_of(confusion, amplitude), kind=kind, measure=measure) or "none is wrong here"
         yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)

@@ -64,14 +64,35 @@ def repairs(**errors):
 
 def test_statements_on_repair_are_judged_by_ratios_of_errors():
     table = judge(repairs=repairs(peaks=(0.4, 0.01, 0.04, 0.001, 0.04), steps=(0.4, 0.44, 0.39, 0.3, 0.04)))
-    assert table.loc["So do splines", "holds"] == "yes" and table.loc["So do splines", "ours"] == "0.003"
-    assert table.loc["It leaves located steps", "holds"] == "yes"
-    best = [claim for claim in table.index if claim.startswith("The network is best for located")]
-    assert table.loc[best[0], "ours"] == "7.500" and table.loc[best[0], "holds"] == "yes"
+    over = "error over that of the distorted recording"
+    row = table.loc[f"Splines remove located peaks: {over}"]
+    assert row["holds"] == "yes" and row["ours"] == "0.003"
+    assert table.loc[f"The Savitzky-Golay filter leaves located steps: {over}", "holds"] == "yes"
     assert (
         table.loc["The Savitzky-Golay filter cleans located noise: error over that of the distorted recording", "holds"]
         == "not tested"
     )
+
+
+def test_a_statement_on_several_classes_needs_all_of_them():
+    errors = (0.4, 0.44, 0.39, 0.3, 0.04)
+    for holds, kinds in (("not tested", ("steps",)), ("yes", ("noise", "steps", "slow"))):
+        table = judge(repairs=repairs(**dict.fromkeys(kinds, errors)))
+        (row,) = table[table.index.str.startswith("The network is best for located")].to_dict("records")
+        assert row["holds"] == holds and row["ours"] == "7.500"
+
+
+def test_an_uncertain_error_does_not_excuse_another():
+    own = repairs(peaks=(0.36, 0, 0, 0, 0), noise=(0.4, 0, 0, 0, 0))
+    own.loc[own["class"] == "noise", "standard_error_mm"] = 0.2
+    assert judge(repairs=own)["holds"].iloc[-2] == "no"
+
+
+def test_where_nothing_is_found_this_is_the_reason():
+    row = judge(measures(91.0).assign(FDR=float("nan"))).loc[
+        "Less than half of what is found as peaks is something else"
+    ]
+    assert row["holds"] == "not tested" and row["reason"] == "nothing was found as peaks"
 
 
 def test_distorted_recordings_must_have_the_printed_errors():
