@@ -41,7 +41,7 @@ lint: .venv/ready
 	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
 	$(BIN)/codespell
 
-# What is made from the declared options and options: config/config.yaml, its schema, the tables of config/README.md,
+# What is made from the declared options: config/config.yaml, its schema, the tables of config/README.md,
 # config/evaluate/full.yaml.
 config: .venv/ready
 	PYTHONPATH=scripts $(BIN)/python -m markermend.planning.config_files

@@ -1,7 +1,8 @@
 """Put the runs of the gap reconstruction paper's experiment into tables, with the published figures beside ours (skurowski2021).
 
-Reads: the tables of runs, the descriptors of the recordings, the published figures. Writes: FOLDER with a table NAME.tsv for each of Tables 2
-to 6, 3 and A1 to A12 of the paper, for Figure 9, and for what the paper states.
+Reads: the tables of runs, the descriptors of the recordings, the published figures. Writes: ERRORS_TABLE, as Tables 3 and A1 to A5;
+DESCRIPTORS_TABLE, as Table 2; PARAMETERS_TABLE, as Table 4; CRITERIA_TABLE, of Figure 9; CORRELATIONS_TABLE, as Tables A6 to A12;
+MEAN_CORRELATIONS_TABLE, as Table 5; DESCRIPTOR_CORRELATIONS_TABLE, as Table 6; CLAIMS_TABLE, what the paper states, and whether it holds.
 """
 
 import argparse

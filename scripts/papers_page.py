@@ -1,6 +1,7 @@
 """Write the page of a paper: what it states and whether that holds, tables and charts with the published figures beside ours.
 
-Reads: the tables of the paper, the sizes of its recordings. Writes: PAGE; RECORDINGS and SETTINGS, tables of what was run.
+Reads: the tables of the paper, the sizes of its recordings. Writes: PAGE; RECORDINGS_TABLE and
+OPTIONS_TABLE, what was run.
 """
 
 import argparse
