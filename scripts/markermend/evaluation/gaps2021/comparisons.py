@@ -121,7 +121,7 @@ COMPARISONS = (
 def compare(runs: pd.DataFrame, errors: pd.DataFrame, published: pd.DataFrame) -> list[Claim]:
     """Judge what the paper states of the order of methods.
 
-    Methods are compared on the runs that all of them have, as they may differ in their number.
+    Methods are compared on the runs whose gaps all of them filled, as their numbers may differ.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def compare(runs: pd.DataFrame, errors: pd.DataFrame, published: pd.DataFrame) -
 
 
 def common_errors(runs: pd.DataFrame, methods: Sequence[str], lengths: Sequence[int]) -> pd.DataFrame:
-    """Compute the errors of methods on the runs that all of them have.
+    """Compute the errors of methods on the runs whose gaps all of them filled.
 
     Parameters
     ----------
@@ -159,7 +159,8 @@ def common_errors(runs: pd.DataFrame, methods: Sequence[str], lengths: Sequence[
     """
     own = runs[runs["method"].isin(methods) & runs["length"].isin(lengths)]
     run = ["recording", "length", "run"]
-    shared = own.groupby(run)["method"].transform("nunique") == len(methods)
+    filled = own["error"].notna().groupby([own[name] for name in run]).transform("all")
+    shared = (own.groupby(run)["method"].transform("nunique") == len(methods)) & filled
     table = error_table(own[shared], ["recording", "length", "method"])
     return table.pivot(index=["recording", "length"], columns="method", values="rmse").reindex(columns=list(methods))
 

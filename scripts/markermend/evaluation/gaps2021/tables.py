@@ -177,6 +177,7 @@ def list_criteria(runs: pd.DataFrame) -> pd.DataFrame:
         Bayesian information criterion.
     """
     own = runs[runs["method"].isin(NETWORKS) & runs["error"].notna() & (runs["error"] > 0)]
+    own = own.astype({"parameters": float})  # text without any network
     criteria = information_criteria(
         own["error"].to_numpy(float) ** 2, AXES * own["samples"].to_numpy(), own["parameters"].to_numpy(float)
     )

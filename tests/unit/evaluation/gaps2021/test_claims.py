@@ -37,6 +37,15 @@ def test_methods_are_compared_on_the_runs_that_they_share(runs):
     assert alone.loc[("static", 10), "network_linear"] == pytest.approx(np.sqrt((3.83**2 + 1000**2) / 2))
 
 
+def test_methods_are_compared_on_the_runs_that_they_fill(runs):
+    error = runs["error"].where(runs["run"] == 0, 1000.0)
+    left = (runs["method"] == "spline") & (runs["run"] == 1) & (runs["marker"] == "M0")
+    shared = common_errors(runs.assign(error=error.where(~left)), ["linear", "spline"], (10,))
+    assert shared.loc[("static", 10), "linear"] == pytest.approx(
+        runs["error"][(runs["recording"] == "static") & (runs["length"] == 10) & (runs["method"] == "linear")].iloc[0]
+    )
+
+
 def test_what_was_not_run_is_not_tested(runs, descriptors, figures):
     own = runs[~runs["method"].isin(RECURRENT) & (runs["length"] == 10)]
     two = own[own["recording"].isin(["static", "walking"])]

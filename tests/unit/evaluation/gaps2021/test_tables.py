@@ -6,6 +6,7 @@ import pytest
 
 from markermend.evaluation.gaps2021.correlation_tables import DESCRIPTORS
 from markermend.evaluation.gaps2021.methods import METHODS, NETWORKS
+from markermend.evaluation.gaps2021.page import make_page
 from markermend.evaluation.gaps2021.tables import make_tables
 
 from .conftest import OPTIONS
@@ -92,6 +93,13 @@ def test_criteria_are_means_over_the_gaps(runs, tables):
     assert row["mean_square_error"] == pytest.approx(4.041**2)
     assert row["aic"] == pytest.approx(150 * np.log(4.041**2) + 2 * 275)
     assert row["bic"] == pytest.approx(150 * np.log(4.041**2) + 275 * np.log(150))
+
+
+def test_networks_can_be_left_out(runs, descriptors, figures):
+    own = runs[~runs["method"].isin(NETWORKS)].assign(parameters="")  # as read from files
+    made = make_tables(own, descriptors, figures, OPTIONS)
+    assert made["criteria"].empty and made["parameters"]["least_of_runs"].isna().all()
+    assert len(make_page(made).sections) == 8
 
 
 def test_gaps_that_were_not_filled_are_counted_and_left_out(runs, descriptors, figures):
