@@ -9,6 +9,9 @@ import pandas as pd
 
 from markermend.storage import atomic
 
+NAMES = ("recording", "sequence", "marker", "operator")
+"""Columns of names, which stay text: a recording may be called 001."""
+
 
 def write_table(path: Path, table: pd.DataFrame) -> None:
     """Write a table; numbers have six significant digits.
@@ -34,7 +37,7 @@ def read_table(path: Path) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Numbers where a column has nothing else, NaN where they are missing; other columns as text, "" where there is none.
+        Numbers where a column has nothing else, NaN where they are missing; other columns, and NAMES, as text, "" where there is none.
     """
     text = pd.read_csv(path, sep="\t", dtype=str, keep_default_na=False)
     return text.apply(_numbers)
@@ -59,7 +62,9 @@ def read_tables(paths: Iterable[Path]) -> pd.DataFrame:
 
 
 def _numbers(column: pd.Series) -> pd.Series:
-    """A column as numbers, if it has nothing else."""
+    """A column as numbers, if it has nothing else and none of NAMES."""
+    if column.name in NAMES:
+        return column
     given = column[column != ""]
     numbers = pd.to_numeric(given, errors="coerce")
     return column if given.empty or numbers.isna().any() else numbers.reindex(column.index)

@@ -18,3 +18,9 @@ def test_numbers_and_texts_come_back(tmp_path):
     both = read_tables([tmp_path / "one.tsv", tmp_path / "other.tsv"])
     assert len(both) == 4 and both["method"].tolist() == ["a", "NA"] * 2
     assert (tmp_path / "one.tsv").read_bytes() == (tmp_path / "other.tsv").read_bytes()
+
+
+def test_names_of_digits_stay_names(tmp_path):
+    write_table(tmp_path / "one.tsv", pd.DataFrame({"recording": ["001", "1"], "marker": ["2", "3"], "run": [0, 1]}))
+    for read in (read_table(tmp_path / "one.tsv"), read_tables([tmp_path / "one.tsv"])):
+        assert read["recording"].tolist() == ["001", "1"] and read["marker"].tolist() == ["2", "3"]

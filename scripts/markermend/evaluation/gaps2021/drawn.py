@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -10,6 +11,8 @@ from markermend.core.recording import Recording
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.randomness import generator
 from markermend.simulation.published_gaps import draw_gaps, hide
+
+log = logging.getLogger("markermend")
 
 
 @dataclass(frozen=True)
@@ -53,13 +56,17 @@ def make_runs(name: str, clean: Recording, options: Gaps2021Options, *, numbers:
     Returns
     -------
     list of Run
-        The runs of all lengths.
+        The runs of all lengths but those for which the recording has no room.
     """
     runs = []
     for length in options.mean_lengths:
         for number in numbers:
             rng = generator(seed, name, length, number)
-            gaps = draw_gaps(clean.missing, clean.markers, mean_length=length, rng=rng, count=options.gaps)
+            try:
+                gaps = draw_gaps(clean.missing, clean.markers, mean_length=length, rng=rng, count=options.gaps)
+            except ValueError as error:
+                log.warning("%s: %s", name, error)
+                break
             hidden = replace(clean, positions=hide(clean.positions, clean.markers, gaps))
             runs.append(Run(length, number, gaps, hidden))
     return runs

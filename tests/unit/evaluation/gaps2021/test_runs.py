@@ -56,6 +56,14 @@ def test_runs_differ_and_begin_alike_whatever_their_number(subject, drawn):
         assert np.array_equal(run.hidden.positions[~hidden], subject["walk"].positions[~hidden])
 
 
+def test_gaps_that_are_too_long_for_the_recording_are_left_out(subject, mesh):
+    options = replace(OPTIONS, mean_lengths=(10, 500))
+    runs = make_runs("walk", subject["walk"], options, numbers=range(2), seed=1)
+    assert [run.length for run in runs] == [10, 10]
+    none = make_runs("walk", subject["walk"], replace(OPTIONS, mean_lengths=(500,)), numbers=range(2), seed=1)
+    assert not none and experiment.run_rows(subject["walk"], none, mesh, ["linear", "network_linear"], OPTIONS).empty
+
+
 @pytest.mark.parametrize("methods", GROUPS.values(), ids=GROUPS)
 def test_every_method_fills_every_gap(subject, mesh, drawn, methods):
     table = experiment.run_rows(subject["walk"], drawn, mesh, methods, OPTIONS)
