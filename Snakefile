@@ -37,7 +37,8 @@ rule all:
 
 
 onstart:
-    papers.write_lists()
+    if repeats_papers():
+        papers.write_lists()
     if cleans():
         plan.write_lists()
 

@@ -24,6 +24,11 @@ def cleans():
     return not only_experiments(workflow.dag_settings.targets, papers.folder)
 
 
+def repeats_papers():
+    """Whether experiments of the papers are among what this run was asked for."""
+    return any(of_experiments(str(target), papers.folder) for target in workflow.dag_settings.targets)
+
+
 localrules:
     papers,
 

@@ -9,6 +9,7 @@ import numpy
 import pytest
 
 import markermend
+from markermend.core.artifacts import DETECTORS
 from markermend.planning import code_hashes, run_facts
 from support.paths import PROJECT
 
@@ -66,7 +67,7 @@ def test_no_module_escapes(stage):
 @pytest.mark.parametrize("stage", ["peaks", "noise", "steps", "slow"])
 def test_a_published_detector_is_code_of_its_own_stage_only(stage):
     own = f"markermend/detection/published/{stage}.py"
-    assert [other for other in STAGES if own in names(code_hashes.code(SCRIPTS / f"{other}.py"))] == [stage]
+    assert [other for other in DETECTORS if own in names(code_hashes.code(SCRIPTS / f"{other}.py"))] == [stage]
 
 
 def test_the_facts_of_a_run():
