@@ -9,13 +9,12 @@ import numpy as np
 import pandas as pd
 
 from markermend import api
-from markermend.core import events
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.evaluation.artifacts2022 import located_repair
 from markermend.evaluation.artifacts2022.options import RepairExperimentOptions
-from markermend.evaluation.classification import CLASSES
+from markermend.evaluation.classification import CLASSES, sample_classes
 from markermend.prediction.scene import Scene
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.published_contamination import contaminate_coordinates
@@ -101,7 +100,10 @@ def repair_run(
         elif method == OURS:
             repaired = _ours(contaminated, made)
         else:
-            repaired = {located: repair[method](_coordinates(own, clean)) for located, own in found.items()}
+            repaired = {
+                located: repair[method](sample_classes(own, clean.frames, clean.markers) > 0)
+                for located, own in found.items()
+            }
         errors |= {(method, located): rmse(clean.positions, own) for located, own in repaired.items()}
     return errors
 
@@ -167,12 +169,6 @@ def _of_class(kind: str, contaminated: Recording, mesh: Mesh, published: api.Opt
     before = tuple(each for each in published.general.detect if each in CLASSES[: CLASSES.index(kind) + 1])
     options = replace(published, general=replace(published.general, detect=before))
     return {kind: api.detect(contaminated, mesh, options)[kind]}
-
-
-def _coordinates(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.ndarray:
-    """The samples of events of all classes."""
-    every = [event for own in found.values() for event in own]
-    return events.coordinates(every, recording.frames, recording.markers)
 
 
 def _methods(

@@ -17,6 +17,7 @@ from markermend.detection.published import coordinatewise, slow
 from markermend.evaluation.artifacts2022 import readings
 from markermend.evaluation.artifacts2022.options import SlowSweepOptions
 from markermend.evaluation.artifacts2022.runs import Condition
+from markermend.evaluation.classification import sample_classes
 from markermend.numerics import intervals
 from markermend.options.detection.published import PublishedSlowOptions
 from markermend.prediction.scene import Scene
@@ -91,7 +92,7 @@ def sweep_run(
     contaminated = replace(clean, positions=made.positions)
     mesh = api.infer_mesh([contaminated])
     sudden = api.detect(contaminated, mesh, readings.published_options({}, kinds=readings.SUDDEN))
-    claimed = _coordinates(sudden, clean)
+    claimed = sample_classes(sudden, clean.frames, clean.markers) > 0
     counts = {}
     for steps in options.network_steps:
         stage = readings.published_options({}, network_steps=steps).slow
@@ -184,17 +185,11 @@ def _variants(
         yield (over, float(lower), float(duration)), own
 
 
-def _coordinates(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.ndarray:
-    """The samples of events of all classes."""
-    every = [event for own in found.values() for event in own]
-    return events.coordinates(every, recording.frames, recording.markers)
-
-
 def _count(clean: Recording, made: Contamination, residual: np.ndarray, found: Sequence[Event]) -> SlowCount:
     """Count samples, and regress the residual on the slow changes that were put in."""
     true = events.coordinates(made.events.get("slow", ()), clean.frames, clean.markers)
     said = events.coordinates(found, clean.frames, clean.markers)
-    distorted = _coordinates(made.events, clean)
+    distorted = sample_classes(made.events, clean.frames, clean.markers) > 0
     seen = ~np.isnan(residual)
     deviation = residual - np.nanmedian(residual, axis=0)
     artifact, own = (made.positions - clean.positions)[true & seen], deviation[true & seen]
