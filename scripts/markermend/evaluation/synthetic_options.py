@@ -8,12 +8,15 @@ from typing import Annotated, Literal
 
 from markermend.options.declaration import Above, Millimetres, NotEmpty, PositiveSeconds, Unit
 
-Activity = Literal["stand", "walk", "reach", "sit", "exercise"]
+Activity = Literal["stand", "walk", "walk_backward", "reach", "sit", "exercise", "run", "box", "fall"]
 
 ACTIVITIES: Mapping[str, tuple[Activity, ...]] = {
     "stand_and_reach": ("stand", "reach"),
     "walk": ("walk",),
+    "run": ("stand", "walk_backward", "run", "walk_backward"),
     "sit": ("stand", "sit"),
+    "box": ("stand", "box"),
+    "fall": ("walk", "fall"),
     "exercise": ("exercise",),
 }
 """What the synthetic person does in each recording."""

@@ -14,8 +14,10 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
 from markermend.core.recording import Recording
+from markermend.numerics.intervals import runs
+from markermend.simulation.activities import ACTIVITIES
 from markermend.simulation.walker_body import Body, kind, make_body
-from markermend.simulation.walker_motion import move
+from markermend.simulation.walker_motion import Motion, move
 
 __all__ = ["MeasurementErrors", "Walker", "make_body", "walk"]
 
@@ -25,8 +27,11 @@ BACKWARD = ("pelvis", "thorax", "head", "shank")
 YIELD = 6.0
 """How far in mm a foot gives way when it takes over the weight."""
 
-SMOOTHING, RESPONSE = 0.045, 0.02
-"""Standard deviations in s of the smoothing of the path of the pelvis, and of the response of soft tissue."""
+GRAVITY = 9810.0
+"""Acceleration of free fall in mm/s^2."""
+
+SMOOTHING, ABRUPT_SMOOTHING, RESPONSE = 0.045, 0.015, 0.02
+"""Standard deviations in s of the smoothing of the path of the pelvis, of that with flight or impacts, and of the response of soft tissue."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +111,8 @@ def walk(
     time = np.arange(round(duration * rate)) / rate
     motion = move(body, time=time, activities=activities, rng=rng)
     turned, origins = _pose(body, motion.angles, motion.heading)
-    origins = origins + _path(body, turned, origins, rate)[:, None]
+    lies = any(ACTIVITIES[name].lies for name, _, _ in motion.bouts)
+    origins = origins + _path(_supports(body, turned, origins, lies=lies), motion, rate)[:, None]
     rigid = _attach(turned, origins, body.marker_segments, body.marker_offsets)
     moved = errors.soft_tissue * _soft_tissue(body, np.radians(motion.angles), turned, rigid, rate)
     positions = _attach(turned, origins, body.marker_segments, body.marker_offsets + moved) + rng.normal(
@@ -142,20 +148,44 @@ def _attach(turned: list[Rotation], origins: np.ndarray, segments: np.ndarray, o
     return placed
 
 
-def _path(body: Body, turned: list[Rotation], origins: np.ndarray, rate: float) -> np.ndarray:
-    """Path of the pelvis (frames, 3) on which the sole that carries the weight stands still on the ground.
-
-    The weight on each point of the soles is its share in a soft minimum of their heights.
-    """
+def _supports(body: Body, turned: list[Rotation], origins: np.ndarray, *, lies: bool) -> np.ndarray:
+    """Places (frames, points, 3) of the points that may rest on the ground: soles, and what a lying body rests on."""
     soles = _attach(turned, origins, body.sole_segments, body.soles)
-    height = soles[:, :, 2] - soles[:, :, 2].min(axis=1, keepdims=True)
+    if not lies:
+        return soles
+    return np.concatenate((soles, _attach(turned, origins, body.trunk_segments, body.trunk)), axis=1)
+
+
+def _path(supports: np.ndarray, motion: Motion, rate: float) -> np.ndarray:
+    """Path of the pelvis (frames, 3) on which the point that carries the weight stands still on the ground.
+
+    The weight on each point is its share in a soft minimum of their heights. In the air, the velocity is kept along the ground,
+    and the body flies along a parabola.
+    """
+    height = supports[:, :, 2] - supports[:, :, 2].min(axis=1, keepdims=True)
     share = np.exp(-height / YIELD)
     weight = share / share.sum(axis=1, keepdims=True)
-    velocity = -(weight[:, :, None] * np.gradient(soles, 1 / rate, axis=0)).sum(axis=1)
+    velocity = -(weight[:, :, None] * np.gradient(supports, 1 / rate, axis=0)).sum(axis=1)
+    velocity = _between(velocity, motion.airborne)
     path = np.concatenate((np.zeros((1, 3)), np.cumsum((velocity[1:] + velocity[:-1]) / 2 / rate, axis=0)))
-    path[:, 2] = YIELD * np.log(share.mean(axis=1)) - soles[:, :, 2].min(axis=1)
+    path[:, 2] = YIELD * np.log(share.mean(axis=1)) - supports[:, :, 2].min(axis=1)
+    path[:, 2:] = _between(path[:, 2:], motion.airborne)
+    for start, stop in runs(motion.airborne):
+        since = np.arange(1, stop - start + 1) / rate
+        path[start:stop, 2] += GRAVITY / 2 * since * ((stop - start + 1) / rate - since)
     path[:, :2] -= path[:, :2].mean(axis=0)
-    return np.asarray(gaussian_filter1d(path, SMOOTHING * rate, axis=0, mode="nearest"))
+    smooth, abrupt = (
+        gaussian_filter1d(path, deviation * rate, axis=0, mode="nearest") for deviation in (SMOOTHING, ABRUPT_SMOOTHING)
+    )
+    return np.asarray(smooth + motion.abrupt[:, None] * (abrupt - smooth))
+
+
+def _between(values: np.ndarray, airborne: np.ndarray) -> np.ndarray:
+    """Columns of values, in the air interpolated between take-off and landing."""
+    if not airborne.any():
+        return values
+    frames, ground = np.arange(len(values)), np.flatnonzero(~airborne)
+    return np.stack([np.interp(frames, ground, own[ground]) for own in values.T], axis=1)
 
 
 def _soft_tissue(body: Body, angles: np.ndarray, turned: list[Rotation], rigid: np.ndarray, rate: float) -> np.ndarray:

@@ -70,6 +70,15 @@ MARKERS = {
 SOLES = {"heel": (-0.034, 0.0, -0.039), "ball": (0.080, 0.004, -0.039)}
 """The points of a foot that stand on the ground."""
 
+TRUNK_AND_ARMS = {
+    "pelvis": ((-0.065, 0.045, -0.035), (-0.065, -0.045, -0.035)),
+    "thorax": ((-0.066, 0.060, 0.190), (-0.066, -0.060, 0.190)),
+    "head": ((-0.068, 0.0, 0.085),),
+    "upper_arm": ((-0.012, 0.0, -0.186),),
+    "hand": ((0.0, 0.0, -0.055),),
+}
+"""The points of the trunk, the head and the arms on which a lying body rests."""
+
 SOFTNESS = {
     "pelvis": 2.5,
     "thorax": 2.0,
@@ -111,6 +120,8 @@ class Body:
         Points of the soles in the axes of their segments, in mm.
     sole_segments : ndarray of int, shape (2 * feet,)
         Indices of these segments.
+    trunk, trunk_segments : ndarray
+        The same of the points of the trunk, the head and the arms that rest on the ground when the person lies.
     tissue : ndarray of float, shape (markers, 4, 3)
         Displacement of soft tissue per unit of the angle of the own joint and of the next joint along the limb
         (mm/rad), and of their squares.
@@ -127,6 +138,8 @@ class Body:
     marker_offsets: np.ndarray
     soles: np.ndarray
     sole_segments: np.ndarray
+    trunk: np.ndarray
+    trunk_segments: np.ndarray
     tissue: np.ndarray
     compliance: np.ndarray
 
@@ -199,6 +212,11 @@ def make_body(*, rng: np.random.Generator) -> Body:
             marker_segments.append(index)
             marker_offsets.append(_mirrored(name, place) * proportion[kind(name)])
     feet = [(index, sole) for index, name in enumerate(segments) if kind(name) == "foot" for sole in SOLES.values()]
+    trunk = [
+        (index, _mirrored(name, place) * proportion[kind(name)])
+        for index, name in enumerate(segments)
+        for place in TRUNK_AND_ARMS.get(kind(name), ())
+    ]
     softness = np.array([SOFTNESS[kind(segments[index])] for index in marker_segments])
     directions = rng.normal(0.0, 1.0, (len(marker_segments), 4, 3))
     directions /= np.linalg.norm(directions, axis=2, keepdims=True)
@@ -212,6 +230,8 @@ def make_body(*, rng: np.random.Generator) -> Body:
         marker_offsets=np.array(marker_offsets) * height + rng.normal(0.0, PLACEMENT_SD, (len(marker_segments), 3)),
         soles=np.array([_mirrored(segments[index], sole) * proportion["foot"] for index, sole in feet]) * height,
         sole_segments=np.array([index for index, _ in feet]),
+        trunk=np.array([place for _, place in trunk]) * height,
+        trunk_segments=np.array([index for index, _ in trunk]),
         tissue=directions * softness[:, None, None] * np.array([0.8, 0.8, 0.25, 0.25])[:, None],
         compliance=0.05 * softness * rng.uniform(0.6, 1.4, len(marker_segments)),
     )

@@ -8,20 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from markermend.simulation.activities import ACTIVITIES, Pose, minimum_jerk, stand
+from markermend.simulation.activities import ACTIVITIES
+from markermend.simulation.pose import Pose, minimum_jerk, stand
 from markermend.simulation.walker_body import Body, kind
-
-DURATIONS = {"stand": 1.5, "walk": 4.5, "reach": 3.0, "sit": 3.4, "exercise": 5.0}
-"""Mean duration of an activity, s; that of a bout varies by a tenth."""
-
-CHANGES = {"stand": 0.8, "walk": 1.2, "reach": 0.8, "sit": 1.5, "exercise": 0.9}
-"""Time in s to enter an activity, or to leave it where that takes longer."""
 
 VARIATION = {"head": 3.0, "thorax": 1.2, "pelvis": 0.6, "hand": 5.0, "forearm": 3.0, "upper_arm": 2.5}
 """Standard deviation in degrees of the slow random variation of a joint angle, since no movement repeats exactly; legs 0.5."""
-
-QUIET = 0.12
-"""The share of that variation in quiet standing."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +26,18 @@ class Motion:
         Joint angles in degrees.
     heading : ndarray of float, shape (frames,)
         Of the pelvis, in degrees.
+    airborne : ndarray of bool, shape (frames,)
+        Where both feet are off the ground.
+    abrupt : ndarray of float, shape (frames,)
+        Share of activities with flight or impacts.
     bouts : tuple[tuple[str, float, float], ...]
         The activities as (name, start, stop) in s.
     """
 
     angles: np.ndarray
     heading: np.ndarray
+    airborne: np.ndarray
+    abrupt: np.ndarray
     bouts: tuple[tuple[str, float, float], ...]
 
 
@@ -83,31 +81,39 @@ def move(body: Body, *, time: np.ndarray, activities: Sequence[str], rng: np.ran
     Returns
     -------
     Motion
-        Joint angles and heading.
+        Joint angles, heading, and flight.
     """
     bouts = _schedule(float(time[-1]), activities, rng)
     angles = np.zeros((len(time), len(body.segments), 3))
     heading = np.zeros(len(time)) + rng.uniform(-180.0, 180.0)
     strides = 0.94 * rng.normal(1.0, 0.04) * time + 0.02 * smooth_noise(time, every=2.0, shape=(), rng=rng)
-    entered, activity = np.ones(len(time)), np.zeros(len(time))
+    airborne, abrupt = np.zeros(len(time), bool), np.zeros(len(time))
+    entered, variation = np.ones(len(time)), np.zeros(len(time))
     for number, (name, start, stop) in enumerate(bouts):
+        activity = ACTIVITIES[name]
         pose = Pose(body, time)
         stand(pose)
-        ACTIVITIES[name](pose, time, start, stop, strides, rng)
-        if name != "walk":
+        activity.angles(pose, time, start, stop, strides, rng)
+        if activity.levels_soles:
             pose.plant()
         left = np.zeros(len(time))
         if number + 1 < len(bouts):
-            half = max(CHANGES[name], CHANGES[bouts[number + 1][0]]) / 2
+            half = max(activity.change, ACTIVITIES[bouts[number + 1][0]].change) / 2
             left = minimum_jerk(time, stop - half, stop + half)
-        angles += (entered - left)[:, None, None] * pose.angles
-        activity += (entered - left) * (QUIET if name == "stand" else 1.0)
+        share = entered - left
+        angles += share[:, None, None] * pose.angles
+        variation += share * activity.variation
+        abrupt += share * activity.abrupt
         entered = left
-        if name == "walk":
+        if activity.turns:
             heading += rng.choice([-1, 1]) * rng.uniform(90, 190) * minimum_jerk(time, start + 0.8, stop - 0.6)
+        if activity.airborne is not None:
+            airborne |= activity.airborne(strides) & (share == 1)
     spread = np.array([VARIATION.get(kind(name), 0.5) for name in body.segments])
-    angles += activity[:, None, None] * spread[:, None] * smooth_noise(time, every=0.7, shape=angles.shape[1:], rng=rng)
-    return Motion(angles, heading, bouts)
+    angles += (
+        variation[:, None, None] * spread[:, None] * smooth_noise(time, every=0.7, shape=angles.shape[1:], rng=rng)
+    )
+    return Motion(angles, heading, airborne, abrupt, bouts)
 
 
 def _schedule(
@@ -118,7 +124,7 @@ def _schedule(
     start = 0.0
     while start < duration or not bouts:
         name = activities[len(bouts) % len(activities)]
-        stop = start + DURATIONS[name] * rng.uniform(0.9, 1.1)
+        stop = start + ACTIVITIES[name].duration * rng.uniform(0.9, 1.1)
         bouts.append((name, start, stop))
         start = stop
     return tuple(bouts)

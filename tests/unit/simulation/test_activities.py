@@ -1,31 +1,33 @@
-"""Each activity moves the joints as people do."""
+"""The synthetic person can do what the options name, and starts and ends each activity standing."""
+
+from typing import get_args
 
 import numpy as np
 import pytest
 
-from markermend.simulation.activities import minimum_jerk
-from support.walkers import marker, person, speed
+from markermend.evaluation.synthetic_options import Activity
+from markermend.simulation.activities import ACTIVITIES
+from support.walkers import acceleration, marker, person
 
 
-def test_sitting_lowers_the_pelvis_and_standing_up_raises_it_again():
-    walker = person(9, duration=9.0, activities=["stand", "sit", "stand"])
-    height = marker(walker, "LASI")[:, 2]
-    bout = walker.bouts[1]
-    seated = height[round((bout[1] + 1.2) * 100) : round((bout[2] - 1.2) * 100)]
-    assert np.median(height[:50]) - np.median(seated) > 250
-    assert abs(height[round((bout[2] + 1.0) * 100)] - height[0]) < 40
+def test_the_options_name_all_activities():
+    assert set(get_args(Activity)) == set(ACTIVITIES)
 
 
-def test_a_standing_person_hardly_moves():
-    walker = person(11, duration=4.0, activities=["stand"], noise=0.0)
-    assert walker.recording.positions.std(axis=0).max() < 12
-    assert speed(walker, "LFIN").max() < 0.05
+@pytest.mark.parametrize("name", ACTIVITIES)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_an_activity_joins_standing_smoothly(name, seed):
+    walker = person(seed, duration=12.0, activities=["stand", name], noise=0.0)
+    height = marker(walker, "LFHD")[:, 2]
+    for bout, start, stop in walker.bouts:
+        middle = round((start + stop) / 2 * 100)
+        if bout == "stand" and middle < len(height):
+            assert abs(height[middle] - height[0]) < 60
+    assert acceleration(walker, "LASI").max() < 60
+    assert np.linalg.norm(np.diff(walker.rigid, axis=0), axis=2).max() < 100
 
 
-def test_minimum_jerk_starts_and_ends_at_rest():
-    time = np.linspace(-1, 2, 3001)
-    rise = minimum_jerk(time, 0.0, 1.0)
-    assert (rise[time <= 0] == 0).all()
-    assert (rise[time >= 1] == 1).all()
-    assert np.gradient(rise, time).max() == pytest.approx(1.875, rel=1e-3)
-    assert np.abs(np.gradient(rise, time)[[999, 2001]]).max() < 1e-4
+@pytest.mark.parametrize("name", ACTIVITIES)
+def test_no_activity_sinks_into_the_ground(name):
+    walker = person(3, duration=10.0, activities=["stand", name], noise=0.0)
+    assert walker.rigid[:, :, 2].min() > -60

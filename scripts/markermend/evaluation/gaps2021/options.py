@@ -25,9 +25,15 @@ SEQUENCES: Mapping[str, Sequence] = {
     "stand_and_reach": "static",
     "STS1": "sitting",
     "walk": "walking",
+    "run": "running",
     "sit": "sitting",
+    "box": "boxing",
+    "fall": "falling",
 }
 """The sequence of the paper that a recording is or is like; the paper's own are among its supplementary files."""
+
+SYNTHETIC = ("stand_and_reach", "walk", "run", "sit", "box", "fall", "exercise")
+"""Recordings like the six of the paper, and one more in which all joints move."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,7 @@ class MethodRuns:
 class Gaps2021Options(PaperOptions):
     """Reconstruction of gaps (skurowski2021): hide two gaps, fill them by each method, and measure the errors."""
 
-    synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("stand_and_reach", "walk", "sit", "exercise")
+    synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = SYNTHETIC
     """The synthetic recordings of the experiment, where no recordings are given. Meshes are inferred from all of them together."""
 
     published_as: Mapping[str, Sequence] = field(default_factory=lambda: SEQUENCES)
