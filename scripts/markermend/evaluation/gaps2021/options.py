@@ -32,8 +32,8 @@ SEQUENCES: Mapping[str, Sequence] = {
 }
 """The sequence of the paper that a recording is or is like; the paper's own are among its supplementary files."""
 
-SYNTHETIC = ("stand_and_reach", "walk", "run", "sit", "box", "fall", "exercise")
-"""Recordings like the six of the paper, and one more in which all joints move."""
+SYNTHETIC = ("stand_and_reach", "walk", "run", "sit", "box", "fall")
+"""Recordings like the six of the paper, in its order."""
 
 
 @dataclass(frozen=True)
