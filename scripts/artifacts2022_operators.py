@@ -10,13 +10,14 @@ import pandas as pd
 
 from markermend import api
 from markermend.evaluation.artifacts2022 import command, operators, runs
+from markermend.evaluation.artifacts2022.options import PRESETS
 from markermend.evaluation.randomness import generator
 from markermend.evaluation.table_files import write_table
 
 
 def main(argv: list[str] | None = None) -> None:
     parser = command.parser("artifacts2022_operators.py", __doc__)
-    parser.add_argument("--preset", required=True, help="the detectors")
+    parser.add_argument("--preset", choices=PRESETS, required=True, help="the detectors")
     job = command.begin(parser, argv)
     flags, options = job.flags, job.options.operators
     recording = job.recording

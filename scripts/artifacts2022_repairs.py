@@ -4,13 +4,14 @@ Reads: PREPARED, a clean recording. Writes: RUNS, one row for each method and wh
 """
 
 from markermend.evaluation.artifacts2022 import command, repairs
+from markermend.evaluation.artifacts2022.options import KINDS
 from markermend.evaluation.artifacts2022.readings import published_options
 from markermend.evaluation.table_files import write_table
 
 
 def main(argv: list[str] | None = None) -> None:
     parser = command.condition_flags(command.parser("artifacts2022_repairs.py", __doc__))
-    parser.add_argument("--kind", required=True, help="the class of artifacts")
+    parser.add_argument("--kind", choices=KINDS, required=True, help="the class of artifacts")
     job = command.begin(parser, argv)
     flags, options = job.flags, job.options.repairs
     distortion = repairs.Distortion(flags.kind, flags.amplitude_mm, flags.share_percent)

@@ -4,12 +4,13 @@ Reads: PREPARED, a clean recording. Writes: RUNS, one row for each true and foun
 """
 
 from markermend.evaluation.artifacts2022 import command, runs
+from markermend.evaluation.artifacts2022.options import PRESETS
 from markermend.evaluation.table_files import write_table
 
 
 def main(argv: list[str] | None = None) -> None:
     parser = command.condition_flags(command.parser("artifacts2022_runs.py", __doc__))
-    parser.add_argument("--preset", required=True, help="the detectors")
+    parser.add_argument("--preset", choices=PRESETS, required=True, help="the detectors")
     job = command.begin(parser, argv)
     flags = job.flags
     condition = runs.Condition(flags.preset, flags.amplitude_mm, flags.share_percent)

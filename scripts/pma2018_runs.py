@@ -12,7 +12,7 @@ import yaml
 from markermend.evaluation.jobs import run_numbers
 from markermend.evaluation.option_flags import read_flag
 from markermend.evaluation.pma2018 import runs
-from markermend.evaluation.pma2018.jobs import Condition
+from markermend.evaluation.pma2018.jobs import PRESETS, Condition
 from markermend.evaluation.pma2018.methods import published_methods
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.table_files import write_table
@@ -24,7 +24,7 @@ def main(argv: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="pma2018_runs.py", description=__doc__, allow_abbrev=False)
     parser.add_argument("--prepared", type=Path, required=True, help="a recording")
     parser.add_argument("--recording", required=True, help="its name")
-    parser.add_argument("--procedure", required=True, help="what fills the gaps")
+    parser.add_argument("--procedure", choices=PRESETS, required=True, help="what fills the gaps")
     parser.add_argument("--preset", type=Path, nargs="?", help="config of published filling; by default ours")
     parser.add_argument("--condition", type=Condition.read, required=True, help="gaps, length, duration: g3_L1_T5")
     parser.add_argument("--batch", type=run_numbers, required=True, help="the first run and the one after the last")

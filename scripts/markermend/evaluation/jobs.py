@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -72,8 +73,12 @@ class Jobs:
 
     @property
     def list(self) -> str:
-        """The list of the tables of all jobs, for commands (`@FILE`): a command line has no room for thousands."""
-        return f"{self.folder}/logs/{self.name}.txt"
+        """The list of the tables of all jobs, for commands (`@FILE`): a command line has no room for thousands.
+
+        Each set of jobs has a list of its own, so that runs with other options in the same folder leave it alone.
+        """
+        digest = hashlib.sha256("\n".join(self.files).encode()).hexdigest()
+        return f"{self.folder}/logs/{self.name}_{digest[:12]}.txt"
 
     @property
     def _place(self) -> str:

@@ -7,7 +7,7 @@ does not apply. Obvious misprints are corrected: the lengths 50, 100 and 200 of 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -89,6 +89,27 @@ def beside(ours: pd.DataFrame, figures: pd.DataFrame, *, on: Sequence[str], name
             masked = tuple(part if use else "" for part, use in zip(key, given, strict=True))
             found[place] = _range(texts[masked]) if masked in texts else found[place]
     return ours.assign(**{name: found})
+
+
+def add_sequences(table: pd.DataFrame, published_as: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+    """Name the sequence of a paper that each recording is or is like.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With `recording` as its first column.
+    published_as : mapping of str to sequence of str
+        The recordings by the names of the sequences.
+
+    Returns
+    -------
+    DataFrame
+        The same with a second column `sequence`, "" where a recording is like none.
+    """
+    sequences = {recording: sequence for sequence, names in published_as.items() for recording in names}
+    out = table.copy()
+    out.insert(1, "sequence", [sequences.get(name, "") for name in table["recording"]])
+    return out
 
 
 def published_errors(figures: pd.DataFrame, quantity: str) -> pd.DataFrame:

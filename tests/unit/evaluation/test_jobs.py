@@ -1,6 +1,8 @@
 """Jobs of experiments: their files follow from the conditions, and those of more runs keep the files of fewer."""
 
 import re
+from dataclasses import replace
+from pathlib import Path
 
 from markermend.evaluation.jobs import Jobs, batches, product, run_numbers
 
@@ -29,7 +31,13 @@ def test_every_combination_has_a_file_that_the_pattern_of_the_rule_matches():
 def test_the_list_names_every_file(tmp_path):
     own = jobs(str(tmp_path / "paper"))
     own.write_list()
-    assert (tmp_path / "paper/logs/runs.txt").read_text().splitlines() == own.files
+    assert Path(own.list).read_text().splitlines() == own.files
+    assert Path(own.list).parent == tmp_path / "paper/logs"
+
+
+def test_jobs_of_other_options_have_a_list_of_their_own():
+    more = replace(jobs(), rows=product({**CONDITIONS, "batch": batches(7, 2)}))
+    assert jobs().list == jobs().list != more.list
 
 
 def test_a_job_gets_its_options_whatever_it_is_about():

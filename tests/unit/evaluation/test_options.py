@@ -28,6 +28,10 @@ def test_the_files_can_be_used(path):
     [
         ({"artefacts2022": {}}, "evaluate.artefacts2022: there is no such key; did you mean artifacts2022?"),
         ({"artifacts2022": {"runs": 0}}, "evaluate.artifacts2022.runs"),
+        ({"pma2018": {"published_as": {"CMU4": ["85_03"]}}}, "evaluate.pma2018.published_as.CMU4: there is no such key; did you mean CMU"),
+        ({"pma2018": {"published_as": {"CMU1": [8502]}}}, "evaluate.pma2018.published_as.CMU1.0.: "),
+        ({"gaps2021": {"published_as": {"static": ["walk"]}}}, "evaluate.gaps2021: published_as: walk stands for two sequences"),
+        ({"pma2018": {"models": ["bolero"], "averages": [[1]], "tested_average": [1]}}, "evaluate.pma2018: bolero is among the models"),
         ({"synthetic": {"activities": {"run": ["sprint"]}}}, "evaluate.synthetic.activities.run"),
         ({"artifacts2022": {"synthetic": ["wlak"]}}, "evaluate.artifacts2022.synthetic.wlak: there is no such key; did you mean walk?"),
     ],

@@ -5,7 +5,13 @@ from itertools import product
 import pandas as pd
 import pytest
 
-from markermend.evaluation.published_figures import beside, published_descriptors, published_errors, read_published
+from markermend.evaluation.published_figures import (
+    add_sequences,
+    beside,
+    published_descriptors,
+    published_errors,
+    read_published,
+)
 from markermend.prediction.registry import REGISTRY
 from support.paths import PROJECT
 
@@ -95,6 +101,13 @@ def test_figures_stand_beside_ours_the_one_with_more_keys_first(tmp_path):
     found = beside(ours, figures, on=["amplitude_mm", "class"])
     assert found["published"].tolist() == ["> 50", "90", "4 to 8.0", ""]
     assert found.drop(columns="published").equals(ours)
+
+
+def test_recordings_are_named_as_the_sequences_that_they_are_like():
+    table = pd.DataFrame({"recording": ["walk", "my walk", "jump"], "error": 1.0})
+    named = add_sequences(table, {"walking": ("my walk", "walk"), "static": ()})
+    assert named["sequence"].tolist() == ["walking", "walking", ""]
+    assert list(named) == ["recording", "sequence", "error"] and "sequence" not in table
 
 
 @pytest.mark.parametrize(

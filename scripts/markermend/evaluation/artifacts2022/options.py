@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from markermend.evaluation.paper_options import PaperOptions
 from markermend.options.declaration import (
@@ -22,6 +22,14 @@ from markermend.options.declaration import (
 Percent = Annotated[float, Unit("%", "per cent"), Above(0), Below(25)]
 
 Kind = Literal["peaks", "noise", "steps", "slow"]
+
+Preset = Literal["paper", "default", "coordinates"]
+
+KINDS: tuple[Kind, ...] = get_args(Kind)
+"""The classes of artifacts."""
+
+PRESETS: tuple[Preset, ...] = get_args(Preset)
+"""The detectors: the published ones, ours, and ours that look at each coordinate by itself."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +120,7 @@ class OperatorOptions:
     """Tables of decisions by the names of the persons who made them: their lines `accept` and `class` are what was found in the recordings,
     which are not denoised. Without any, the recordings are contaminated, and the person is one who sees all of it."""
 
-    presets: Annotated[tuple[Literal["paper", "default", "coordinates"], ...], Distinct] = ("paper", "default")
+    presets: Annotated[tuple[Preset, ...], Distinct] = ("paper", "default")
     """The detectors."""
 
     amplitude_mm: PositiveMillimetres = 10
@@ -129,7 +137,7 @@ class Artifacts2022Options(PaperOptions):
     denoise_hz: Annotated[float, Unit("Hz", "hertz"), Above(0)] | None = 6
     """Frequency of the low-pass filter by which the recordings are denoised, as those of the paper were; null for none."""
 
-    presets: Annotated[tuple[Literal["paper", "default", "coordinates"], ...], Distinct, NotEmpty] = (
+    presets: Annotated[tuple[Preset, ...], Distinct, NotEmpty] = (
         "paper",
         "default",
     )

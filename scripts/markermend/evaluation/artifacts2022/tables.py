@@ -102,7 +102,7 @@ def measure_runs(runs: pd.DataFrame, figures: pd.DataFrame, keys: Sequence[str] 
     -------
     DataFrame
         One row for each class of each condition, and one for all classes: the number of runs, the measures of `classification.measures`,
-        and `TPR_published`, `FDR_published` and `F_published` as text.
+        and `TPR_published`, `FDR_published` and `F_published` as text, "" for other detectors than the published ones.
     """
     parts = []
     for names, own in runs.groupby(list(keys), sort=False):
@@ -114,6 +114,8 @@ def measure_runs(runs: pd.DataFrame, figures: pd.DataFrame, keys: Sequence[str] 
     for quantity in PRINTED:
         own = printed[printed["quantity"] == quantity]
         ours = beside(ours, own, on=["amplitude_mm", "class"], name=f"{quantity}_published")
+        if "preset" in ours:  # the figures are of the paper's own detectors
+            ours[f"{quantity}_published"] = ours[f"{quantity}_published"].where(ours["preset"] == "paper", "")
     return ours
 
 

@@ -4,33 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated
 
-from markermend.evaluation.paper_options import PaperOptions
-from markermend.options.declaration import Above, Count, CountOrNone, Distinct, NotEmpty, PositiveSeconds, Unit
+from markermend.evaluation.paper_options import PaperOptions, Recordings, refuse_two_sequences
+from markermend.options.declaration import Above, Count, CountOrNone, Distinct, Keys, NotEmpty, PositiveSeconds, Unit
 from markermend.options.prediction.low_rank import IteratedSvdOptions
 from markermend.options.prediction.neural_network import NeuralNetworkOptions
 
 Frames = Annotated[int, Unit("frames", "frames"), Above(0)]
 
-Sequence = Literal["static", "walking", "running", "sitting", "boxing", "falling"]
-
-SEQUENCES: Mapping[str, Sequence] = {
-    "static": "static",
-    "walking": "walking",
-    "running": "running",
-    "sitting": "sitting",
-    "boxing": "boxing",
-    "falling": "falling",
-    "stand_and_reach": "static",
-    "STS1": "sitting",
-    "walk": "walking",
-    "run": "running",
-    "sit": "sitting",
-    "box": "boxing",
-    "fall": "falling",
+SEQUENCES: Mapping[str, Recordings] = {
+    "static": ("static", "stand_and_reach"),
+    "walking": ("walking", "walk"),
+    "running": ("running", "run"),
+    "sitting": ("sitting", "sit", "STS1"),
+    "boxing": ("boxing", "box"),
+    "falling": ("falling", "fall"),
 }
-"""The sequence of the paper that a recording is or is like; the paper's own are among its supplementary files."""
+"""The sequences of the paper, which are among its supplementary files, and recordings that are them or like them."""
 
 SYNTHETIC = ("stand_and_reach", "walk", "run", "sit", "box", "fall")
 """Recordings like the six of the paper, in its order."""
@@ -69,8 +60,8 @@ class Gaps2021Options(PaperOptions):
     synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = SYNTHETIC
     """The synthetic recordings of the experiment, where no recordings are given. Meshes are inferred from all of them together."""
 
-    published_as: Mapping[str, Sequence] = field(default_factory=lambda: SEQUENCES)
-    """The sequences of the paper whose figures are put beside those of recordings, by the names of these."""
+    published_as: Annotated[Mapping[str, Recordings], Keys(tuple(SEQUENCES))] = field(default_factory=lambda: SEQUENCES)
+    """The recordings beside whose figures those of a sequence of the paper are put, by the names of the sequences."""
 
     max_duration_s: PositiveSeconds | None = None
     """What is used of a recording at most, from its beginning; null for all of it. The time of recurrent networks grows with it."""
@@ -115,3 +106,6 @@ class Gaps2021Options(PaperOptions):
         default_factory=lambda: IteratedSvdOptions(neighbours=1000, centred=False, shrink_singular_values=False)
     )
     """The low-rank completion, of all markers in laboratory coordinates."""
+
+    def __post_init__(self) -> None:
+        refuse_two_sequences(self.published_as)

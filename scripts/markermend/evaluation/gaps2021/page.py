@@ -24,7 +24,7 @@ LOGARITHMIC = {"log_x": True, "log_y": True}
 
 
 def make_page(tables: Mapping[str, pd.DataFrame]) -> Page:
-    """Put the page together.
+    """Arrange the tables of the gap reconstruction paper as a page: errors, networks, descriptors, and correlations.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
@@ -14,7 +14,7 @@ from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.gaps2021.row_order import in_order
 from markermend.evaluation.gaps2021.runs import CONDITION
 from markermend.evaluation.information_criteria import information_criteria
-from markermend.evaluation.published_figures import beside
+from markermend.evaluation.published_figures import add_sequences, beside
 from markermend.prediction.neural_network.architecture import learnable_parameters
 from markermend.prediction.neural_network.predictor import KINDS
 
@@ -62,7 +62,9 @@ def make_tables(
     }
 
 
-def describe_errors(runs: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, str]) -> pd.DataFrame:
+def describe_errors(
+    runs: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, Sequence[str]]
+) -> pd.DataFrame:
     """Describe the errors of each method (Tables 3 and A1 to A5).
 
     Parameters
@@ -71,8 +73,8 @@ def describe_errors(runs: pd.DataFrame, figures: pd.DataFrame, published_as: Map
         The columns runs.RUN_COLUMNS.
     figures : DataFrame
         Those of skurowski2021; see published_figures.read_published.
-    published_as : mapping of str to str
-        The sequences of the paper by the names of recordings.
+    published_as : mapping of str to sequence of str
+        The recordings by the names of the sequences of the paper.
 
     Returns
     -------
@@ -83,7 +85,7 @@ def describe_errors(runs: pd.DataFrame, figures: pd.DataFrame, published_as: Map
     table = error_table(runs, CONDITION)
     counts = runs.groupby(CONDITION)["run"].nunique().rename("runs").reset_index()
     table = in_order(table.merge(counts, on=CONDITION))
-    table["sequence"] = table["recording"].map(dict(published_as)).fillna("")
+    table = add_sequences(table, published_as)
     for name in STATISTICS:
         printed = figures[(figures["quantity"] == name) & (figures["sequence"] != "")]
         table = beside(table, printed, on=["sequence", "length", "method"], name=f"{name}_published")
@@ -109,7 +111,9 @@ def arrange_published(figures: pd.DataFrame) -> pd.DataFrame:
     return own.pivot(index=keys, columns="quantity", values="value").reset_index()
 
 
-def list_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, str]) -> pd.DataFrame:
+def list_descriptors(
+    descriptors: pd.DataFrame, figures: pd.DataFrame, published_as: Mapping[str, Sequence[str]]
+) -> pd.DataFrame:
     """List the descriptors of recordings (Table 2).
 
     Parameters
@@ -118,8 +122,8 @@ def list_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame, published
         See runs.describe; one row for each recording.
     figures : DataFrame
         Those of skurowski2021.
-    published_as : mapping of str to str
-        The sequences of the paper by the names of recordings.
+    published_as : mapping of str to sequence of str
+        The recordings by the names of the sequences of the paper.
 
     Returns
     -------
@@ -127,7 +131,7 @@ def list_descriptors(descriptors: pd.DataFrame, figures: pd.DataFrame, published
         One row for each recording and descriptor: the sequence of the paper, the value, and the printed one.
     """
     table = descriptors.melt("recording", var_name="descriptor", value_name="value")
-    table.insert(1, "sequence", table["recording"].map(dict(published_as)).fillna(""))
+    table = add_sequences(table, published_as)
     printed = figures[(figures["table"].astype(str) == "2") & (figures["quantity"] == "value")]
     return beside(table, printed, on=["sequence", "descriptor"])
 

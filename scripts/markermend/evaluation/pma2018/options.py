@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
-from markermend.evaluation.paper_options import PaperOptions
-from markermend.options.declaration import Count, Distinct, NotEmpty, PositiveSeconds
+from markermend.evaluation.paper_options import PaperOptions, Recordings, refuse_two_sequences
+from markermend.options.declaration import Count, Distinct, Keys, NotEmpty, PositiveSeconds
 
 PublishedModel = Literal[
     "linear_regression", "local_interpolation", "local_quadratic", "local_grnn", "weighted_pca", "bolero"
@@ -17,17 +17,17 @@ Procedure = Literal["text", "bolero", "default"]
 
 Variant = Literal["text", "program"]
 
-RECORDINGS: Mapping[str, str] = {
-    "HDM1": "HDM_mm_01-02_03_120",
-    "HDM2": "HDM_mm_02-02_02_120",
-    "HDM3": "HDM_mm_03-02_01_120",
-    "HDM4": "HDM_mm_04-01_02_120",
-    "HDM5": "HDM_bd_05-01_01_120",
-    "CMU1": "85_02",
-    "CMU2": "85_12",
-    "CMU3": "135_02",
+SEQUENCES: Mapping[str, Recordings] = {
+    "HDM1": ("HDM_mm_01-02_03_120",),
+    "HDM2": ("HDM_mm_02-02_02_120",),
+    "HDM3": ("HDM_mm_03-02_01_120",),
+    "HDM4": ("HDM_mm_04-01_02_120",),
+    "HDM5": ("HDM_bd_05-01_01_120",),
+    "CMU1": ("85_02",),
+    "CMU2": ("85_12",),
+    "CMU3": ("135_02",),
 }
-"""The files of Table 1."""
+"""The sequences of the paper, and their files (Table 1)."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Pma2018Options(PaperOptions):
     synthetic: Annotated[tuple[str, ...], Distinct, NotEmpty] = ("walk", "exercise")
     """The synthetic recordings of the experiments, where no recordings are given."""
 
-    published_as: Annotated[Mapping[str, str], NotEmpty] = field(default_factory=lambda: dict(RECORDINGS))
-    """The recordings of the published sequences, by their names in the paper."""
+    published_as: Annotated[Mapping[str, Recordings], Keys(tuple(SEQUENCES))] = field(default_factory=lambda: SEQUENCES)
+    """The recordings beside whose figures those of a sequence of the paper are put, by the names of the sequences."""
 
     procedures: Annotated[tuple[Procedure, ...], Distinct, NotEmpty] = ("text", "bolero", "default")
     """What is compared in Figures 4 to 7: the models and averages as the `text` of the paper says (preset published_pma_text), `bolero`, which
@@ -103,6 +103,9 @@ class Pma2018Options(PaperOptions):
     """Runs of one job."""
 
     def __post_init__(self) -> None:
+        refuse_two_sequences(self.published_as)
+        if "bolero" in self.models and "bolero" in self.procedures:
+            raise ValueError("bolero is among the models and among the procedures, and would count twice: name it once")
         for average in (*self.averages, self.tested_average):
             if max(average) > len(self.models):
                 raise ValueError(f"the average of models {average} names a number beyond those of the models")

@@ -29,7 +29,7 @@ FIGURES = {
 
 
 def make_page(tables: Mapping[str, pd.DataFrame]) -> Page:
-    """Put the page together.
+    """Arrange the tables of the model averaging paper as a page: errors of each figure, means, and constraints.
 
     Parameters
     ----------

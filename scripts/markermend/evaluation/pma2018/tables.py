@@ -12,10 +12,13 @@ from scipy.stats import ttest_rel, wilcoxon
 from markermend.evaluation.pma2018.jobs import TEST, Condition, figure_conditions, tested_conditions
 from markermend.evaluation.pma2018.methods import UNCONSTRAINED, average
 from markermend.evaluation.pma2018.options import Pma2018Options
-from markermend.evaluation.published_figures import beside
+from markermend.evaluation.published_figures import add_sequences, beside
 
 CONDITION = ["gaps", "length_s", "duration_s"]
 """The columns of a condition; the duration is missing where the whole recording is used."""
+
+WHOLE = "whole"
+"""What stands for the duration where the whole recording is used, when figures are matched."""
 
 MEAN = ["recordings", *CONDITION, "method", "error_mm", "standard_error_mm", "published"]
 """The columns of the table of means over recordings."""
@@ -66,27 +69,6 @@ def run_errors(runs: pd.DataFrame) -> pd.DataFrame:
     return grouped.agg(lambda own: own.mean(skipna=False)).reset_index()
 
 
-def add_sequences(table: pd.DataFrame, options: Pma2018Options) -> pd.DataFrame:
-    """Name the published sequence of each recording.
-
-    Parameters
-    ----------
-    table : DataFrame
-        With a column `recording`.
-    options : Pma2018Options
-        The recordings of the sequences.
-
-    Returns
-    -------
-    DataFrame
-        The same with a second column `sequence`, "" where a recording is not among the published ones.
-    """
-    named = {recording: sequence for sequence, recording in options.published_as.items()}
-    out = table.copy()
-    out.insert(1, "sequence", [named.get(name, "") for name in table["recording"]])
-    return out
-
-
 def figure_table(errors: pd.DataFrame, name: str, figures: pd.DataFrame, options: Pma2018Options) -> pd.DataFrame:
     """Put the errors of a figure into a table.
 
@@ -113,7 +95,7 @@ def figure_table(errors: pd.DataFrame, name: str, figures: pd.DataFrame, options
     rows = [(*key, *_statistics(own["error_mm"])) for key, own in chosen.groupby(keys, sort=False, dropna=False)]
     ours = pd.DataFrame(rows, columns=[*keys, "runs", "unfilled", "error_mm", "standard_error_mm", "median_mm"])
     own = figures[(figures["table"] == "text") & (figures["quantity"] == "error_mm") & (figures["sequence"] != "")]
-    return beside(add_sequences(ours, options), own, on=["sequence", *CONDITION, "method"])
+    return _beside_conditions(add_sequences(ours, options.published_as), own, on=["sequence", "method"])
 
 
 def mean_table(tables: Mapping[str, pd.DataFrame], figures: pd.DataFrame) -> pd.DataFrame:
@@ -142,7 +124,7 @@ def mean_table(tables: Mapping[str, pd.DataFrame], figures: pd.DataFrame) -> pd.
         )
         parts.append(means.reset_index().assign(figure=name))
     text = figures[(figures["table"] == "text") & (figures["quantity"] == "error_mm") & (figures["sequence"] == "")]
-    return beside(pd.concat(parts, ignore_index=True), text, on=[*CONDITION, "method"])[["figure", *MEAN]]
+    return _beside_conditions(pd.concat(parts, ignore_index=True), text, on=["method"])[["figure", *MEAN]]
 
 
 def constraint_table(errors: pd.DataFrame, figures: pd.DataFrame, options: Pma2018Options) -> pd.DataFrame:
@@ -178,7 +160,7 @@ def constraint_table(errors: pd.DataFrame, figures: pd.DataFrame, options: Pma20
                 where = table, recording, variant, condition.gaps, condition.length_s
                 rows.append((*where, len(paired), *_paired(paired[name + UNCONSTRAINED], paired[name])))
     ours = pd.DataFrame(rows, columns=["table", "recording", "variant", "gaps", "length_s", "runs", *PAIRED])
-    out = add_sequences(ours[["recording", *ours.columns.drop("recording")]], options)
+    out = add_sequences(ours[["recording", *ours.columns.drop("recording")]], options.published_as)
     named = {"unconstrained": name + UNCONSTRAINED, "constrained": name, "p": ""}
     for column, method in named.items():
         own = figures[(figures["method"] == method) & (figures["quantity"] == ("p" if column == "p" else "error_mm"))]
@@ -209,6 +191,15 @@ def _statistics(errors: pd.Series) -> tuple[int, int, float, float, float]:
     """Number of runs, of runs that were not filled, mean, standard error and median of the others."""
     known = errors.dropna()
     return len(errors), len(errors) - len(known), known.mean(), known.sem(), known.median()
+
+
+def _beside_conditions(ours: pd.DataFrame, figures: pd.DataFrame, *, on: Sequence[str]) -> pd.DataFrame:
+    """Put published figures beside ours of the same condition: those of whole recordings stand for no fragments."""
+    whole, printed = (
+        table.assign(duration_s=table["duration_s"].astype(object).where(table["duration_s"].notna(), WHOLE))
+        for table in (ours, figures)
+    )
+    return ours.assign(published=beside(whole, printed, on=[*CONDITION, *on])["published"])
 
 
 def _of_conditions(errors: pd.DataFrame, conditions: Sequence[Condition]) -> pd.DataFrame:

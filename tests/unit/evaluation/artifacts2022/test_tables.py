@@ -49,6 +49,8 @@ def test_published_figures_stand_beside(runs):
     assert table.loc[(5.0, "peaks"), "TPR_published"] == "66" and table.loc[(10.0, "peaks"), "TPR_published"] == "90"
     assert table.loc[(10.0, "noise"), "FDR_published"] == "4 to 8"
     assert table.loc[(5.0, "all"), "F_published"] == "> 0.999"
+    ours = measure_runs(runs.assign(preset="default"), published)
+    assert (ours[["TPR_published", "FDR_published", "F_published"]] == "").all(axis=None)
     assert list(table.loc[5.0].index) == [*CLASSES, "all"]
 
 

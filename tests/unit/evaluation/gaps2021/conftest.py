@@ -9,7 +9,7 @@ from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.published_figures import read_published
 from support.paths import PROJECT
 
-OPTIONS = Gaps2021Options(published_as={name: name for name in ("static", "walking", "running", "sitting", "boxing", "falling")})  # fmt: skip
+OPTIONS = Gaps2021Options(published_as={name: (name,) for name in ("static", "walking", "running", "sitting", "boxing", "falling")})  # fmt: skip
 
 
 @pytest.fixture(scope="session")

@@ -141,7 +141,7 @@ def test_a_method_that_was_not_run_is_not_found_to_be_worse():
     "changes",
     [
         {"constraint_tests": {"2": ConstraintTest(3, 5)}},  # the paper tests gaps of 1 s
-        {"published_as": {"CMU9": "85_02"}},
+        {"published_as": {"CMU9": ("85_02",)}},
         {"tested_average": (1, 3, 4, 5)},
     ],
 )

@@ -38,6 +38,13 @@ def test_the_files_of_jobs_follow_the_pattern_of_the_rule():
     assert own.pattern.startswith("out/runs/{recording,")
 
 
+def test_bolero_does_not_count_twice():
+    models = ("linear_regression", "bolero")
+    with pytest.raises(ValueError, match="name it once"):
+        Pma2018Options(models=models, averages=((1, 2),), tested_average=(1, 2))
+    Pma2018Options(models=models, averages=((1, 2),), tested_average=(1, 2), procedures=("text", "default"))
+
+
 def test_averages_name_known_models():
     with pytest.raises(ValueError, match="beyond those of the models"):
         Pma2018Options(averages=((1, 6),))

@@ -60,6 +60,17 @@ def test_a_figure_has_the_mean_of_its_runs_and_the_published_one_beside(runs, ma
     assert set(made["durations"]["duration_s"]) == {5.0} and set(made["gap_counts"]["gaps"]) == {1, 3}
 
 
+def test_figures_of_whole_recordings_do_not_stand_beside_those_of_fragments(runs, figures):
+    fragments = runs[runs["duration_s"] == 5].assign(length_s=5.0)
+    options = Pma2018Options(length_s=5)
+    made = tables.all_tables(pd.concat([runs, fragments]), figures, options)
+    whole, part = (made[name].set_index(["recording", "length_s", "method"]) for name in ("lengths", "durations"))
+    assert whole.loc[("85_02", 5.0, "local_grnn"), "published"] == "20.2"
+    assert part.loc[("85_02", 5.0, "local_grnn"), "published"] == ""
+    means = made["means"].set_index(["figure", "method"])
+    assert means.loc[("durations", "local_grnn"), "published"] == ""
+
+
 def test_a_run_with_an_open_gap_does_not_count(runs, figures):
     holed = runs.copy()
     holed.loc[(holed["run"] == 2) & (holed["marker"] == "M1") & (holed["method"] == "local_grnn"), "error_mm"] = np.nan
