@@ -21,7 +21,7 @@ from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
 from markermend.core.recording import BadRecording, SetAside
-from markermend.options.declaration import Option, full_meaning, peel
+from markermend.options.description import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
 from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions

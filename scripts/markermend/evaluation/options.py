@@ -12,7 +12,8 @@ from markermend.evaluation.artifacts2022.options import Artifacts2022Options
 from markermend.evaluation.gaps2021.options import Gaps2021Options
 from markermend.evaluation.pma2018.options import Pma2018Options
 from markermend.evaluation.synthetic_options import SyntheticOptions
-from markermend.options.declaration import CountOrNone, PositiveSeconds, describe
+from markermend.options.declaration import CountOrNone, PositiveSeconds
+from markermend.options.description import describe
 from markermend.options.general import EXPERIMENTS
 from markermend.options.reader import Reader
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from markermend.evaluation.options import EvaluationOptions
-from markermend.options.declaration import describe
+from markermend.options.description import describe
 from markermend.options.general import EXPERIMENTS
 from markermend.planning import config_yaml
 from markermend.storage import atomic

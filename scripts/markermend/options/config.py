@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from markermend.options.declaration import Option, describe
+from markermend.options.description import Option, describe
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.detection.frames import FramesOptions
 from markermend.options.detection.frozen import FrozenOptions

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shlex
 from typing import Any
 
-from markermend.options.declaration import Option, Planned, describe, marked
+from markermend.options.declaration import Planned
+from markermend.options.description import Option, describe, marked
 from markermend.options.values import plain, text
 
 

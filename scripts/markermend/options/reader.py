@@ -9,16 +9,8 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import MISSING, is_dataclass
 from typing import Any, Literal, Union, get_args, get_origin
 
-from markermend.options.declaration import (
-    Changes,
-    Distinct,
-    Keys,
-    NotEmpty,
-    Option,
-    describe,
-    marked,
-    peel,
-)
+from markermend.options.declaration import Changes, Distinct, Keys, NotEmpty
+from markermend.options.description import Option, describe, marked, peel
 from markermend.options.scalars import read_scalar, wrong_type
 from markermend.options.values import text
 

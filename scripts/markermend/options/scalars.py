@@ -6,7 +6,8 @@ import math
 import re
 from typing import Any, Literal, get_args, get_origin
 
-from markermend.options.declaration import Bound, NotEmpty, RegularExpression, Unit, marked, peel
+from markermend.options.declaration import Bound, NotEmpty, RegularExpression, Unit
+from markermend.options.description import marked, peel
 from markermend.options.type_words import spell
 from markermend.options.values import plain, text
 

@@ -6,7 +6,8 @@ import types
 from collections.abc import Mapping
 from typing import Any, Literal, Union, get_args, get_origin
 
-from markermend.options.declaration import Changes, Unit, marked, peel
+from markermend.options.declaration import Changes, Unit
+from markermend.options.description import marked, peel
 
 
 def spell(kind: Any, marks: tuple[Any, ...] = (), *, many: bool = False) -> str:

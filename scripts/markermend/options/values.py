@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import is_dataclass
 from typing import Any
 
-from markermend.options.declaration import describe
+from markermend.options.description import describe
 
 
 def plain(value: Any) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from markermend.options.config import GENERAL, SECTIONS
-from markermend.options.declaration import Option, describe, full_meaning
+from markermend.options.description import Option, describe, full_meaning
 from markermend.options.values import plain, text
 from markermend.planning.option_sections import tiers, title
 

@@ -10,18 +10,8 @@ from typing import Any, Literal, Union, get_args, get_origin
 import yaml
 
 from markermend.options.config import GENERAL, SECTIONS
-from markermend.options.declaration import (
-    Bound,
-    Changes,
-    Distinct,
-    Keys,
-    NotEmpty,
-    Option,
-    describe,
-    full_meaning,
-    marked,
-    peel,
-)
+from markermend.options.declaration import Bound, Changes, Distinct, Keys, NotEmpty
+from markermend.options.description import Option, describe, full_meaning, marked, peel
 from markermend.planning.config_yaml import WIDTH
 from markermend.planning.option_sections import tiers, title
 

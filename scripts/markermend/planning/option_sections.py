@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Iterator
 
 from markermend.options.config import ADVANCED, SECTIONS, own_options
-from markermend.options.declaration import Option
+from markermend.options.description import Option
 
 
 def tiers() -> Iterator[tuple[str, list[tuple[str, list[Option]]]]]:

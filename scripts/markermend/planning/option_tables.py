@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from markermend.options.config import GENERAL, SECTIONS
-from markermend.options.declaration import Option, describe, full_meaning
+from markermend.options.description import Option, describe, full_meaning
 from markermend.options.values import plain
 from markermend.planning.config_yaml import value
 from markermend.planning.option_sections import explanation, tiers, title

@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 import pytest
 
-from markermend.options.declaration import Changes, Keys, Seconds, describe
+from markermend.options.declaration import Changes, Keys, Seconds
+from markermend.options.description import describe
 from markermend.options.general import DecisionOptions
 from markermend.options.reader import BadOptions, Reader, parse
 from markermend.options.values import plain, text

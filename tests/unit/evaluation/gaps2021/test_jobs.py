@@ -5,7 +5,7 @@ import json
 from markermend.evaluation.gaps2021.jobs import jobs
 from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options, MethodRuns
-from markermend.options.declaration import describe
+from markermend.options.description import describe
 
 
 def test_methods_have_runs_of_their_own_number():

@@ -1,4 +1,4 @@
-"""How options are declared and described."""
+"""What is declared of options is read back: types, bounds, defaults and texts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Annotated
 import pytest
 
 from markermend.options.config import SECTIONS
-from markermend.options.declaration import Above, Laboratory, Seconds, Unit, describe, full_meaning, marked
+from markermend.options.declaration import Above, Laboratory, Seconds, Unit
+from markermend.options.description import describe, full_meaning, marked
 
 
 @dataclass(frozen=True)
