@@ -1,6 +1,6 @@
 """Contaminate a clean recording as the artifact detection paper did, detect, and count samples by class (skurowski2022, E1).
 
-Reads: PREPARED, a clean recording. Writes: RUNS, one row for each true and found class of each run.
+Reads: PREPARED, a clean recording; NETWORKS, what the network learned of it. Writes: RUNS, one row for each true and found class of each run.
 """
 
 from markermend.evaluation.artifacts2022 import command, runs
@@ -9,13 +9,13 @@ from markermend.evaluation.table_files import write_table
 
 
 def main(argv: list[str] | None = None) -> None:
-    parser = command.condition_flags(command.parser("artifacts2022_runs.py", __doc__))
+    parser = command.network_flag(command.condition_flags(command.parser("artifacts2022_runs.py", __doc__)))
     parser.add_argument("--preset", choices=PRESETS, required=True, help="the detectors")
     job = command.begin(parser, argv)
     flags = job.flags
     condition = runs.Condition(flags.preset, flags.amplitude_mm, flags.share_percent)
-    options = condition.options(job.options.network_steps)
-    counts = [(run, runs.count_run(job.clean, condition, rng=rng, options=options)) for run, rng in job.generators()]
+    find = runs.detectors(flags.preset, job.options, flags.networks)
+    counts = [(run, runs.count_run(job.clean, condition, rng=rng, find=find)) for run, rng in job.generators()]
     write_table(flags.runs, runs.run_rows(flags.recording, condition, counts))
 
 

@@ -12,8 +12,10 @@ def main(argv: list[str] | None = None) -> None:
     job = command.begin(command.condition_flags(command.parser("artifacts2022_slow.py", __doc__)), argv)
     flags, options = job.flags, job.options.slow
     condition = Condition("paper", flags.amplitude_mm, flags.share_percent)
+    networks = slow_sweep.make_networks(job.clean, options)
     counts = [
-        (run, slow_sweep.sweep_run(job.clean, condition, options=options, rng=rng)) for run, rng in job.generators()
+        (run, slow_sweep.sweep_run(job.clean, condition, networks=networks, options=options, rng=rng))
+        for run, rng in job.generators()
     ]
     write_table(flags.runs, slow_sweep.sweep_rows(flags.recording, condition, counts))
 

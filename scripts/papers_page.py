@@ -6,6 +6,7 @@ OPTIONS_TABLE, what was run.
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -25,6 +26,7 @@ def main(argv: list[str] | None = None) -> None:
     parser.add_argument("--page", type=Path, required=True, help="the page, to write")
     parser.add_argument("--recordings-table", type=Path, required=True, help="the sizes of all recordings, to write")
     parser.add_argument("--options-table", type=Path, required=True, help="the options as a table, to write")
+    parser.add_argument("--note", default="", help="what must be said of the choice of recordings")
     flags = parser.parse_args(argv)
     tables = {path.stem: read_table(path) for path in flags.tables}
     sizes = read_tables(flags.sizes)
@@ -32,6 +34,7 @@ def main(argv: list[str] | None = None) -> None:
     rows = [(name, json.dumps(value, ensure_ascii=False)) for name, value in flags.options.items()]
     write_table(flags.options_table, pd.DataFrame(rows, columns=["option", "value"]))
     page = PAGES[flags.paper](tables)
+    page = replace(page, lead=(*page.lead, flags.note)) if flags.note else page
     atomic.write_text(flags.page, paper_page(page, tables, sizes=sizes, options=flags.options))
 
 

@@ -4,6 +4,7 @@ import json
 
 import pandas as pd
 
+import artifacts2022_networks
 import artifacts2022_operators
 import artifacts2022_readings
 import artifacts2022_repairs
@@ -25,13 +26,16 @@ def test_batches_of_runs_become_tables_and_pages(tmp_path):
     synthetic = json.dumps({"activities": {"stand": ["stand"]}, "duration_s": 6})
     files = ["--prepared", str(prepared), "--size", str(size)]
     papers_recording.main(["--name", "stand", "--synthetic", synthetic, "--seed", "5", *files])
+    networks = tmp_path / "stand.json"
+    learning = ["--prepared", str(prepared), "--recording", "stand", "--seed", "5", "--options", '{"network_steps": 3}']
+    artifacts2022_networks.main([*learning, "--networks", str(networks)])
     batches = []
     given = ["--prepared", str(prepared), "--recording", "stand", "--preset", "paper", "--amplitude-mm", "10"]
     for batch in ("0-1", "1-2"):
         batches.append(str(tmp_path / f"{batch}.tsv"))
         which = ["--share-percent", "20", "--batch", batch, "--seed", "5", "--options", '{"network_steps": 3}']
-        artifacts2022_runs.main([*given, *which, "--runs", batches[-1]])
-    others = other_runs(tmp_path, prepared)
+        artifacts2022_runs.main([*given, *which, "--networks", str(networks), "--runs", batches[-1]])
+    others = other_runs(tmp_path, prepared, networks)
     runs = pd.read_csv(batches[0], sep="\t")
     assert tuple(runs.columns) == RUN_COLUMNS and len(runs) == len(CLASSES) ** 2
     assert runs["samples"].sum() == 600 * pd.read_csv(size, sep="\t")["markers"].item() * 3
@@ -57,13 +61,15 @@ def test_batches_of_runs_become_tables_and_pages(tmp_path):
     assert 'href="artifacts2022/index.html"' in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
-def other_runs(folder, prepared):
+def other_runs(folder, prepared, networks):
     """Run the smaller experiments once each; the flags with their tables."""
     options = {
         "denoise_hz": 6,
         "network_steps": 3,
         "repairs": {"methods": ["distorted", "linear"]},
         "slow": {
+            "trained_on": ["clean"],
+            "training_frames": [200],
             "network_steps": [3],
             "deviations_over": ["marker"],
             "lower_sigmas": [0.5],
@@ -75,7 +81,7 @@ def other_runs(folder, prepared):
     commands = {
         "readings": (artifacts2022_readings, condition),
         "slow": (artifacts2022_slow, condition),
-        "repairs": (artifacts2022_repairs, [*condition, "--kind", "peaks"]),
+        "repairs": (artifacts2022_repairs, [*condition, "--kind", "peaks", "--networks", str(networks)]),
         "operators": (artifacts2022_operators, ["--preset", "paper"]),
     }
     flags = []

@@ -43,11 +43,14 @@ def test_right_too_long_a_rectangle_is_two_open_steps(rate):
 
 @pytest.mark.parametrize("rate", RATES)
 @pytest.mark.parametrize("sd", [3, 5, 10])
-def test_right_noise_of_half_a_second_is_one_stretch_and_shorter_is_none(rate, sd):
+def test_right_noise_of_half_a_second_is_found_beside_peaks_in_it_and_shorter_is_none(rate, sd):
     rng = np.random.default_rng(1)
     signal, start, stop = with_added(rate, lambda length: rng.normal(0, sd, length), 50)
-    [(first, last)] = around(detect_signal(signal, rate, "paper")[0], rate)["noise"]
-    assert start <= first <= start + 2 and stop - 2 <= last <= stop
+    found = around(detect_signal(signal, rate, "paper")[0], rate)
+    pieces = sorted([*found["noise"], *found["peaks"]])
+    covered = sum(last - first for first, last in pieces)
+    assert found["noise"] and covered >= 0.8 * (stop - start)
+    assert start <= pieces[0][0] <= start + 2 and stop - 2 <= pieces[-1][1] <= stop
     signal, _, _ = with_added(rate, lambda length: rng.normal(0, sd, length), 15)
     assert around(detect_signal(signal, rate, "paper")[0], rate)["noise"] == []
 

@@ -21,6 +21,7 @@ MODULES = {"yaml": "pyyaml", "sklearn": "scikit-learn"}
 """Packages by the module that is imported, where the names differ."""
 ENVIRONMENTS = {
     "fill": ("base", "torch"),
+    "artifacts2022_networks": ("evaluate",),
     "artifacts2022_operators": ("evaluate",),
     "artifacts2022_readings": ("evaluate",),
     "artifacts2022_repairs": ("evaluate",),

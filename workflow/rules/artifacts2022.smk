@@ -16,9 +16,36 @@ rule artifacts2022:
         f"{papers.folder}/artifacts2022/index.html",
 
 
+rule artifacts2022_networks:
+    input:
+        prepared=papers.recording,
+    output:
+        networks=f"{papers.folder}/artifacts2022/networks/{{recording}}.json",
+    log:
+        f"{papers.folder}/artifacts2022/logs/networks/{{recording}}.log",
+    benchmark:
+        f"{papers.folder}/artifacts2022/logs/networks/{{recording}}.tsv"
+    conda:
+        "../../envs/evaluate.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        *plan.code("artifacts2022_networks"),
+        seed=papers.options.seed,
+        options=artifacts2022["runs"].flag,
+    message:
+        "Train the published network on {wildcards.recording}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_networks.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --seed {params.seed} --options {params.options:q} --networks {output.networks:q} 2> {log:q}"
+
+
 rule artifacts2022_runs:
     input:
         prepared=papers.recording,
+        networks=rules.artifacts2022_networks.output.networks,
     output:
         runs=artifacts2022["runs"].pattern,
     log:
@@ -40,6 +67,7 @@ rule artifacts2022_runs:
         " {wildcards.share_percent} %, runs {wildcards.batch}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/artifacts2022_runs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --networks {input.networks:q}"
         " --preset {wildcards.preset} --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent}"
         " --batch {wildcards.batch} --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
@@ -103,6 +131,7 @@ rule artifacts2022_slow:
 rule artifacts2022_repairs:
     input:
         prepared=papers.recording,
+        networks=rules.artifacts2022_networks.output.networks,
     output:
         runs=artifacts2022["repairs"].pattern,
     log:
@@ -123,6 +152,7 @@ rule artifacts2022_repairs:
         "Contaminate and repair {wildcards.recording}: {wildcards.kind}, {wildcards.share_percent} %, runs {wildcards.batch}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/artifacts2022_repairs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        " --networks {input.networks:q}"
         " --kind {wildcards.kind}"
         " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
         " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"

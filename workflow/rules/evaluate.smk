@@ -16,6 +16,9 @@ except BadOptions as error:
 if plan.missing and workflow.is_main_process and not any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
     raise WorkflowError(plan.missing)
 
+if papers.note and workflow.is_main_process and any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
+    logger.warning(papers.note)
+
 PUBLISHED = PROJECT / "config/evaluate/published"
 
 
@@ -110,12 +113,13 @@ rule papers_page:
     params:
         *plan.code("papers_page", "evaluation/templates", "report/templates"),
         options=papers.paper_options,
+        note=papers.note,
     message:
         "Write the page of {wildcards.paper}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/papers_page.py --paper {wildcards.paper} --tables {input.tables:q} --sizes {input.sizes:q}"
         " --options {params.options:q} --page {output.page:q} --recordings-table {output.recordings:q}"
-        " --options-table {output.options:q} 2> {log:q}"
+        " --options-table {output.options:q} --note={params.note:q} 2> {log:q}"
 
 
 rule papers_index:

@@ -54,11 +54,22 @@ class Experiments:
         The folder of the experiments' results.
     entries : sequence of Entry
         The recordings; synthetic ones if there are none.
+    given : int
+        How many recordings were given, with those that are left out.
     """
 
     options: EvaluationOptions
     folder: str
     entries: Sequence[Entry]
+
+    given: int = 0
+
+    @property
+    def note(self) -> str:
+        """What must be said of the choice of recordings: nothing, or that synthetic ones stand in for given ones."""
+        if self.entries or not self.given:
+            return ""
+        return "All given recordings are static, in which nothing moves: the experiments run on synthetic recordings instead."
 
     @cached_property
     def named(self) -> dict[str, Entry]:
@@ -217,7 +228,7 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
         Where the options cannot be used.
     """
     moving = [entry for entry in entries if entry.kind != "static"]
-    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, moving)
+    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, moving, len(entries))
     if unused := [
         f"{EXPERIMENTS}.{paper}.recordings: no recording has such a name"
         for paper in PAPERS

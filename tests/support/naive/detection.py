@@ -46,8 +46,8 @@ def thresholds(changes, over, scale, sigmas, floor):
     return out
 
 
-def peaks(change, level, longest, window, ratio, localisation):
-    """Samples of isolated peaks: sums, closing and opening over one window at a time, then the two ends of each peak."""
+def peaks(change, level, longest, window, ratio, localisation, *, joined):
+    """Samples of isolated peaks: sums, closing if joined, and opening over one window at a time, then the two ends of each peak."""
     n, half = len(change), window // 2
     sudden = [value if abs(value) > level else 0.0 for value in change]
     candidate = []
@@ -59,7 +59,7 @@ def peaks(change, level, longest, window, ratio, localisation):
     def widened(values, best):
         return [best(values[max(0, k - half) : k + half + 1]) for k in range(n)]
 
-    closed = widened(widened(candidate, max), min)
+    closed = widened(widened(candidate, max), min) if joined else candidate
     opened = widened(widened(closed, min), max)
     isolated = [one and not other for one, other in zip(closed, opened, strict=True)]
     mask = [False] * n

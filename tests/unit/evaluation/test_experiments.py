@@ -38,7 +38,10 @@ def test_claims_are_among_the_tables_of_a_page(paper):
 
 
 def test_static_recordings_are_left_out():
-    assert "pose" not in make_experiments({}, GIVEN, "/out/papers").named
+    papers = make_experiments({}, GIVEN, "/out/papers")
+    assert "pose" not in papers.named and not papers.note and not make_experiments({}, [], "/out/papers").note
+    alone = make_experiments({}, [entry for entry in GIVEN if entry.kind == "static"], "/out/papers")
+    assert "synthetic" in alone.note and alone.recordings("artifacts2022") == ["stand_and_reach"]
 
 
 def test_given_recordings_are_named_by_their_folders_and_by_their_subjects_where_they_share_a_name():

@@ -141,7 +141,7 @@ def find_peaks(
     sudden[np.isnan(change)] = np.nan
     locate = _outermost if options.localisation == "window" else partial(_largest, ratio=options.balance_ratio)
     mask, score = np.zeros(len(change), bool), np.zeros(len(change))
-    for start, stop in runs(_balanced(sudden, window, options.balance_ratio)):
+    for start, stop in runs(_isolated(sudden, window, options)):
         if options.localisation == "window":
             start, stop = max(0, start - window // 2), stop + window // 2
         own = start + np.flatnonzero(np.nan_to_num(sudden[start:stop]))
@@ -172,10 +172,12 @@ def _largest(change: np.ndarray, at: np.ndarray, longest: int, *, ratio: float) 
     return first, last
 
 
-def _balanced(sudden: np.ndarray, window: int, ratio: float) -> np.ndarray:
+def _isolated(sudden: np.ndarray, window: int, options: PublishedPeaksOptions) -> np.ndarray:
     """Where sudden changes (frames,) cancel over a window, and there are none on either side (skurowski2022 eq 20-25)."""
     total, absolute = filters.moving_sum(sudden, window), filters.moving_sum(np.abs(sudden), window)
-    candidate = ((absolute > 0) & (absolute > ratio * np.abs(total))).astype(float)
+    candidate = ((absolute > 0) & (absolute > options.balance_ratio * np.abs(total))).astype(float)
     candidate[np.isnan(sudden)] = np.nan
-    isolated: np.ndarray = morphology.top_hat(morphology.closing(candidate, window), window) > 0
+    if options.joined_candidates:
+        candidate = morphology.closing(candidate, window)
+    isolated: np.ndarray = morphology.top_hat(candidate, window) > 0
     return isolated

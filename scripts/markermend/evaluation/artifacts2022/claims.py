@@ -27,6 +27,12 @@ STATEMENTS: tuple[tuple[str, str, str, float | None, str, Test], ...] = (
 )  # fmt: skip
 """Statement, class, measure, amplitude in mm (None for all), what is printed, and when it holds; `about` is within 10 points."""
 
+PAPER_COORDINATES = 159
+"""Coordinates of the paper's recordings (53 markers), over which its measures are taken."""
+
+PRINTED_SLOW = (0.5, 0.8, 0.9)
+"""What is printed of slow changes: TPR, and the smallest and largest FDR."""
+
 
 def judge(
     measures: pd.DataFrame, confusion: pd.DataFrame, repairs: pd.DataFrame, operators: pd.DataFrame
@@ -60,7 +66,37 @@ def _classification(measures: pd.DataFrame, confusion: pd.DataFrame) -> Iterator
             reason = f"nothing was found as {kind}" if measure == "FDR" else f"no samples of {kind} were there"
         if tested is False:
             reason = confusion_reason(_of(confusion, amplitude), kind=kind, measure=measure) or "none is wrong here"
+        if measure == "F":
+            reason = f"{reason}; {_implied(measures)}" if len(own) else reason
         yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)
+
+
+def _implied(measures: pd.DataFrame) -> str:
+    """What the printed rates of slow changes leave of F where most of the time is distorted; they cannot both hold there."""
+    share = measures["share_percent"].max()
+    most, least = (
+        implied_f(share / 100, sensitivity=PRINTED_SLOW[0], false_discovery=rate) for rate in PRINTED_SLOW[1:]
+    )
+    return f"the printed rates of slow changes alone leave {least:.4f} to {most:.4f} at {share:g} %"
+
+
+def implied_f(share: float, *, sensitivity: float, false_discovery: float) -> float:
+    """Compute the largest F over all classes that the rates of one class allow.
+
+    Parameters
+    ----------
+    share : float
+        Share of the time that the class distorts, in one coordinate at a time (0 to 1).
+    sensitivity, false_discovery : float
+        TPR and FDR of the class (0 to 1).
+
+    Returns
+    -------
+    float
+        F, counted over all samples of as many coordinates as the paper's recordings have: the share of right ones.
+    """
+    false = sensitivity * false_discovery / (1 - false_discovery)
+    return 1 - share / PAPER_COORDINATES * (1 - sensitivity + false)
 
 
 def _of(table: pd.DataFrame, amplitude: float | None) -> pd.DataFrame:

@@ -60,7 +60,7 @@ class Job:
             yield run, generator(flags.seed, flags.recording, *about, flags.amplitude_mm, flags.share_percent, run)
 
 
-def parser(name: str, description: str | None) -> argparse.ArgumentParser:
+def parser(name: str, description: str | None, *, writes: str = "runs") -> argparse.ArgumentParser:
     """Make the parser of the flags that all jobs have.
 
     Parameters
@@ -69,6 +69,8 @@ def parser(name: str, description: str | None) -> argparse.ArgumentParser:
         Name of the command.
     description : str or None
         What it does, reads and writes.
+    writes : str, optional
+        What it writes, which is the name of a flag.
 
     Returns
     -------
@@ -80,7 +82,7 @@ def parser(name: str, description: str | None) -> argparse.ArgumentParser:
     made.add_argument("--recording", required=True, help="its name")
     made.add_argument("--seed", type=int, required=True, help="equal seeds give equal tables")
     made.add_argument("--options", required=True, help="options of the experiments, as JSON")
-    made.add_argument("--runs", type=Path, required=True, help="the table of runs, to write")
+    made.add_argument(f"--{writes}", type=Path, required=True, help="the file to write")
     return made
 
 
@@ -101,6 +103,23 @@ def condition_flags(made: argparse.ArgumentParser) -> argparse.ArgumentParser:
     made.add_argument("--share-percent", type=float, required=True, help="share of the time for each class, %%")
     batch = "the first run and the one after the last: 0-20"
     made.add_argument("--batch", type=run_numbers, required=True, help=batch)
+    return made
+
+
+def network_flag(made: argparse.ArgumentParser) -> argparse.ArgumentParser:
+    """Add the flag of jobs that need trained networks.
+
+    Parameters
+    ----------
+    made : ArgumentParser
+        See parser.
+
+    Returns
+    -------
+    ArgumentParser
+        The same parser.
+    """
+    made.add_argument("--networks", type=Path, required=True, help="what artifacts2022_networks.py wrote")
     return made
 
 

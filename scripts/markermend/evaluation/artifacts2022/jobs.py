@@ -11,6 +11,12 @@ from markermend.evaluation.option_flags import write_flag
 TABLES = ("measures", "confusion", "readings", "slow", "repairs", "operators", "claims")
 """The tables of the paper, by the names of their files."""
 
+Conditions = dict[str, Sequence[object]]
+"""The values of the wildcards of a rule, of which every combination is a job."""
+
+LEARNING = ("trained_on", "network_steps", "training_frames")
+"""The options of the published network."""
+
 
 def jobs(options: Artifacts2022Options, recordings: Sequence[str], folder: str) -> Mapping[str, Jobs]:
     """List the jobs of the experiments.
@@ -29,35 +35,53 @@ def jobs(options: Artifacts2022Options, recordings: Sequence[str], folder: str) 
     mapping of str to Jobs
         The jobs of each rule, by the name of the folder of its tables.
     """
-    classification: dict[str, Sequence[object]] = {
-        "recording": recordings,
-        "preset": options.presets,
-        "amplitude_mm": options.amplitudes_mm,
-        "share_percent": options.shares_percent,
-        "batch": batches(options.runs, options.batch),
-    }
+    published = [preset for preset in options.presets if preset == "paper"]
+    ours = [preset for preset in options.presets if preset != "paper"]
+    classification = [
+        _classified(recordings, presets, options, runs)
+        for presets, runs in ((published, options.runs), (ours, options.default_runs))
+    ]
     repairs, operators = options.repairs, options.operators
-    repair: dict[str, Sequence[object]] = {
+    repair: Conditions = {
         "recording": recordings,
         "kind": repairs.classes,
         "amplitude_mm": [repairs.amplitude_mm],
         "share_percent": repairs.shares_percent,
         "batch": batches(repairs.runs, repairs.batch),
     }
-    conditions: dict[str, tuple[dict[str, Sequence[object]], list[str]]] = {
-        "runs": (classification, ["network_steps"]),
-        "readings": (_contaminated(recordings, options.readings), ["readings"]),
-        "slow": (_contaminated(recordings, options.slow), ["slow"]),
-        "repairs": (repair, ["network_steps", "repairs"]),
-        "operators": ({"recording": recordings, "preset": operators.presets}, ["network_steps", "operators"]),
+    conditions: dict[str, tuple[list[Conditions], list[str]]] = {
+        "runs": (classification, list(LEARNING)),
+        "readings": ([_contaminated(recordings, options.readings)], ["readings"]),
+        "slow": ([_contaminated(recordings, options.slow)], ["slow"]),
+        "repairs": ([repair], [*LEARNING, "repairs"]),
+        "operators": ([{"recording": recordings, "preset": operators.presets}], ["network_steps", "operators"]),
     }
     return {
-        name: Jobs(folder, name, tuple(own), product(own), write_flag(options, "denoise_hz", *read))
+        name: Jobs(
+            folder,
+            name,
+            tuple(own[0]),
+            tuple(row for each in own for row in product(each)),
+            write_flag(options, "denoise_hz", *read),
+        )
         for name, (own, read) in conditions.items()
     }
 
 
-def _contaminated(recordings: Sequence[str], options: ReadingOptions | SlowSweepOptions) -> dict[str, Sequence[object]]:
+def _classified(
+    recordings: Sequence[str], presets: Sequence[str], options: Artifacts2022Options, runs: int
+) -> Conditions:
+    """The conditions of the experiment on classification, for some of the detectors."""
+    return {
+        "recording": recordings,
+        "preset": presets,
+        "amplitude_mm": options.amplitudes_mm,
+        "share_percent": options.shares_percent,
+        "batch": batches(runs, options.batch),
+    }
+
+
+def _contaminated(recordings: Sequence[str], options: ReadingOptions | SlowSweepOptions) -> Conditions:
     """The conditions of an experiment with all classes of artifacts."""
     return {
         "recording": recordings,

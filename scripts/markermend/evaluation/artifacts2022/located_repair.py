@@ -14,8 +14,7 @@ from scipy.interpolate import CubicSpline
 from markermend.detection.published.coordinatewise import bridge_claimed
 from markermend.numerics import filters
 from markermend.numerics.interpolation import interpolate_missing
-from markermend.options.prediction.lagged_regression import ReplicatedNetworkOptions
-from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
+from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 
 SLOPE_SAMPLES = 5
@@ -94,7 +93,7 @@ def savitzky_golay(positions: np.ndarray, located: np.ndarray, *, window: int, o
     return out
 
 
-def network(scene: Scene, located: np.ndarray, options: ReplicatedNetworkOptions) -> np.ndarray:
+def network(scene: Scene, located: np.ndarray, predictor: ResidualSource) -> np.ndarray:
     """Predict the located samples with the replicated network.
 
     Parameters
@@ -102,9 +101,10 @@ def network(scene: Scene, located: np.ndarray, options: ReplicatedNetworkOptions
     scene : Scene
         The distorted trajectories, with the neighbours of each marker.
     located : ndarray of bool, shape (frames, markers, 3)
-        The samples to replace. The network is not trained on them; where they are inputs, cubic curves stand in for them.
-    options : ReplicatedNetworkOptions
-        Options of the network.
+        The samples to replace. A network that learns this recording is not trained on them; where they are inputs, cubic curves stand in
+        for them.
+    predictor : ResidualSource
+        The network; see published_detectors.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def network(scene: Scene, located: np.ndarray, options: ReplicatedNetworkOptions
     bridged = np.where(np.isnan(bridged), linear(scene.positions, located), bridged)
     whole = replace(scene, positions=bridged, measured=replace(scene, positions=hidden))
     markers = np.flatnonzero(located.any(axis=(0, 2)))
-    predicted = bridged - ReplicatedNetwork(options).residuals(whole, markers)
+    predicted = bridged - predictor.residuals(whole, markers)
     return np.where(located & ~np.isnan(predicted), predicted, scene.positions)
 
 

@@ -1,11 +1,13 @@
 """The experiment with operators: what a person found against what the algorithm finds in the same recording (skurowski2022, 4.1.2, E2).
 
-A finding of a person is confirmed if the algorithm finds anything on this marker that shares a frame with it, and the other way round.
+A finding of a person is confirmed if the algorithm finds anything on this marker that shares a frame with it. One of the algorithm is confirmed
+if a person found the same class there: the paper's expert judged the classification.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,7 +20,9 @@ from markermend.core.decisions import EVER
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.evaluation.classification import CLASSES
+from markermend.export.change_table import COLUMNS as COLUMNS_OF_CHANGES
 from markermend.planning.decision_table import COLUMNS as COLUMNS_OF_DECISIONS
+from markermend.planning.recordings import BadDataSet
 from markermend.planning.tables import read_table
 from markermend.simulation.published_contamination import contaminate_coordinates
 
@@ -40,6 +44,9 @@ COLUMNS = (
 REQUIRED = ("recording", "marker", "decision")
 """The columns that a table of decisions must have."""
 
+REQUIRED_OF_FINDINGS = ("recording", "marker", "first_frame", "last_frame", "class")
+"""The columns that a table of findings must have."""
+
 EVERY = "all"
 """Name of the row over all classes."""
 
@@ -57,9 +64,9 @@ class Agreement:
     same_class : int
         Those of them that have the same class.
     algorithm_confirmed : int
-        What the algorithm found and the person found, too; the paper's expert approves it.
+        What the algorithm found and the person found, too, in the same class; the paper's expert approves it.
     only_human, only_algorithm : int
-        What the other did not find: missed, and rejected, in the words of the paper.
+        What the other did not find, or the algorithm in another class: missed, and rejected, in the words of the paper.
     """
 
     human: int
@@ -101,12 +108,13 @@ def synthetic_operator(
 
 
 def read_operator(path: Path, name: str, recording: Recording) -> dict[str, list[Event]]:
-    """Read what a person found: the lines `accept` and `class` of a table of decisions (config/README.md).
+    """Read what a person found.
 
     Parameters
     ----------
     path : Path
-        The table, with tabs.
+        Either a table of decisions (config/README.md), of which the lines `accept` and `class` with a class are what was found, or a table of
+        findings: the columns `recording`, `marker`, `first_frame`, `last_frame` and `class`, and those of changes.tsv.
     name : str
         The recording as the table calls it.
     recording : Recording
@@ -119,25 +127,48 @@ def read_operator(path: Path, name: str, recording: Recording) -> dict[str, list
 
     Raises
     ------
-    BadOptions
-        With all lines that mean nothing or contradict each other.
+    BadOptions or BadDataSet
+        With lines that mean nothing or contradict each other.
     """
+    header = path.read_text(encoding="utf-8-sig").partition("\n")[0]
+    read = _read_findings if "class" in re.split("[\t,;]", header.strip()) else _read_decisions
+    found: dict[str, list[Event]] = {}
+    for stage, event in read(path, name, recording):
+        found.setdefault(stage, []).append(event)
+    return found
+
+
+def _read_decisions(path: Path, name: str, recording: Recording) -> Iterator[tuple[str, Event]]:
+    """The findings in a table of decisions."""
     rows = read_table(str(path), what="decisions", columns=COLUMNS_OF_DECISIONS, required=REQUIRED)
     lines = [
         {column: text for column, text in row.items() if column not in ("recording", "subject")}
         for _, row in rows
         if row["recording"] == name
     ]
-    found: dict[str, list[Event]] = {}
     for decision in api.read_decisions(lines, recording):
         artifact = BY_NAME.get(decision.value.partition(":")[0])
         if decision.verb not in ("accept", "class") or artifact is None or abs(decision.start) == EVER:
             continue
-        markers = [marker for marker in recording.markers if decision.matches(marker)]
-        found.setdefault(artifact.stage, []).extend(
-            Event(marker, decision.start, decision.stop, 1.0) for marker in markers
-        )
-    return found
+        for marker in recording.markers:
+            if decision.matches(marker):
+                yield artifact.stage, Event(marker, decision.start, decision.stop, 1.0)
+
+
+def _read_findings(path: Path, name: str, recording: Recording) -> Iterator[tuple[str, Event]]:
+    """The findings in a table of findings; what is no artifact, such as a filled gap, is left out."""
+    for number, row in read_table(
+        str(path), what="findings", columns=COLUMNS_OF_CHANGES, required=REQUIRED_OF_FINDINGS
+    ):
+        artifact = BY_NAME.get(row.get("class", ""))
+        if row["recording"] != name or artifact is None:
+            continue
+        if row["marker"] not in recording.markers:
+            raise BadDataSet(
+                f"findings: {path} line {number} names marker {row['marker']!r}, which {name} does not have"
+            )
+        start, stop = (int(row[column]) - recording.first_frame for column in ("first_frame", "last_frame"))
+        yield artifact.stage, Event(row["marker"], start, stop + 1, 1.0)
 
 
 def compare(human: Mapping[str, Sequence[Event]], algorithm: Mapping[str, Sequence[Event]]) -> dict[str, Agreement]:
@@ -156,7 +187,7 @@ def compare(human: Mapping[str, Sequence[Event]], algorithm: Mapping[str, Sequen
     people = [(kind, event) for kind, own in human.items() for event in own]
     machine = [(kind, event) for kind, own in algorithm.items() for event in own]
     confirmed = [_confirmed(kind, event, machine) for kind, event in people]
-    known = [_confirmed(kind, event, people)[0] for kind, event in machine]
+    known = [_confirmed(kind, event, people)[1] for kind, event in machine]
     table = {}
     for chosen in (*_classes(human, algorithm), EVERY):
         mine = [found for (kind, _), found in zip(people, confirmed, strict=True) if chosen in (kind, EVERY)]

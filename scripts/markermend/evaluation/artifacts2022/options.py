@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal, get_args
 
 from markermend.evaluation.paper_options import PaperOptions
@@ -24,6 +24,8 @@ Percent = Annotated[float, Unit("%", "per cent"), Above(0), Below(25)]
 Kind = Literal["peaks", "noise", "steps", "slow"]
 
 Preset = Literal["paper", "default", "coordinates"]
+
+TrainedOn = Literal["clean", "contaminated"]
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
 """The classes of artifacts."""
@@ -59,8 +61,28 @@ class RepairExperimentOptions:
     runs: Count = 200
     """Runs of each condition."""
 
+    default_runs: Count = 200
+    """Those of them in which our own repair is made, too, which takes ten times as long."""
+
     batch: Count = 5
     """Runs of one job."""
+
+    def of_run(self, run: int) -> RepairExperimentOptions:
+        """Give the options of a run: without our own repair where it is not made.
+
+        Parameters
+        ----------
+        run : int
+            Number of the run, from 0.
+
+        Returns
+        -------
+        RepairExperimentOptions
+            The options.
+        """
+        if run < self.default_runs or self.methods == ("default",):
+            return self
+        return replace(self, methods=tuple(method for method in self.methods if method != "default"))
 
 
 @dataclass(frozen=True)
@@ -84,10 +106,17 @@ class ReadingOptions:
 class SlowSweepOptions:
     """The thresholds of slow changes, and the training of the network whose residual they are of."""
 
+    trained_on: Annotated[tuple[TrainedOn, ...], Distinct, NotEmpty] = ("clean", "contaminated")
+    """What the network learns: the recording before or after it is contaminated."""
+
+    training_frames: Annotated[tuple[Count, ...], Distinct, NotEmpty] = (800, 1_000_000)
+    """Training frames, at most."""
+
     network_steps: Annotated[tuple[Count, ...], Distinct] = (20, 100, 300, 1000)
     """Steps of the training, at most."""
 
     deviations_over: Annotated[tuple[Literal["coordinate", "marker", "recording"], ...], Distinct, NotEmpty] = (
+        "coordinate",
         "marker",
         "recording",
     )
@@ -117,8 +146,9 @@ class OperatorOptions:
     """What persons found against what the algorithm finds (E2)."""
 
     tables: Mapping[str, str] = field(default_factory=dict)
-    """Tables of decisions by the names of the persons who made them: their lines `accept` and `class` are what was found in the recordings,
-    which are not denoised. Without any, the recordings are contaminated, and the person is one who sees all of it."""
+    """Tables by the names of the persons who made them: of decisions, whose lines `accept` and `class` are what was found in the recordings, or
+    of findings, with recording, marker, first_frame, last_frame and class, such as changes.tsv. The recordings are not denoised. Without any
+    table they are contaminated, and the person is one who sees all of it."""
 
     presets: Annotated[tuple[Preset, ...], Distinct] = ("paper", "default")
     """The detectors."""
@@ -152,11 +182,21 @@ class Artifacts2022Options(PaperOptions):
     runs: Count = 1000
     """Runs of each condition."""
 
+    default_runs: Count = 1000
+    """Runs of each condition of our own detectors, which take twenty times as long."""
+
     batch: Count = 20
     """Runs of one job."""
 
+    trained_on: TrainedOn = "clean"
+    """What the published network learns: the recording before it is contaminated, as the errors of the paper's repairs imply, or the
+    `contaminated` one in which it detects, as it must in anyone's own recordings."""
+
     network_steps: Count | None = None
     """Steps of the training of the published network, at most; null for as many as the preset has."""
+
+    training_frames: Count = 1_000_000
+    """Training frames of the published network, at most; the preset has fewer, to save time."""
 
     repairs: RepairExperimentOptions = field(default_factory=RepairExperimentOptions)
     """Repair of what is located (E3)."""

@@ -101,14 +101,16 @@ def _readings(readings: pd.DataFrame) -> Section:
 def _slow(slow: pd.DataFrame) -> Section:
     """What the detection of slow changes depends on."""
     sentences = (
-        "The network learns the recording in which it detects. What remains is the part of a slow change that is left in the residual; the "
+        "The network learns the recording before it is contaminated (clean), or the one in which it detects (contaminated). What remains is the part of a slow change that is left in the residual; the "
         "deviation of the residual is its standard deviation, of which the upper threshold is three. The charts have the largest lower threshold. "
         "The paper prints a lower threshold of 0.5, and 0.5 s for the shortest slow change.",
     )
     drawn = slow[slow["lower_sigmas"] == slow["lower_sigmas"].max()]
     names = [
-        f"from {duration:g} s, of each {over}" if over != "recording" else f"from {duration:g} s, of the recording"
-        for over, duration in zip(drawn["deviation_over"], drawn["min_duration_s"], strict=True)
+        f"{learned}, {frames} frames, from {duration:g} s, of {'the' if over == 'recording' else 'each'} {over}"
+        for learned, frames, over, duration in drawn[
+            ["trained_on", "training_frames", "deviation_over", "min_duration_s"]
+        ].itertuples(index=False)
     ]
     plots = []
     for (recording, amplitude, share), own in drawn.assign(setting=names).groupby(
@@ -147,8 +149,8 @@ def _with_published(own: pd.DataFrame) -> pd.DataFrame:
 def _operators(operators: pd.DataFrame) -> Section:
     """Findings of persons and of the algorithm (Table 2)."""
     sentences = (
-        "A finding is confirmed where the other one found anything on this marker in any of its frames. In the words of the paper, what the "
-        "algorithm finds is then approved, or else rejected, and what only the person found is missed.",
+        "What a person found is confirmed where the algorithm finds anything on this marker in any of its frames, or else missed, in the words "
+        "of the paper. What the algorithm finds is approved where the person found the same class there, or else rejected.",
     )
     return Section("Persons and the algorithm (Table 2)", sentences, "operators.tsv")
 

@@ -32,7 +32,8 @@ READINGS: Mapping[str, Changes] = {
     "deviation of each coordinate": _in_each(sigma_over="coordinate"),
     "median absolute deviation": _in_each(scale_estimator="mad"),
     "closing over 39 samples": {"noise": {"element_s": 0.39}},
-    "peak between first and last change of the window": {"peaks": {"localisation": "window"}},
+    "peak between the largest change and its counterpart": {"peaks": {"localisation": "run"}},
+    "candidates of peaks joined": {"peaks": {"joined_candidates": True}},
     "steps of 4 deviations": {"steps": {"threshold_sigmas": 4}},
     "median of the differences": {"peaks": {"trend_removal": "median_of_difference"}},
     "a fifth of the samples of noise are sudden": {"noise": {"min_sudden_share": 0.2, "min_sudden_changes": 6}},
@@ -41,7 +42,11 @@ READINGS: Mapping[str, Changes] = {
 
 
 def published_options(
-    changes: Changes, *, kinds: Sequence[str] = CLASSES[1:], network_steps: int | None = None
+    changes: Changes,
+    *,
+    kinds: Sequence[str] = CLASSES[1:],
+    network_steps: int | None = None,
+    training_frames: int | None = None,
 ) -> api.Options:
     """Make the options of the published detectors.
 
@@ -53,6 +58,8 @@ def published_options(
         The classes that are looked for.
     network_steps : int, optional
         Steps of the training of the network, at most; by default as many as the preset has.
+    training_frames : int, optional
+        Frames of it, at most; by default as many as the preset has.
 
     Returns
     -------
@@ -60,8 +67,9 @@ def published_options(
         The options of all stages.
     """
     own = {kind: dict(changes.get(kind, {})) for kind in kinds}
-    if network_steps is not None and "slow" in own:
-        own["slow"]["replicated_network_changes"] = {"max_iterations": network_steps}
+    network = {"max_iterations": network_steps, "max_training_frames": training_frames}
+    if "slow" in own:
+        own["slow"]["replicated_network_changes"] = {name: most for name, most in network.items() if most is not None}
     advanced = {kind: {"paper": changed} for kind, changed in own.items() if changed}
     presets = {kind: {"preset": "paper"} for kind in kinds}
     return api.Options.read({**presets, "detect": list(kinds), "advanced": advanced})

@@ -14,7 +14,9 @@ from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
 from markermend.evaluation.artifacts2022 import located_repair
 from markermend.evaluation.artifacts2022.options import RepairExperimentOptions
+from markermend.evaluation.artifacts2022.published_detectors import PublishedDetectors
 from markermend.evaluation.classification import CLASSES, sample_classes
+from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.published_contamination import contaminate_coordinates
@@ -53,7 +55,7 @@ def repair_run(
     distortion: Distortion,
     *,
     options: RepairExperimentOptions,
-    published: api.Options,
+    published: PublishedDetectors,
     rng: np.random.Generator,
 ) -> dict[tuple[str, str], float]:
     """Contaminate a recording once, and repair it in several ways.
@@ -66,8 +68,8 @@ def repair_run(
         What is put in.
     options : RepairExperimentOptions
         The methods.
-    published : Options
-        The options of the published detectors and of the network; see runs.Condition.
+    published : PublishedDetectors
+        The published detectors, and the network.
     rng : Generator
         Source of the contamination's randomness.
 
@@ -92,7 +94,7 @@ def repair_run(
     found: dict[str, Mapping[str, Sequence[Event]]] = {PERFECT: made.events}
     if set(options.methods) - {DISTORTED, OURS}:
         found[CLASSIFIED] = _of_class(distortion.kind, contaminated, mesh, published)
-    repair = _methods(scene, options, published)
+    repair = _methods(scene, options, published.network)
     errors: dict[tuple[str, str], float] = {}
     for method in options.methods:
         if method == DISTORTED:
@@ -164,20 +166,17 @@ def repair_rows(
     )
 
 
-def _of_class(kind: str, contaminated: Recording, mesh: Mesh, published: api.Options) -> dict[str, list[Event]]:
+def _of_class(kind: str, contaminated: Recording, mesh: Mesh, published: PublishedDetectors) -> dict[str, list[Event]]:
     """What the published detectors find of a class, after those of the classes before it."""
-    before = tuple(each for each in published.general.detect if each in CLASSES[: CLASSES.index(kind) + 1])
-    options = replace(published, general=replace(published.general, detect=before))
-    return {kind: api.detect(contaminated, mesh, options)[kind]}
+    before = [each for each in published.options.general.detect if each in CLASSES[: CLASSES.index(kind) + 1]]
+    return {kind: published.find(contaminated, mesh, before)[kind]}
 
 
 def _methods(
-    scene: Scene, options: RepairExperimentOptions, published: api.Options
+    scene: Scene, options: RepairExperimentOptions, network: ResidualSource
 ) -> Mapping[str, Callable[[np.ndarray], np.ndarray]]:
     """The published methods: each maps located samples to trajectories."""
     window, order = options.smoother_samples, options.smoother_order
-    changes = published.slow.paper.replicated_network_changes
-    network = replace(published.slow.predictors.replicated_network, **changes)
     return {
         "linear": lambda located: located_repair.linear(scene.positions, located),
         "savitzky_golay": lambda located: located_repair.savitzky_golay(

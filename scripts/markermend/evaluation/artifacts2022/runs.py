@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from markermend import api
+from markermend.core.events import Event
+from markermend.core.mesh import Mesh
 from markermend.core.recording import Recording
+from markermend.evaluation.artifacts2022.options import Artifacts2022Options
+from markermend.evaluation.artifacts2022.published_detectors import read_detectors
 from markermend.evaluation.artifacts2022.readings import published_options
 from markermend.evaluation.classification import CLASSES, count_samples, sample_classes
 from markermend.simulation.published_contamination import contaminate_coordinates
 
 RUN_COLUMNS = ("recording", "preset", "amplitude_mm", "share_percent", "run", "true", "found", "samples")
 """Columns of the table of runs."""
+
+Find = Callable[[Recording, Mesh], Mapping[str, Sequence[Event]]]
+"""Finds the artifacts of a recording with a mesh, by class."""
 
 CONDITION = list(RUN_COLUMNS[:4])
 """The columns over whose equal rows runs are averaged."""
@@ -39,21 +48,6 @@ class Condition:
     amplitude_mm: float
     share_percent: float
 
-    def options(self, network_steps: int | None = None) -> api.Options:
-        """Make the options of all stages.
-
-        Parameters
-        ----------
-        network_steps : int, optional
-            Steps of the training of the published network, at most; by default as many as the preset has.
-
-        Returns
-        -------
-        Options
-            The default options with the preset.
-        """
-        return preset_options(self.preset, network_steps=network_steps)
-
 
 def preset_options(preset: str, *, network_steps: int | None = None) -> api.Options:
     """Make the options of all stages for a preset of the detectors.
@@ -76,9 +70,29 @@ def preset_options(preset: str, *, network_steps: int | None = None) -> api.Opti
     return api.Options.read({kind: {"preset": preset} for kind in kinds if (kind, preset) != ("slow", "coordinates")})
 
 
-def count_run(
-    clean: Recording, condition: Condition, *, rng: np.random.Generator, options: api.Options | None = None
-) -> np.ndarray:
+def detectors(preset: str, options: Artifacts2022Options, networks: Path) -> Find:
+    """Make the detectors of a preset for contaminated copies of a recording.
+
+    Parameters
+    ----------
+    preset : str
+        See Condition.
+    options : Artifacts2022Options
+        What the published network learns, and how.
+    networks : Path
+        The file of the networks that learned the recording; see published_detectors.read_detectors.
+
+    Returns
+    -------
+    callable
+        The detectors.
+    """
+    if preset == "paper":
+        return read_detectors(options, networks).find
+    return partial(api.detect, options=preset_options(preset))
+
+
+def count_run(clean: Recording, condition: Condition, *, rng: np.random.Generator, find: Find) -> np.ndarray:
     """Contaminate a recording once, detect, and count.
 
     Parameters
@@ -86,11 +100,11 @@ def count_run(
     clean : Recording
         The recording, cleaned and denoised.
     condition : Condition
-        What is put in, and what is to find it.
+        What is put in.
     rng : Generator
         Source of the contamination's randomness.
-    options : Options, optional
-        Options in place of those of the condition, for ablations.
+    find : callable
+        The detectors.
 
     Returns
     -------
@@ -105,8 +119,7 @@ def count_run(
         rng=rng,
     )
     contaminated = replace(clean, positions=made.positions)
-    mesh = api.infer_mesh([contaminated])
-    found = api.detect(contaminated, mesh, options or condition.options())
+    found = find(contaminated, api.infer_mesh([contaminated]))
     truth, called = (sample_classes(own, clean.frames, clean.markers) for own in (made.events, found))
     return count_samples(truth, called, ~np.isnan(clean.positions))
 

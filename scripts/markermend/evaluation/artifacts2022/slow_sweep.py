@@ -16,16 +16,21 @@ from markermend.core.recording import Recording
 from markermend.detection.published import coordinatewise, slow
 from markermend.evaluation.artifacts2022 import readings
 from markermend.evaluation.artifacts2022.options import SlowSweepOptions
+from markermend.evaluation.artifacts2022.published_detectors import claimed, learn, network_of
 from markermend.evaluation.artifacts2022.runs import Condition
 from markermend.evaluation.classification import sample_classes
 from markermend.numerics import intervals
 from markermend.options.detection.published import PublishedSlowOptions
+from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
 from markermend.simulation.contamination import Contamination
 from markermend.simulation.published_contamination import contaminate_coordinates
 
-SETTING = ("network_steps", "deviation_over", "lower_sigmas", "min_duration_s")
-"""Columns of the thresholds and the training."""
+SETTING = ("trained_on", "training_frames", "network_steps", "deviation_over", "lower_sigmas", "min_duration_s")
+"""Columns of the training and the thresholds."""
+
+Setting = tuple[str, int, int, str, float, float]
+"""Values of SETTING."""
 
 CONDITION = ("recording", "amplitude_mm", "share_percent", *SETTING)
 """Columns over whose equal rows runs are averaged."""
@@ -61,9 +66,41 @@ class SlowCount:
     deviation_mm: float
 
 
+Training = tuple[str, int, int]
+"""What the network learns (`clean` or `contaminated`), its training frames and its steps, at most."""
+
+
+def make_networks(clean: Recording, options: SlowSweepOptions) -> dict[Training, ResidualSource]:
+    """Make the networks, of which those that learn the clean recording are trained.
+
+    Parameters
+    ----------
+    clean : Recording
+        The recording, cleaned and denoised.
+    options : SlowSweepOptions
+        What is varied.
+
+    Returns
+    -------
+    dict of Training to ResidualSource
+        The networks.
+    """
+    networks: dict[Training, ResidualSource] = {}
+    for training in itertools.product(options.trained_on, options.training_frames, options.network_steps):
+        trained_on, frames, steps = training
+        own = readings.published_options({}, network_steps=steps, training_frames=frames)
+        networks[training] = learn(clean, own) if trained_on == "clean" else network_of(own)
+    return networks
+
+
 def sweep_run(
-    clean: Recording, condition: Condition, *, options: SlowSweepOptions, rng: np.random.Generator
-) -> dict[tuple[int, str, float, float], SlowCount]:
+    clean: Recording,
+    condition: Condition,
+    *,
+    networks: Mapping[Training, ResidualSource],
+    options: SlowSweepOptions,
+    rng: np.random.Generator,
+) -> dict[Setting, SlowCount]:
     """Contaminate a recording once, and look for slow changes in several ways.
 
     Parameters
@@ -72,6 +109,8 @@ def sweep_run(
         The recording, cleaned and denoised.
     condition : Condition
         What is put in.
+    networks : mapping of Training to ResidualSource
+        The networks; see make_networks.
     options : SlowSweepOptions
         What is varied.
     rng : Generator
@@ -79,7 +118,7 @@ def sweep_run(
 
     Returns
     -------
-    dict of (int, str, float, float) to SlowCount
+    dict of tuple to SlowCount
         What was found, by SETTING.
     """
     made = contaminate_coordinates(
@@ -91,32 +130,33 @@ def sweep_run(
     )
     contaminated = replace(clean, positions=made.positions)
     mesh = api.infer_mesh([contaminated])
-    sudden = api.detect(contaminated, mesh, readings.published_options({}, kinds=readings.SUDDEN))
-    claimed = sample_classes(sudden, clean.frames, clean.markers) > 0
-    counts = {}
-    for steps in options.network_steps:
-        stage = readings.published_options({}, network_steps=steps).slow
-        reach = intervals.samples(stage.paper.slope_window_s, clean.rate)
-        scene = replace(
-            Scene.of(contaminated, mesh), positions=coordinatewise.bridge_claimed(made.positions, claimed, reach)
-        )
-        residual = slow.make_predictor(stage.paper, stage.predictors).residuals(scene)
-        for setting, own in _variants(stage.paper, options):
+    sudden = claimed(
+        api.detect(contaminated, mesh, readings.published_options({}, kinds=readings.SUDDEN)), contaminated
+    )
+    paper = readings.published_options({}).slow.paper
+    reach = intervals.samples(paper.slope_window_s, clean.rate)
+    scene = replace(
+        Scene.of(contaminated, mesh), positions=coordinatewise.bridge_claimed(made.positions, sudden, reach)
+    )
+    counts: dict[Setting, SlowCount] = {}
+    for training, network in networks.items():
+        residual = network.residuals(scene)
+        for setting, own in _variants(paper, options):
             found = coordinatewise.detect_each(
                 residual,
                 slow.signal_detector(clean.rate, own),
                 markers=clean.markers,
-                earlier=claimed,
+                earlier=sudden,
                 options=own,
             )
-            counts[steps, *setting] = _count(clean, made, residual, found)
+            counts[*training, *setting] = _count(clean, made, residual, found)
     return counts
 
 
 def sweep_rows(
     recording: str,
     condition: Condition,
-    counts: Iterable[tuple[int, Mapping[tuple[int, str, float, float], SlowCount]]],
+    counts: Iterable[tuple[int, Mapping[Setting, SlowCount]]],
 ) -> pd.DataFrame:
     """Arrange what was found as a table.
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from markermend.evaluation.artifacts2022.claims import judge
+from markermend.evaluation.artifacts2022.claims import PAPER_COORDINATES, judge
 from markermend.evaluation.artifacts2022.runs import CONDITION
 from markermend.evaluation.artifacts2022.slow_sweep import average_sweep
 from markermend.evaluation.classification import CLASSES, average, measures
@@ -19,9 +19,6 @@ READING = ["recording", "reading", *CONDITION[2:]]
 
 REPAIR = ["recording", "coordinates", "class", "amplitude_mm", "share_percent", "method", "located"]
 """The columns over whose equal rows errors of repair are averaged."""
-
-PAPER_COORDINATES = 159
-"""Coordinates of the paper's recordings (53 markers), over which its errors are averaged."""
 
 TRIANGLE = 1 / 3
 """Mean square of a triangle of height 1."""

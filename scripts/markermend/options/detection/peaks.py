@@ -105,7 +105,8 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
             sigma_over="recording",
             threshold_sigmas=3,
             floor_mm=0,
-            localisation="run",
+            localisation="window",
+            joined_candidates=False,
         )
     )
     """Options of the preset `paper`: as published (skurowski2022)."""

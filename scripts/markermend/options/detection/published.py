@@ -60,6 +60,10 @@ class PublishedPeaksOptions(ThresholdOptions):
     margin_s: Seconds = 0.03
     """Sums and morphology extend over twice the longest peak and this."""
 
+    joined_candidates: bool = True
+    """Whether candidates that are no further from each other than that are joined before those that are too long for a peak are rejected.
+    The paper does not join them; then of heavy noise some samples are peaks, but two peaks within a quarter of a second are not heavy noise."""
+
     localisation: Literal["window", "run"] = "window"
     """Where a peak begins and ends: at the first and last sudden change in the window of the sums around it (`window`), which must not
     be farther apart than the longest peak, or at the largest of those where the sums are balanced and the largest that cancels it (`run`)."""
@@ -163,7 +167,9 @@ class PublishedSlowOptions(ThresholdOptions):
     """Shortest time beyond the upper threshold."""
 
     min_duration_s: Seconds = 0.5
-    """Shortest time beyond the lower threshold. The paper has 0.5 s, by which most slow changes of 0.5 s are lost; its results fit 0.3 s."""
+    """Shortest time beyond the lower threshold: by that of the paper, half of the slow changes of 0.5 s on average are lost.
+
+    Change it when short slow changes are missed (shorter)."""
 
     slope_window_s: PositiveSeconds = 0.05
     """Window over which slopes next to earlier findings are taken."""

@@ -151,7 +151,5 @@ class SlowOptions(DetectorOptions):
     estimated_drifts: EstimatedDriftOptions = field(default_factory=EstimatedDriftOptions)
     """Options of the drifts that are estimated together with the regression."""
 
-    paper: PublishedSlowOptions = field(
-        default_factory=lambda: PublishedSlowOptions(scale_estimator="std", sigma_over="marker", min_duration_s=0.3)
-    )
+    paper: PublishedSlowOptions = field(default_factory=lambda: PublishedSlowOptions(scale_estimator="std"))
     """Options of the preset `paper`: as published (skurowski2022)."""

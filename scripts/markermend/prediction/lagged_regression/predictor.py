@@ -7,7 +7,7 @@ an earlier sample is missing, the present one stands in. The marker's own past i
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -131,12 +131,26 @@ class LaggedRegression(ABC):
 
     def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
         """Compute residuals, NaN also where an input is missing; all are trained at once. See `ResidualSource.residuals`."""
-        out = np.full(scene.positions.shape, np.nan)
+        return self.trained_on(scene, markers).residuals(scene)
+
+    def trained_on(self, scene: Scene, markers: np.ndarray | None = None) -> TrainedRegressions:
+        """Train for the usual inputs of markers, all at once.
+
+        Parameters
+        ----------
+        scene : Scene
+            What is observed.
+        markers : np.ndarray | None
+            Indices of the markers; all if None.
+
+        Returns
+        -------
+        TrainedRegressions
+            Their regressions, which predict in other scenes of the same markers, too.
+        """
         jobs = self._usual_jobs((scene, m) for m in (range(scene.positions.shape[1]) if markers is None else markers))
-        for (_, m, inputs), regression in zip(jobs, self._trained(jobs), strict=True):
-            rows = np.flatnonzero(scene.present[:, m] & scene.present[:, inputs].all(axis=1))
-            out[rows, m] = scene.positions[rows, m] - regression.predict(self.rows(scene, m, inputs, rows))
-        return out
+        trained = zip(jobs, self._trained(jobs), strict=True)
+        return TrainedRegressions(self, {marker: (inputs, own) for (_, marker, inputs), own in trained})
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
         """Train for the usual inputs. See `Trainable.train`."""
@@ -202,3 +216,28 @@ class LaggedRegression(ABC):
             inputs = self._joint(scene, marker, ranked[used])
             if len(inputs):
                 yield np.sort(inputs[:count]), left[places]
+
+
+@dataclass(frozen=True)
+class TrainedRegressions:
+    """Trained regressions as a source of residuals.
+
+    Attributes
+    ----------
+    regression : LaggedRegression
+        The kind of regression.
+    by_marker : Mapping[int, tuple[np.ndarray, Regression]]
+        The inputs and the regression of each marker, by its index.
+    """
+
+    regression: LaggedRegression
+    by_marker: Mapping[int, tuple[np.ndarray, Regression]]
+
+    def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
+        """Compute residuals, NaN also where an input is missing. See `ResidualSource.residuals`."""
+        out = np.full(scene.positions.shape, np.nan)
+        for m, (inputs, own) in self.by_marker.items():
+            if markers is None or m in markers:
+                rows = np.flatnonzero(scene.present[:, m] & scene.present[:, inputs].all(axis=1))
+                out[rows, m] = scene.positions[rows, m] - own.predict(self.regression.rows(scene, m, inputs, rows))
+        return out

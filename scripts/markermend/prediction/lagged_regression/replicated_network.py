@@ -9,6 +9,7 @@ trained together.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,14 +45,14 @@ class ReplicatedNetwork(LaggedRegression):
 
     def fit(self, training: Sequence[TrainingSet]) -> list[Regression]:
         """Train the networks, those with equally many inputs together. See `LaggedRegression.fit`."""
-        scalings = [Scaling(own, self.options.max_power) for own in training]
+        scalings = [Scaling.of(own, self.options.max_power) for own in training]
         trained: dict[int, Regression] = {}
         for width in {scaling.width for scaling in scalings}:
             group = [number for number, scaling in enumerate(scalings) if scaling.width == width]
             sizes = (width, *self.options.hidden_units, 3 * self.options.replicas)
             found = self._train([training[number] for number in group], [scalings[number] for number in group], sizes)
             for number, parameters in zip(group, found, strict=True):
-                trained[number] = scalings[number].regression(parameters, sizes)
+                trained[number] = Regression(TrainedNetwork(scalings[number], parameters, sizes), np.nan)
         return [trained[number] for number in range(len(training))]
 
     def _train(self, training: Sequence[TrainingSet], scalings: Sequence[Scaling], sizes: Sequence[int]) -> np.ndarray:
@@ -74,22 +75,48 @@ class ReplicatedNetwork(LaggedRegression):
         ).parameters
 
 
+@dataclass(frozen=True)
 class Scaling:
     """How rows of inputs become those of the network: coordinates, their powers, and the average, each from -1 to 1 in training.
 
-    Parameters
+    Attributes
     ----------
-    training : TrainingSet
-        The training set that sets the ranges.
     max_power : int
         Highest power of a coordinate.
+    centre, half_range : np.ndarray
+        Of each input (width,), mm and its powers.
+    target_centre, target_half_range : np.ndarray
+        Of each target (3,), mm.
     """
 
-    def __init__(self, training: TrainingSet, max_power: int) -> None:
-        self.max_power = max_power
-        self.centre, self.half_range = _range(self._inputs(training.rows))
-        self.target_centre, self.target_half_range = _range(training.target)
-        self.width = len(self.centre)
+    max_power: int
+    centre: np.ndarray
+    half_range: np.ndarray
+    target_centre: np.ndarray
+    target_half_range: np.ndarray
+
+    @classmethod
+    def of(cls, training: TrainingSet, max_power: int) -> Scaling:
+        """Take the ranges of a training set.
+
+        Parameters
+        ----------
+        training : TrainingSet
+            The training set.
+        max_power : int
+            Highest power of a coordinate.
+
+        Returns
+        -------
+        Scaling
+            The scaling.
+        """
+        return cls(max_power, *_range(_inputs(training.rows, max_power)), *_range(training.target))
+
+    @property
+    def width(self) -> int:
+        """Number of inputs of the network."""
+        return len(self.centre)
 
     def features(self, rows: np.ndarray) -> np.ndarray:
         """Compute the inputs of the network.
@@ -104,7 +131,7 @@ class Scaling:
         np.ndarray
             Features (n, width).
         """
-        scaled: np.ndarray = (self._inputs(rows) - self.centre) / self.half_range
+        scaled: np.ndarray = (_inputs(rows, self.max_power) - self.centre) / self.half_range
         return scaled
 
     def data(self, training: TrainingSet, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -133,32 +160,31 @@ class Scaling:
         units: np.ndarray = self.target_half_range / self.target_half_range.max()
         return units
 
-    def regression(self, parameters: np.ndarray, sizes: Sequence[int]) -> Regression:
-        """Make a regression of a trained network.
 
-        Parameters
-        ----------
-        parameters : np.ndarray
-            Parameters of the network (n,).
-        sizes : Sequence[int]
-            Sizes of its layers.
+@dataclass(frozen=True)
+class TrainedNetwork:
+    """A trained network between millimetres and millimetres.
 
-        Returns
-        -------
-        Regression
-            The network between millimetres and millimetres.
-        """
+    Attributes
+    ----------
+    scaling : Scaling
+        What is done to inputs and outputs.
+    parameters : np.ndarray
+        Parameters of the network (n,).
+    sizes : Sequence[int]
+        Sizes of its layers.
+    """
 
-        def predict(rows: np.ndarray) -> np.ndarray:
-            outputs = mean_output(parameters[None], sizes, self.features(rows)[None], size=3)[0]
-            positions: np.ndarray = outputs * self.target_half_range + self.target_centre
-            return positions
+    scaling: Scaling
+    parameters: np.ndarray
+    sizes: Sequence[int]
 
-        return Regression(predict, np.nan)
-
-    def _inputs(self, rows: np.ndarray) -> np.ndarray:
-        """The coordinates, their powers, and the average (skurowski2022 eq 11)."""
-        return np.concatenate([*powers(rows[:, :-3], self.max_power), rows[:, -3:]], axis=1)
+    def __call__(self, rows: np.ndarray) -> np.ndarray:
+        """Predict positions (n, 3) from rows of inputs (n, k), mm."""
+        features = self.scaling.features(rows)[None]
+        outputs = mean_output(self.parameters[None], self.sizes, features, size=3)[0]
+        positions: np.ndarray = outputs * self.scaling.target_half_range + self.scaling.target_centre
+        return positions
 
 
 def moving_average(trajectory: np.ndarray, window: int) -> np.ndarray:
@@ -187,6 +213,11 @@ def moving_average(trajectory: np.ndarray, window: int) -> np.ndarray:
         return np.full(trajectory.shape, np.nan)
     mean = total[known, :3] / total[known, 3:]
     return np.stack([np.interp(frames, known, axis) for axis in mean.T], axis=1)
+
+
+def _inputs(rows: np.ndarray, max_power: int) -> np.ndarray:
+    """The coordinates, their powers, and the average (skurowski2022 eq 11)."""
+    return np.concatenate([*powers(rows[:, :-3], max_power), rows[:, -3:]], axis=1)
 
 
 def _range(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -74,22 +74,34 @@ def test_coordinates_are_merged_with_the_axes_that_fired(walker):
     assert [(e.start, e.stop, e.axes) for e in found["peaks"] if e.marker == "C7"] == [(300, 303, "xz")]
 
 
-@given(st.integers(0, 200), st.sampled_from(["window", "run"]), st.sampled_from([1.5, 2.5]))
-def test_located_peaks_equal_their_naive_twin(seed, localisation, level):
+@given(st.integers(0, 200), st.sampled_from(["window", "run"]), st.sampled_from([1.5, 2.5]), st.booleans())
+def test_located_peaks_equal_their_naive_twin(seed, localisation, level, joined):
     rng = np.random.default_rng(seed)
     change = rng.normal(0, 1, 120).round(2)
-    mask, score = peaks.find_peaks(
-        change, level, rate=100.0, options=replace(options_of("peaks", "paper"), localisation=localisation)
-    )
-    assert mask.tolist() == naive.peaks(change, level, 5, 13, 5, localisation)
+    options = replace(options_of("peaks", "paper"), localisation=localisation, joined_candidates=joined)
+    mask, score = peaks.find_peaks(change, level, rate=100.0, options=options)
+    assert mask.tolist() == naive.peaks(change, level, 5, 13, 5, localisation, joined=joined)
     assert (score[mask] > 1).all() and not score[~mask].any()
 
 
-def test_a_change_that_the_median_leaks_nine_samples_away_does_not_hide_a_large_peak():
+def test_a_change_that_the_median_leaks_nine_samples_away_does_not_hide_a_large_peak_where_its_own_changes_locate_it():
     change = np.zeros(200)
     change[[100, 101]] = 30, -30
     change[92] = 4
-    options = options_of("peaks", "paper")
+    window = options_of("peaks", "paper")
+    options = replace(window, localisation="run")
     assert np.flatnonzero(peaks.find_peaks(change, 3.0, rate=100.0, options=options)[0]).tolist() == [100]
-    window = replace(options, localisation="window")
     assert not peaks.find_peaks(change, 3.0, rate=100.0, options=window)[0].any()
+
+
+def test_two_peaks_a_fifth_of_a_second_apart_are_isolated_unless_candidates_are_joined():
+    change = np.zeros(200)
+    change[[80, 81, 101, 102]] = 30, -30, -30, 30
+    options = options_of("peaks", "paper")
+    found = [
+        np.flatnonzero(
+            peaks.find_peaks(change, 3.0, rate=100.0, options=replace(options, joined_candidates=joined))[0]
+        ).tolist()
+        for joined in (False, True)
+    ]
+    assert found == [[80, 101], []]

@@ -13,9 +13,8 @@ from markermend.simulation.walker import MeasurementErrors, walk
 from markermend.simulation.walker_body import make_body
 from support.signals import RATES, find_in, frames, neighbours, options_of, put
 
-PAPER = replace(options_of("slow", "paper"), min_duration_s=0.5)
-"""With the shortest slow change as printed."""
-ROBUST = replace(PAPER, scale_estimator="mad", sigma_over="coordinate")
+PAPER = options_of("slow", "paper")
+ROBUST = replace(PAPER, scale_estimator="mad")
 """The scale of the residual is not widened by what is to be found."""
 
 
@@ -152,8 +151,8 @@ class Only:
 def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_found_again():
     rate = 100.0
     positions = np.zeros((1500, 1, 3)) + residual(rate)[:1500, None, None]
-    positions[600:800, 0, 0] += 30
-    claimed = events.coordinates([events.Event("A", 600, 800, 2.0, "x")], 1500, ["A"])
+    positions[600:700, 0, 0] += 30
+    claimed = events.coordinates([events.Event("A", 600, 700, 2.0, "x")], 1500, ["A"])
     asked = []
 
     class Level:
@@ -164,9 +163,9 @@ def test_what_earlier_detectors_claimed_is_bridged_for_the_predictor_and_not_fou
     scene = Scene(positions, rate, [np.zeros(0, int)])
     arguments = {"markers": ["A"], "options": PAPER, "predictor": Level()}
     [event], _ = slow.detect_slow(scene, earlier=np.zeros_like(claimed), **arguments)
-    assert (event.start, event.stop, event.axes) == (600, 800, "x")
+    assert (event.start, event.stop, event.axes) == (600, 700, "x")
     assert slow.detect_slow(scene, earlier=claimed, **arguments) == ([], {})
-    assert np.abs(asked[-1][600:800, 0, 0]).max() < 5
+    assert np.abs(asked[-1][600:700, 0, 0]).max() < 5
     assert np.array_equal(asked[-1][:, 0, 1:], positions[:, 0, 1:])
     assert np.isfinite(asked[-1]).all()
 

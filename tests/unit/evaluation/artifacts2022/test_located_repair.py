@@ -8,6 +8,7 @@ import pytest
 from markermend import api
 from markermend.evaluation.artifacts2022 import located_repair
 from markermend.options.prediction.lagged_regression import ReplicatedNetworkOptions
+from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
 from markermend.prediction.scene import Scene
 
 FRAMES = 400
@@ -72,10 +73,11 @@ def test_the_network_does_not_learn_what_was_located(walker):
     located = np.zeros(recording.positions.shape, bool)
     located[200:260, 3, 1] = True
     mesh = api.infer_mesh([recording])
+    network = ReplicatedNetwork(ReplicatedNetworkOptions(max_iterations=30))
     repaired = []
     for amount in (0.0, 30.0):
         distorted = recording.positions + np.where(located, amount, 0)
         scene = Scene.of(replace(recording, positions=distorted), mesh)
-        repaired.append(located_repair.network(scene, located, ReplicatedNetworkOptions(max_iterations=30)))
+        repaired.append(located_repair.network(scene, located, network))
         assert np.array_equal(repaired[-1][~located], distorted[~located])
     assert np.array_equal(*repaired)

@@ -3,10 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from markermend.core.events import Event
 from markermend.evaluation.artifacts2022 import operators
 from markermend.evaluation.artifacts2022.operators import Agreement
+from markermend.planning.recordings import BadDataSet
 
 HUMAN = {"peaks": [Event("A", 10, 11, 1.0), Event("A", 50, 52, 1.0)], "steps": [Event("B", 100, 150, 1.0)]}
 MACHINE = {"peaks": [Event("A", 9, 12, 1.0)], "slow": [Event("B", 140, 200, 1.0), Event("A", 300, 400, 1.0)]}
@@ -21,10 +23,10 @@ def test_findings_are_matched_by_marker_and_frames():
         1, 0, human_confirmed=1, same_class=0, algorithm_confirmed=0, only_human=0, only_algorithm=0
     )
     assert table["slow"] == Agreement(
-        0, 2, human_confirmed=0, same_class=0, algorithm_confirmed=1, only_human=0, only_algorithm=1
+        0, 2, human_confirmed=0, same_class=0, algorithm_confirmed=0, only_human=0, only_algorithm=2
     )
     assert table["all"] == Agreement(
-        3, 3, human_confirmed=2, same_class=1, algorithm_confirmed=2, only_human=1, only_algorithm=1
+        3, 3, human_confirmed=2, same_class=1, algorithm_confirmed=1, only_human=1, only_algorithm=2
     )
 
 
@@ -65,6 +67,24 @@ def test_a_table_of_decisions_is_read(tmp_path, walker):
         "steps": [(a, 11 - first, 21 - first)],
         "peaks": [(b, 31 - first, 32 - first)],
     }
+
+
+def test_a_table_of_findings_is_read(tmp_path, walker):
+    recording = walker.recording
+    a, first = recording.markers[0], recording.first_frame
+    table = tmp_path / "changes.tsv"
+    table.write_text(
+        "recording\tmarker\tfirst_frame\tlast_frame\tclass\n"
+        f"walk\t{a}\t{first + 10}\t{first + 10}\tpeak\nwalk\t{a}\t{first + 20}\t{first + 29}\tslow\n"
+        f"walk\t{a}\t{first + 50}\t{first + 60}\tfilled\nother\t{a}\t5\t6\tnoise\n"
+    )
+    assert operators.read_operator(table, "walk", recording) == {
+        "peaks": [Event(a, 10, 11, 1.0)],
+        "slow": [Event(a, 20, 30, 1.0)],
+    }
+    table.write_text("recording,marker,first_frame,last_frame,class\nwalk,nobody,1,2,peak\n")
+    with pytest.raises(BadDataSet, match="nobody"):
+        operators.read_operator(table, "walk", recording)
 
 
 def test_rows_name_recording_operator_and_detectors():

@@ -24,7 +24,7 @@ def runs():
     return {
         "runs": run_rows("walk", condition, counted),
         "readings": reading_rows("walk", condition, {"as read": counted, "other": counted}),
-        "slow": slow_sweep.sweep_rows("walk", condition, [(0, {(10, "marker", 0.5, 0.3): count})]),
+        "slow": slow_sweep.sweep_rows("walk", condition, [(0, {("clean", 200, 10, "marker", 0.5, 0.3): count})]),
         "repairs": pd.DataFrame(errors, columns=list(COLUMNS)),
         "operators": pd.DataFrame(persons, columns=list(operators.COLUMNS)),
     }

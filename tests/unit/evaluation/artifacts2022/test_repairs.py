@@ -7,9 +7,12 @@ import pytest
 
 from markermend.evaluation.artifacts2022 import readings, repairs
 from markermend.evaluation.artifacts2022.options import RepairExperimentOptions
+from markermend.evaluation.artifacts2022.published_detectors import PublishedDetectors, network_of
 from markermend.evaluation.artifacts2022.repairs import Distortion
 
 PUBLISHED = readings.published_options({}, network_steps=5)
+
+DETECTORS = PublishedDetectors(PUBLISHED, network_of(PUBLISHED))
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +23,7 @@ def clean(walker):
 
 def errors_of(clean, distortion, methods, seed=1):
     options = RepairExperimentOptions(methods=tuple(methods))
-    return repairs.repair_run(clean, distortion, options=options, published=PUBLISHED, rng=np.random.default_rng(seed))
+    return repairs.repair_run(clean, distortion, options=options, published=DETECTORS, rng=np.random.default_rng(seed))
 
 
 def test_the_distorted_recordings_have_the_error_of_the_formula(clean):

@@ -11,7 +11,12 @@ from markermend.evaluation.artifacts2022.options import SlowSweepOptions
 from markermend.evaluation.artifacts2022.runs import Condition
 
 OPTIONS = SlowSweepOptions(
-    network_steps=(2, 20), deviations_over=("marker",), lower_sigmas=(0.5,), min_durations_s=(0.3, 0.5)
+    trained_on=("clean",),
+    training_frames=(200,),
+    network_steps=(2, 20),
+    deviations_over=("marker",),
+    lower_sigmas=(0.5,),
+    min_durations_s=(0.3, 0.5),
 )
 CONDITION = Condition("paper", 30.0, 20.0)
 
@@ -20,16 +25,19 @@ CONDITION = Condition("paper", 30.0, 20.0)
 def counts(walker):
     recording = walker.recording
     clean = replace(recording, positions=recording.positions[:, :12], markers=recording.markers[:12])
-    return clean, slow_sweep.sweep_run(clean, CONDITION, options=OPTIONS, rng=np.random.default_rng(1))
+    networks = slow_sweep.make_networks(clean, OPTIONS)
+    return clean, slow_sweep.sweep_run(
+        clean, CONDITION, networks=networks, options=OPTIONS, rng=np.random.default_rng(1)
+    )
 
 
 def test_every_setting_is_counted_on_the_same_damage(counts):
     clean, own = counts
     assert list(own) == [
-        (2, "marker", 0.5, 0.3),
-        (2, "marker", 0.5, 0.5),
-        (20, "marker", 0.5, 0.3),
-        (20, "marker", 0.5, 0.5),
+        ("clean", 200, 2, "marker", 0.5, 0.3),
+        ("clean", 200, 2, "marker", 0.5, 0.5),
+        ("clean", 200, 20, "marker", 0.5, 0.3),
+        ("clean", 200, 20, "marker", 0.5, 0.5),
     ]
     assert len({count.found + count.missed for count in own.values()}) == 1
     assert all(count.clean_found <= count.false and count.clean < clean.positions.size for count in own.values())
@@ -37,9 +45,11 @@ def test_every_setting_is_counted_on_the_same_damage(counts):
 
 def test_longer_training_leaves_a_smaller_residual_and_longer_findings_are_fewer(counts):
     _, own = counts
-    assert own[20, "marker", 0.5, 0.3].deviation_mm < own[2, "marker", 0.5, 0.3].deviation_mm
+    assert (
+        own["clean", 200, 20, "marker", 0.5, 0.3].deviation_mm < own["clean", 200, 2, "marker", 0.5, 0.3].deviation_mm
+    )
     for steps in OPTIONS.network_steps:
-        short, long = (own[steps, "marker", 0.5, duration] for duration in (0.3, 0.5))
+        short, long = (own["clean", 200, steps, "marker", 0.5, duration] for duration in (0.3, 0.5))
         assert short.found + short.false >= long.found + long.false and short.remaining == long.remaining
 
 
@@ -49,7 +59,7 @@ def test_runs_are_averaged_by_setting(counts):
     assert tuple(table.columns) == slow_sweep.COLUMNS and len(table) == 8
     averaged = slow_sweep.average_sweep(table)
     assert len(averaged) == 4 and averaged["runs"].eq(2).all()
-    first = own[2, "marker", 0.5, 0.3]
+    first = own["clean", 200, 2, "marker", 0.5, 0.3]
     assert averaged["TPR"][0] == pytest.approx(100 * first.found / (first.found + first.missed))
     assert averaged["clean_TPR"][0] == pytest.approx(100 * (1 - first.clean_found / first.clean))
 
@@ -59,6 +69,8 @@ def test_nothing_found_has_no_false_discovery_rate():
         "recording": "a",
         "amplitude_mm": 10.0,
         "share_percent": 20.0,
+        "trained_on": "clean",
+        "training_frames": 200,
         "network_steps": 1,
         "deviation_over": "marker",
     }

@@ -32,7 +32,7 @@ def test_features_are_coordinates_powers_and_the_average_from_minus_one_to_one()
     rows = rng.normal(50, 20, (200, 9))
     rows[:, 2] = 7.0
     training = TrainingSet(rows, rng.normal(10, [3, 6, 1], (200, 3)), np.arange(200), 0)
-    scaling = Scaling(training, 2)
+    scaling = Scaling.of(training, 2)
     features, targets = scaling.data(training, np.ones(200, bool))
     assert features.shape == (200, scaling.width) == (200, 2 * 6 + 3)
     varying = np.delete(features, [2, 8], axis=1)
