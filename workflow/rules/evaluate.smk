@@ -8,13 +8,17 @@ from markermend.evaluation.experiments import make_experiments, of_experiments, 
 from markermend.options.reader import BadOptions
 
 try:
-    papers = make_experiments(config, list(plan.entries.values()), plan.files.papers)
+    papers = make_experiments(config, list(plan.data.entries.values()), plan.files.papers)
 except BadOptions as error:
     raise WorkflowError(f"The options of the experiments cannot be used (see config/evaluate/full.yaml):\n{error}")
 
 # Snakemake names its targets only when it has read this file: what is missing is said now where none of the experiments is asked for.
-if plan.missing and workflow.is_main_process and not any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
-    raise WorkflowError(plan.missing)
+if (
+    plan.data.missing
+    and workflow.is_main_process
+    and not any(of_experiments(word, papers.folder) for word in sys.argv[1:])
+):
+    raise WorkflowError(plan.data.missing)
 
 if papers.note and workflow.is_main_process and any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
     logger.warning(papers.note)

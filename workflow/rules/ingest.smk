@@ -7,7 +7,7 @@ Writes: 01_markers.parquet for each recording, mesh.json for each subject.
 
 rule ingest:
     input:
-        source=plan.source,
+        source=plan.data.source,
     output:
         markers=files.markers,
     log:
@@ -26,9 +26,9 @@ rule ingest:
         *plan.code("ingest"),
         options=plan.stage_options("ingest"),
         failures=plan.failed("ingest"),
-        source=plan.original,
-        source_hash=plan.source_hash,
-        recording=plan.recording_flags,
+        source=plan.data.original,
+        source_hash=plan.data.source_hash,
+        recording=plan.data.recording_flags,
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
@@ -39,7 +39,7 @@ rule ingest:
 rule mesh:
     input:
         markers=plan.subject_markers,
-        files=plan.mesh_files,
+        files=plan.data.mesh_files,
     output:
         mesh=files.mesh,
     log:

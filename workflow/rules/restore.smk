@@ -29,7 +29,7 @@ rule repair:
     params:
         *plan.code("repair"),
         options=plan.stage_options("repair"),
-        decisions=plan.decisions_flag,
+        decisions=plan.data.decisions_flag,
         failures=plan.failed("repair"),
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"
@@ -62,7 +62,7 @@ rule fill:
     params:
         *plan.code("fill"),
         options=plan.stage_options("fill"),
-        decisions=plan.decisions_flag,
+        decisions=plan.data.decisions_flag,
         failures=plan.failed("fill"),
     message:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
@@ -78,7 +78,7 @@ for suffix in FORMATS:
         name:
             f"export_{suffix}"
         input:
-            source=plan.source,
+            source=plan.data.source,
             markers=files.markers,
             filled=files.filled,
             record=files.changes,
@@ -93,7 +93,7 @@ for suffix in FORMATS:
         benchmark:
             f"{files.logs}/export.tsv"
         wildcard_constraints:
-            subject=plan.subjects_of(suffix),
+            subject=plan.data.subjects_of(suffix),
         group:
             "recording"
         conda:
@@ -106,8 +106,8 @@ for suffix in FORMATS:
             *plan.code("export"),
             options=plan.stage_options("export"),
             failures=plan.failed("export"),
-            source=plan.original,
-            source_hash=plan.source_hash,
+            source=plan.data.original,
+            source_hash=plan.data.source_hash,
         message:
             "Export {wildcards.subject}/{wildcards.recording}"
         shell:

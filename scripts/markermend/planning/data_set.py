@@ -1,32 +1,142 @@
-"""The data set that a config names: its recordings, the meshes that users supply, and people's decisions.
-
-Reads: the recordings' folder or table, the table of decisions.
-"""
+"""The data set of a run: its recordings, the meshes that users supply, and people's decisions, for the rules to ask."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from markermend.options.general import GeneralOptions
-from markermend.planning import config as planning_config
-from markermend.planning import config_schema, decision_table, recording_table, recordings
-from markermend.planning.recordings import BadDataSet, Entry, NoRecordings
+from markermend.options.values import text
+from markermend.planning import discovery
+from markermend.planning.discovery import Folders, nameable
+from markermend.planning.recordings import Entry, NoRecordings
+from markermend.storage.atomic import sha256
 
-Folders = tuple[str, str]
-"""Names of the folders of a subject and a recording."""
+
+class Wildcards(Protocol):
+    """What a job is about. A job for all recordings of a subject has no recording."""
+
+    subject: str
+    recording: str
 
 
-def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, Entry]:
-    """Find the recordings below a folder or in a table.
+@dataclass(frozen=True)
+class DataSet:
+    """The recordings of a run, and what belongs to them.
+
+    Methods that take wildcards are input and parameter functions of rules.
 
     Parameters
     ----------
-    name : str
-        Folder or table, as the config has it.
+    entries : mapping of Folders to Entry
+        The recordings, by the names of their folders.
+    meshes : mapping of str to list of str, optional
+        Mesh files that the user supplies, by the names of the subjects' folders.
+    decisions : mapping of Folders to list of dict, optional
+        What a person decided about each recording, by the names of its folders.
+    missing : str, optional
+        Why there are no recordings, where the config names none and the table of its default is not there. Experiments do without.
+    """
+
+    entries: Mapping[Folders, Entry]
+    meshes: Mapping[str, list[str]] = field(default_factory=dict)
+    decisions: Mapping[Folders, list[dict[str, Any]]] = field(default_factory=dict)
+    missing: str = ""
+
+    @cached_property
+    def subjects(self) -> dict[str, list[str]]:
+        """Folder names of the recordings of each subject."""
+        found: dict[str, list[str]] = {}
+        for subject, recording in self.entries:
+            found.setdefault(subject, []).append(recording)
+        return found
+
+    def entry(self, wildcards: Wildcards) -> Entry:
+        """Find the recording that a job is about.
+
+        Parameters
+        ----------
+        wildcards : Wildcards
+            The names of its folders.
+
+        Returns
+        -------
+        Entry
+            The recording.
+        """
+        return self.entries[wildcards.subject, wildcards.recording]
+
+    def original(self, wildcards: Wildcards) -> str:
+        """Path of the original file; see `DataSet.entry`."""
+        return self.entry(wildcards).source
+
+    def source(self, wildcards: Wildcards) -> str | list[str]:
+        """The original file as an input, where its name can be one; see `DataSet.entry`."""
+        path = self.original(wildcards)
+        return path if nameable(path) else []
+
+    def source_hash(self, wildcards: Wildcards) -> str | None:
+        """Hash an original that cannot be an input, so that an edit reruns what depends on it.
+
+        Parameters
+        ----------
+        wildcards : Wildcards
+            The names of the recording's folders.
+
+        Returns
+        -------
+        str or None
+            The sha256; `not there` where there is no file; None for an original that is an input.
+        """
+        path = self.original(wildcards)
+        if nameable(path):
+            return None
+        return sha256(Path(path)) if os.path.exists(path) else "not there"
+
+    def recording_flags(self, wildcards: Wildcards) -> list[str]:
+        """What the table of recordings states, as flags; see `DataSet.entry`."""
+        entry = self.entry(wildcards)
+        stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind, "rate": text(entry.rate)}
+        return [f"--{name}={value}" for name, value in stated.items()]
+
+    def decisions_flag(self, wildcards: Wildcards) -> str:
+        """The decisions on the recording alone, as a flag; see `DataSet.entry`."""
+        decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
+        return f"--decisions={text(decided)}"
+
+    def mesh_files(self, wildcards: Wildcards) -> list[str]:
+        """The mesh files that the user supplies for the subject; see `DataSet.entry`."""
+        return self.meshes[wildcards.subject]
+
+    def subjects_of(self, suffix: str) -> str:
+        """Write a constraint on the wildcard `subject` that only recordings of one format meet.
+
+        Parameters
+        ----------
+        suffix : str
+            The format.
+
+        Returns
+        -------
+        str
+            A regular expression that looks ahead at the recording.
+        """
+        folders = ["/".join(pair) for pair, entry in self.entries.items() if entry.format == suffix]
+        return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
+
+
+def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) -> tuple[DataSet, list[str]]:
+    """Find the data set that a config names.
+
+    Parameters
+    ----------
+    options : mapping of str to Any
+        The options of each section of the config.
     results : str
         Absolute path of the folder of results, which holds no recordings.
     schemas : Path
@@ -34,108 +144,27 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
 
     Returns
     -------
-    dict of (str, str) to Entry
-        The recordings by the names of their folders.
-
-    Raises
-    ------
-    NoRecordings
-        Where there is no such folder or table.
-    BadDataSet
-        Where it cannot be used.
-    """
-    path = os.path.abspath(os.path.expanduser(name))
-    if os.path.isdir(path):
-        found = recordings.find(path, results)
-    elif path.lower().endswith((".c3d", ".trc")) and os.path.isfile(path):
-        raise BadDataSet(f"recordings: {path} is a recording itself: name the folder that holds it, or a table")
-    elif os.path.isfile(path):
-        rows = recording_table.read_rows(path)
-        config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)
-        found = recording_table.from_rows(rows, path)
-    else:
-        raise NoRecordings(
-            f"recordings: no such folder or table: {path}\n"
-            "Name the folder that holds them: --config recordings=FOLDER results=FOLDER\n"
-            "or a table of them (config/README.md); `make demo` shows both on made-up recordings"
-        )
-    return {entry.folders: entry for entry in found}
-
-
-def find_decisions(
-    options: Mapping[str, Any], entries: Sequence[Entry]
-) -> tuple[dict[Folders, list[dict[str, Any]]], list[str]]:
-    """Find what people decided; a table that the user named must be there, the one of the default need not.
-
-    Parameters
-    ----------
-    options : mapping of str to Any
-        The options of each section of the config.
-    entries : sequence of Entry
-        The recordings.
-
-    Returns
-    -------
-    decisions : dict of (str, str) to list of dict
-        The decisions on each recording, by the names of its folders.
+    data : DataSet
+        The recordings, their meshes, and the decisions.
     warnings : list of str
-        Warnings for the user of lines without effect.
+        Warnings for the user of decisions without effect.
 
     Raises
     ------
     BadDataSet
-        Where the table cannot be used.
+        Where the recordings, the decisions or the mesh files cannot be used.
     """
-    default, name = GeneralOptions().decisions, options["general"].decisions
-    if name is None or (name == default and not os.path.exists(name)):
-        return {}, []
-    path = os.path.abspath(os.path.expanduser(name))
-    return decision_table.load(path, entries, planning_config.methods(options))
+    entries, missing = _entries(options["general"].recordings, results, schemas)
+    meshes = discovery.supplied_meshes(entries, options["mesh"].files)
+    decisions, warnings = discovery.find_decisions(options, list(entries.values()))
+    return DataSet(entries, meshes, decisions, missing), warnings
 
 
-def supplied_meshes(entries: Mapping[Folders, Entry], files: Sequence[str]) -> dict[str, list[str]]:
-    """List the mesh files that users supply for each subject.
-
-    Parameters
-    ----------
-    entries : mapping of Folders to Entry
-        The recordings, by the names of their folders.
-    files : sequence of str
-        Mesh files for all subjects of which the table of recordings names none.
-
-    Returns
-    -------
-    dict of str to list of str
-        Absolute paths in alphabetical order, or in the order of `files`, by the name of the subject's folder.
-
-    Raises
-    ------
-    BadDataSet
-        Where Snakemake cannot take a file as an input.
-    """
-    own: dict[str, set[str]] = {}
-    for (subject, _), entry in entries.items():
-        own.setdefault(subject, set()).update([entry.mesh] if entry.mesh is not None else [])
-    shared = [os.path.abspath(path) for path in files]
-    meshes = {subject: sorted(paths) or shared for subject, paths in own.items()}
-    for path in dict.fromkeys(path for paths in meshes.values() for path in paths):
-        if not nameable(path):
-            raise BadDataSet(f"mesh file {path} is not there, or its name is none that Snakemake can take: rename it")
-    return meshes
-
-
-def nameable(path: str) -> bool:
-    """Whether Snakemake can take a file as an input.
-
-    Parameters
-    ----------
-    path : str
-        Path of the file.
-
-    Returns
-    -------
-    bool
-        True where the file exists and its path is UTF-8 without wildcards and angle brackets.
-    """
-    plain = not re.search(r"\{.*\}|[<>]", path, re.DOTALL)
-    return plain and path == path.encode(errors="replace").decode() and os.path.exists(path)
+def _entries(name: str, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str]:
+    """The recordings; none, and why, where the config does not name any."""
+    try:
+        return discovery.find_recordings(name, results, schemas=schemas), ""
+    except NoRecordings as error:
+        if name != GeneralOptions().recordings:
+            raise
+        return {}, str(error)

@@ -6,40 +6,29 @@ Writes: lists of files beside the results, and the facts of the run.
 
 from __future__ import annotations
 
-import os
-import re
 import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import markermend
 from markermend.core.artifacts import DETECTORS
 from markermend.options.config import write_config
 from markermend.options.flags import write_flags
-from markermend.options.general import EXPERIMENTS, GeneralOptions
-from markermend.options.values import text
-from markermend.planning import code_hashes, data_set, run_facts, run_summary
+from markermend.options.general import EXPERIMENTS
+from markermend.planning import code_hashes, run_facts, run_summary
 from markermend.planning import config as planning_config
-from markermend.planning.data_set import Folders, nameable
-from markermend.planning.recordings import BadDataSet, Entry, NoRecordings
+from markermend.planning.data_set import DataSet, Wildcards, find_data_set
+from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
-from markermend.storage.atomic import sha256, write_json, write_text
+from markermend.storage.atomic import write_json, write_text
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
-
-
-class Wildcards(Protocol):
-    """What a job is about. A job for all recordings of a subject has no recording."""
-
-    subject: str
-    recording: str
 
 
 @dataclass(frozen=True)
@@ -56,18 +45,12 @@ class Plan:
         The folder of the Snakefile.
     files : ResultFiles
         Names of the result files.
-    entries : mapping of Folders to Entry
-        The recordings, by the names of their folders.
-    meshes : Mapping[str, list[str]]
-        Mesh files that the user supplies, by the names of the subjects' folders.
-    decisions : Mapping[Folders, list[dict[str, Any]]]
-        What a person decided about each recording, by the names of its folders.
+    data : DataSet
+        The recordings, and what belongs to them.
     failures : Counter[tuple[str, str, str]]
         How often each stage failed so far, by subject, recording and stage.
     warnings : sequence of str, optional
         Warnings for the user before anything runs.
-    missing : str, optional
-        Why there are no recordings, where the config names none and the table of its default is not there. Experiments do without.
     started : datetime, optional
         When the run began, with its time zone.
     """
@@ -75,26 +58,15 @@ class Plan:
     options: Mapping[str, Any]
     project: Path
     files: ResultFiles
-    entries: Mapping[Folders, Entry]
-    meshes: Mapping[str, list[str]]
-    decisions: Mapping[Folders, list[dict[str, Any]]]
+    data: DataSet
     failures: Counter[tuple[str, str, str]]
     warnings: Sequence[str] = ()
-    missing: str = ""
     started: datetime = field(default_factory=lambda: datetime.now(UTC))
 
     @property
     def detectors(self) -> list[str]:
         """The detectors that run, in their strict order."""
         return [stage for stage in DETECTORS if stage in self.options["general"].detect]
-
-    @cached_property
-    def subjects(self) -> dict[str, list[str]]:
-        """Folder names of the recordings of each subject."""
-        found: dict[str, list[str]] = {}
-        for subject, recording in self.entries:
-            found.setdefault(subject, []).append(recording)
-        return found
 
     @property
     def trains_networks(self) -> bool:
@@ -104,7 +76,9 @@ class Plan:
     @property
     def quality_files(self) -> list[str]:
         """The quality file of every recording."""
-        return [self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.entries]
+        return [
+            self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.data.entries
+        ]
 
     def judged(self, wildcards: object) -> list[str]:
         """Name the quality files of all recordings, which the report is made of.
@@ -124,8 +98,8 @@ class Plan:
         BadDataSet
             Where there are no recordings because the config names none.
         """
-        if self.missing:
-            raise BadDataSet(self.missing)
+        if self.data.missing:
+            raise BadDataSet(self.data.missing)
         return self.quality_files
 
     def events(self, before: str | None = None) -> list[str]:
@@ -144,83 +118,12 @@ class Plan:
         stages = self.detectors if before is None else self.detectors[: self.detectors.index(before)]
         return [self.files.events[stage] for stage in stages]
 
-    def entry(self, wildcards: Wildcards) -> Entry:
-        """Find the recording that a job is about.
-
-        Parameters
-        ----------
-        wildcards : Wildcards
-            The names of its folders.
-
-        Returns
-        -------
-        Entry
-            The recording.
-        """
-        return self.entries[wildcards.subject, wildcards.recording]
-
-    def original(self, wildcards: Wildcards) -> str:
-        """Path of the original file; see `Plan.entry`."""
-        return self.entry(wildcards).source
-
-    def source(self, wildcards: Wildcards) -> str | list[str]:
-        """The original file as an input, where its name can be one; see `Plan.entry`."""
-        path = self.original(wildcards)
-        return path if nameable(path) else []
-
-    def source_hash(self, wildcards: Wildcards) -> str | None:
-        """Hash an original that cannot be an input, so that an edit reruns what depends on it.
-
-        Parameters
-        ----------
-        wildcards : Wildcards
-            The names of the recording's folders.
-
-        Returns
-        -------
-        str or None
-            The sha256; `not there` where there is no file; None for an original that is an input.
-        """
-        path = self.original(wildcards)
-        if nameable(path):
-            return None
-        return sha256(Path(path)) if os.path.exists(path) else "not there"
-
-    def recording_flags(self, wildcards: Wildcards) -> list[str]:
-        """What the table of recordings states, as flags; see `Plan.entry`."""
-        entry = self.entry(wildcards)
-        stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind, "rate": text(entry.rate)}
-        return [f"--{name}={value}" for name, value in stated.items()]
-
-    def decisions_flag(self, wildcards: Wildcards) -> str:
-        """The decisions on the recording alone, as a flag; see `Plan.entry`."""
-        decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
-        return f"--decisions={text(decided)}"
-
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
-        """The ingested trajectories of each recording of the subject; see `Plan.entry`."""
+        """The ingested trajectories of each recording of the subject; see `DataSet.entry`."""
         subject = wildcards.subject
-        return [self.files.markers.format(subject=subject, recording=recording) for recording in self.subjects[subject]]
-
-    def mesh_files(self, wildcards: Wildcards) -> list[str]:
-        """The mesh files that the user supplies for the subject; see `Plan.entry`."""
-        return self.meshes[wildcards.subject]
-
-    def subjects_of(self, suffix: str) -> str:
-        """Write a constraint on the wildcard `subject` that only recordings of one format meet.
-
-        Parameters
-        ----------
-        suffix : str
-            The format.
-
-        Returns
-        -------
-        str
-            A regular expression that looks ahead at the recording.
-        """
-        folders = ["/".join(pair) for pair, entry in self.entries.items() if entry.format == suffix]
-        return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
+        return [
+            self.files.markers.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]
+        ]
 
     def code(self, stage: str, *extra: str) -> list[str]:
         """Hash the code of a stage: an edit of a module reruns the stages that use it.
@@ -282,7 +185,7 @@ class Plan:
     def write_lists(self) -> None:
         """Write the lists of files that meshes and the report are made of: a command line has no room for thousands."""
         write_text(Path(self.files.quality_list), "".join(f"{path}\n" for path in self.quality_files))
-        for subject, names in self.subjects.items():
+        for subject, names in self.data.subjects.items():
             lines = [self.files.markers.format(subject=subject, recording=name) + "\n" for name in names]
             write_text(Path(self.files.markers_list.format(subject=subject)), "".join(lines))
 
@@ -290,7 +193,7 @@ class Plan:
         """Write the facts of the run, and print its summary."""
         folder = Path(self.files.report)
         facts = run_facts.run_facts(
-            self.project, config=write_config(self.options), recordings=len(self.entries), started=self.started
+            self.project, config=write_config(self.options), recordings=len(self.data.entries), started=self.started
         )
         write_json(folder / "provenance.json", facts)
         print(run_summary.summary(map(Path, self.quality_files), folder / "index.html"), file=sys.stderr)
@@ -323,27 +226,12 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
     planning_config.prepare(config)
     options = planning_config.check({key: config[key] for key in config if key != EXPERIMENTS}, deployed=deployed)
     results = planning_config.folder(options["general"].results)
-    entries, missing = _entries(options["general"].recordings, results, project / "workflow/schemas")
-    meshes = data_set.supplied_meshes(entries, options["mesh"].files)
-    decisions, warnings = data_set.find_decisions(options, list(entries.values()))
+    data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas")
     return Plan(
         options=options,
         project=project,
         files=ResultFiles(results),
-        entries=entries,
-        meshes=meshes,
-        decisions=decisions,
+        data=data,
         failures=planning_config.failures(results),
         warnings=[*planning_config.warnings(options), *warnings],
-        missing=missing,
     )
-
-
-def _entries(name: str, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str]:
-    """The recordings; none, and why, where the config does not name any."""
-    try:
-        return data_set.find_recordings(name, results, schemas=schemas), ""
-    except NoRecordings as error:
-        if name != GeneralOptions().recordings:
-            raise
-        return {}, str(error)

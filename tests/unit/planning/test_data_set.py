@@ -1,110 +1,71 @@
-"""The data set that a config names: recordings, supplied meshes, decisions."""
+"""The data set of a run, asked as the rules ask it."""
 
-import os
+import json
+import re
+from types import SimpleNamespace
 
 import pytest
 
 from markermend.options.config import read_config
-from markermend.options.general import GeneralOptions
-from markermend.planning import data_set
-from markermend.planning.recordings import BadDataSet, Entry
+from markermend.planning.data_set import find_data_set
+from markermend.planning.plan import make_plan
+from markermend.planning.recordings import BadDataSet
 from support.paths import PROJECT
 
-SCHEMAS = PROJECT / "workflow/schemas"
+
+def job(subject="S%201", recording="walk"):
+    return SimpleNamespace(subject=subject, recording=recording)
 
 
-def entry(subject, recording, mesh=None):
-    return Entry(subject, recording, f"/data/{recording}.c3d", mesh=mesh)
+def test_recordings_are_identified_by_their_folders(plan):
+    assert plan.data.subjects == {"S%201": ["run", "walk"], "S2": ["%7Bx%7D"]}
+    assert plan.data.entry(job()).recording == "walk"
+    assert plan.data.mesh_files(SimpleNamespace(subject="S%201")) == []
 
 
-def by_folders(*entries):
-    return {entry.folders: entry for entry in entries}
+def test_an_original_is_an_input_or_is_identified_by_its_content(plan, tmp_path):
+    assert plan.data.source(job()) == plan.data.original(job()) == str(tmp_path / "walk.c3d")
+    assert plan.data.source_hash(job()) is None
+    strange = job("S2", "%7Bx%7D")
+    assert plan.data.source(strange) == [] and plan.data.original(strange) == str(tmp_path / "{x}.csv")
+    before = plan.data.source_hash(strange)
+    (tmp_path / "{x}.csv").write_text("edited")
+    assert re.fullmatch("[0-9a-f]{64}", before) and plan.data.source_hash(strange) != before
+    (tmp_path / "{x}.csv").unlink()
+    assert plan.data.source_hash(strange) == "not there"
 
 
-def test_recordings_come_from_a_folder_or_a_table(tmp_path):
-    (tmp_path / "S01").mkdir()
-    (tmp_path / "S01/walk.c3d").touch()
-    found = data_set.find_recordings(str(tmp_path), str(tmp_path / "out"), schemas=SCHEMAS)
-    assert list(found) == [("S01", "walk")] and found["S01", "walk"].source == str(tmp_path / "S01/walk.c3d")
-    table = tmp_path / "recordings.tsv"
-    table.write_text("recording\tsubject\tfile\trate\nwalk 1\tBob\tS01/walk.c3d\t50\n")
-    found = data_set.find_recordings(str(table), str(tmp_path / "out"), schemas=SCHEMAS)
-    assert list(found) == [("Bob", "walk%201")] and found["Bob", "walk%201"].rate == 50
+def test_what_the_table_says_of_a_recording_becomes_flags(plan):
+    flags = plan.data.recording_flags(job(recording="run"))
+    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120"]
+    assert plan.data.recording_flags(job())[-1] == "--rate=none"
 
 
-def test_the_home_folder_may_be_written_as_a_tilde(tmp_path, monkeypatch):
-    monkeypatch.setenv("HOME", str(tmp_path))
-    (tmp_path / "S01").mkdir()
-    (tmp_path / "S01/walk.c3d").touch()
-    assert data_set.find_recordings("~", str(tmp_path / "out"), schemas=SCHEMAS)
+def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
+    path = tmp_path / "decisions.tsv"
+    path.write_text("recording\tmarker\tfirst_frame\tlast_frame\tdecision\nrun\tM1\t3\t5\treject\n")
+    decided = make_plan({**config, "decisions": str(path)}, PROJECT, deployed=False)
+    assert plan.data.decisions_flag(job()) == decided.data.decisions_flag(job()) == "--decisions=[]"
+    name, _, value = decided.data.decisions_flag(job(recording="run")).partition("=")
+    assert name == "--decisions" and [line["marker"] for line in json.loads(value)] == ["M1"]
 
 
-def test_recordings_that_are_not_there_are_named(tmp_path):
-    with pytest.raises(BadDataSet, match=f"no such folder or table: {tmp_path}/none"):
-        data_set.find_recordings(str(tmp_path / "none"), "out", schemas=SCHEMAS)
+def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan):
+    found = {
+        suffix: [
+            folders
+            for folders in plan.data.entries
+            if re.match(rf"(?P<subject>{plan.data.subjects_of(suffix)})/(?P<recording>[^/]+)/", "/".join(folders) + "/")
+        ]
+        for suffix in ("c3d", "trc", "csv", "tsv")
+    }
+    assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
 
 
-@pytest.mark.parametrize("name", ["walk.c3d", "walk.TRC"])
-def test_a_recording_in_place_of_its_folder_is_told_apart_from_a_table(tmp_path, name):
-    (tmp_path / name).touch()
-    with pytest.raises(BadDataSet, match="is a recording itself: name the folder"):
-        data_set.find_recordings(str(tmp_path / name), "out", schemas=SCHEMAS)
-
-
-def test_a_table_is_held_against_its_schema(tmp_path):
-    table = tmp_path / "recordings.tsv"
-    table.write_text("recording\tsubject\tfile\tkind\nwalk\tBob\twalk.c3d\tdynamo\n")
-    with pytest.raises(BadDataSet, match=r"recordings\[0\].kind: 'dynamo' is not one of"):
-        data_set.find_recordings(str(table), "out", schemas=SCHEMAS)
-
-
-def test_meshes_of_the_table_win_over_those_of_the_config(tmp_path):
-    own, shared = tmp_path / "own.json", tmp_path / "shared.json"
-    own.touch()
-    shared.touch()
-    entries = by_folders(entry("S01", "a", str(own)), entry("S01", "b"), entry("S02", "c"))
-    meshes = data_set.supplied_meshes(entries, [os.path.relpath(shared)])
-    assert meshes == {"S01": [str(own)], "S02": [str(shared)]}
-
-
-@pytest.mark.parametrize("name", ["none.json", "{subject}.json"])
-def test_a_mesh_that_cannot_be_an_input_is_named(tmp_path, name):
-    (tmp_path / "{subject}.json").touch()
-    with pytest.raises(BadDataSet, match="is not there, or its name is none that Snakemake can take"):
-        data_set.supplied_meshes(by_folders(entry("S01", "a", str(tmp_path / name))), [])
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [("walk.c3d", True), ("a b'$x.c3d", True), ("{x.c3d", True), ("{x}.c3d", False), ("<b>.c3d", False)],
-)
-def test_what_can_be_an_input(tmp_path, name, expected):
-    path = tmp_path / name
-    path.touch()
-    assert data_set.nameable(str(path)) is expected
-    path.unlink()
-    assert data_set.nameable(str(path)) is False
-
-
-def test_a_name_that_is_not_utf_8_cannot_be_an_input(tmp_path):
-    path = os.fsencode(tmp_path) + b"/\xff.c3d"
-    open(path, "wb").close()
-    assert data_set.nameable(os.fsdecode(path)) is False
-
-
-def decided_by(name):
-    """The options with another table of decisions."""
-    return read_config({"decisions": name})
-
-
-def test_a_table_of_decisions_need_not_be_there_unless_it_was_named(tmp_path, monkeypatch):
+def test_what_is_missing_by_default_is_said_and_what_is_named_must_be_there(tmp_path, config, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    entries = [entry("S01", "walk")]
-    for name in (None, GeneralOptions().decisions):
-        assert data_set.find_decisions(decided_by(name), entries) == ({}, [])
-    with pytest.raises(BadDataSet, match=r"decisions: .*other\.tsv cannot be read \(No such file"):
-        data_set.find_decisions(decided_by("other.tsv"), entries)
-    (tmp_path / "other.tsv").write_text("recording\tmarker\tdecision\nwalk\tM1\tprotect\nrun\tM1\tprotect\n")
-    decided, warnings = data_set.find_decisions(decided_by("other.tsv"), entries)
-    assert [line["marker"] for line in decided["S01", "walk"]] == ["M1"]
-    assert len(warnings) == 1 and "'run'" in warnings[0]
+    data, warnings = find_data_set(read_config(config), str(tmp_path / "out"), schemas=PROJECT / "workflow/schemas")
+    assert not data.entries and "no such folder or table" in data.missing and warnings == []
+    with pytest.raises(BadDataSet, match="no such folder or table"):
+        options = read_config({**config, "recordings": "none"})
+        find_data_set(options, str(tmp_path / "out"), schemas=PROJECT / "workflow/schemas")

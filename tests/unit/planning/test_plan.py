@@ -1,7 +1,6 @@
 """The plan of a run, asked as the rules ask it but without Snakemake."""
 
 import json
-import re
 import shlex
 from types import SimpleNamespace
 
@@ -14,30 +13,12 @@ from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
 from support.paths import PROJECT
 
-TABLE = """recording\tsubject\tfile\tkind\trate
-walk\tS 1\twalk.c3d\tauto\t
-run\tS 1\trun.trc\tdynamic\t120
-{x}\tS2\t{x}.csv\tauto\t
-"""
-
-
-@pytest.fixture
-def plan(tmp_path, config):
-    """A plan of three recordings of two subjects, of three formats."""
-    (tmp_path / "recordings.tsv").write_text(TABLE)
-    for name in ("walk.c3d", "run.trc", "{x}.csv"):
-        (tmp_path / name).write_text(name)
-    config.update(recordings=str(tmp_path / "recordings.tsv"), results=str(tmp_path / "out"))
-    return make_plan(config, PROJECT, deployed=False)
-
 
 def job(subject="S%201", recording="walk"):
     return SimpleNamespace(subject=subject, recording=recording)
 
 
-def test_recordings_are_identified_by_their_folders(plan):
-    assert plan.subjects == {"S%201": ["run", "walk"], "S2": ["%7Bx%7D"]}
-    assert plan.entry(job()).recording == "walk"
+def test_every_recording_has_a_quality_file(plan):
     assert [path.rpartition("out/")[2] for path in plan.quality_files] == [
         "S%201/run/08_qc.json",
         "S%201/walk/08_qc.json",
@@ -45,37 +26,9 @@ def test_recordings_are_identified_by_their_folders(plan):
     ]
 
 
-def test_an_original_is_an_input_or_is_identified_by_its_content(plan, tmp_path):
-    assert plan.source(job()) == plan.original(job()) == str(tmp_path / "walk.c3d")
-    assert plan.source_hash(job()) is None
-    strange = job("S2", "%7Bx%7D")
-    assert plan.source(strange) == [] and plan.original(strange) == str(tmp_path / "{x}.csv")
-    before = plan.source_hash(strange)
-    (tmp_path / "{x}.csv").write_text("edited")
-    assert re.fullmatch("[0-9a-f]{64}", before) and plan.source_hash(strange) != before
-    (tmp_path / "{x}.csv").unlink()
-    assert plan.source_hash(strange) == "not there"
-
-
-def test_what_the_table_says_of_a_recording_becomes_flags(plan):
-    flags = plan.recording_flags(job(recording="run"))
-    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120"]
-    assert plan.recording_flags(job())[-1] == "--rate=none"
-
-
-def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
-    path = tmp_path / "decisions.tsv"
-    path.write_text("recording\tmarker\tfirst_frame\tlast_frame\tdecision\nrun\tM1\t3\t5\treject\n")
-    decided = make_plan({**config, "decisions": str(path)}, PROJECT, deployed=False)
-    assert plan.decisions_flag(job()) == decided.decisions_flag(job()) == "--decisions=[]"
-    name, _, value = decided.decisions_flag(job(recording="run")).partition("=")
-    assert name == "--decisions" and [line["marker"] for line in json.loads(value)] == ["M1"]
-
-
 def test_a_mesh_is_made_of_all_recordings_of_its_subject(plan, tmp_path):
     markers = plan.subject_markers(SimpleNamespace(subject="S%201"))
     assert markers == [f"{tmp_path}/out/S%201/{name}/01_markers.parquet" for name in ("run", "walk")]
-    assert plan.mesh_files(SimpleNamespace(subject="S%201")) == []
 
 
 def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
@@ -85,18 +38,6 @@ def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
     some = make_plan({**config, "detect": ["slow", "peaks"]}, PROJECT, deployed=False)
     assert some.detectors == ["peaks", "slow"]
     assert some.events(before="slow") == [plan.files.events["peaks"]]
-
-
-def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan):
-    found = {
-        suffix: [
-            folders
-            for folders in plan.entries
-            if re.match(rf"(?P<subject>{plan.subjects_of(suffix)})/(?P<recording>[^/]+)/", "/".join(folders) + "/")
-        ]
-        for suffix in ("c3d", "trc", "csv", "tsv")
-    }
-    assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
 
 
 @pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "fill", "export", "qc", "report"])
