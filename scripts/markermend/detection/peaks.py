@@ -12,6 +12,7 @@ from markermend.core.events import Event
 from markermend.detection import inputs
 from markermend.detection.neighbour import attribution, pulses, residual_windows
 from markermend.detection.neighbour.common_motion import without_common_motion
+from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
 from markermend.detection.neighbour.window_detector import WindowDetector
 from markermend.numerics import intervals
@@ -101,6 +102,7 @@ class PeakDetector(WindowDetector):
     def _pulses(self, statistics: ResidualStatistics, marker: int, options: PeaksOptions) -> list[Event]:
         """The pulses of one marker as events."""
         covariance = statistics.covariance if self._dip_covariance is None else self._dip_covariance
-        found = pulses.find_pulses(statistics, marker, covariance, rate=self.scene.rate, options=options)
+        evidence = LevelEvidence(self.scene, marker, statistics.residual[:, marker], options.level, options.shape)
+        found = pulses.find_pulses(statistics, marker, covariance, evidence, options=options)
         name = self.markers[marker]
         return [Event(name, one.start, one.stop, one.score, events.main_axes(one.deviation)) for one in found]

@@ -206,7 +206,9 @@ class StepDetector(WindowDetector):
         list[DisplacedStretch]
             The stretches, by frame.
         """
-        evidence = LevelEvidence(self.scene, marker, statistics.residual[:, marker], self.options)
+        evidence = LevelEvidence(
+            self.scene, marker, statistics.residual[:, marker], self.options.level, self.options.shape
+        )
         runs = level_shifts.explanations(found, evidence, missing=missing, rate=self.scene.rate, options=self.options)
         return [stretch for run in runs for stretch in run.displaced()]
 

@@ -13,6 +13,7 @@ from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.detection.frames import FramesOptions
 from markermend.options.detection.frozen import FrozenOptions
 from markermend.options.detection.labels import LabelsOptions
+from markermend.options.detection.level import LevelOptions
 from markermend.options.detection.noise import NoiseOptions
 from markermend.options.detection.peaks import PeaksOptions
 from markermend.options.detection.slow import SlowOptions
@@ -54,6 +55,7 @@ SECTIONS: dict[str, type] = {
     "qc": QcOptions,
     "report": NoOptions,
     "shape": ShapeOptions,
+    "level": LevelOptions,
     "displacement": DisplacementOptions,
     "predictors": PredictorOptions,
 }

@@ -104,6 +104,15 @@ RENAMED: dict[str, tuple[str, dict[str, str]]] = {
             "minimum_changes": "min_sudden_changes",
         },
     ),
+    "steps": (
+        "steps",
+        {
+            "correlation_time_s": "level.correlation_time_s",
+            "remaining_fractions": "level.remaining_fractions",
+            "min_shape_deviation_mm": "level.min_shape_deviation_mm",
+            "similar_poses": "level.similar_poses",
+        },
+    ),
     "steps.default": (
         "steps",
         {

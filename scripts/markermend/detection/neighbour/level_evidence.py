@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from markermend.detection.neighbour.similar_poses import SimilarPoses
-from markermend.numerics import intervals, robust
-from markermend.options.detection.steps import StepsOptions
+from markermend.numerics import robust
+from markermend.options.detection.level import LevelOptions
 from markermend.options.shape import ShapeOptions
 from markermend.prediction.scene import Scene
 from markermend.prediction.shape_evidence import ShapeEvidence
@@ -37,19 +37,22 @@ class LevelEvidence:
         Index of the marker.
     residual : np.ndarray
         Its residual (frames, 3), mm, NaN = missing.
-    options : StepsOptions
-        What remains in the residual, over which time levels vary, and the options of the shape.
+    options : LevelOptions
+        What remains in the residual, and over which time levels vary.
+    shape : ShapeOptions
+        Numbers of distances that count.
     """
 
     scene: Scene
     marker: int
     residual: np.ndarray
-    options: StepsOptions
+    options: LevelOptions
+    shape: ShapeOptions
 
     @cached_property
     def _shape(self) -> ShapeOptions:
         """The options of the shape for comparisons of levels, which are finer than contradictions."""
-        return replace(self.options.shape, min_deviation_mm=self.options.min_shape_deviation_mm)
+        return replace(self.shape, min_deviation_mm=self.options.min_shape_deviation_mm)
 
     @cached_property
     def _scale(self) -> np.ndarray:
@@ -84,14 +87,10 @@ class LevelEvidence:
         float
             Logarithm of the likelihood with the displacement less that without it; 0 where nothing is known.
         """
-        weight = self._weight(frames)
-        parts = self.options.remaining_fractions
-        residual = [weight * self._of_residual(part * displacement, frames) for part in parts]
-        average = float(np.logaddexp.reduce(residual)) - np.log(len(parts))
-        return float(average + weight * self._of_shape(displacement, frames))
+        return sum(self.log_ratios(displacement, frames))
 
-    def recurrence(self, displacement: np.ndarray, frames: np.ndarray) -> float:
-        """Compare a displacement with none at similar poses at other times: what recurs with the pose is motion.
+    def log_ratios(self, displacement: np.ndarray, frames: np.ndarray) -> tuple[float, float]:
+        """Compare a displacement with none, by the residual and by the usual distances.
 
         Parameters
         ----------
@@ -102,14 +101,37 @@ class LevelEvidence:
 
         Returns
         -------
+        tuple[float, float]
+            Logarithms of the likelihood with the displacement less that without it, of the residual and of the distances; each is 0 where
+            nothing is known.
+        """
+        weight = self._weight(frames)
+        parts = self.options.remaining_fractions
+        residual = [weight * self._of_residual(part * displacement, frames) for part in parts]
+        average = float(np.logaddexp.reduce(residual)) - float(np.log(len(parts)))
+        return average, weight * self._of_shape(displacement, frames)
+
+    def recurrence(self, displacement: np.ndarray, frames: np.ndarray, *, apart: int) -> float:
+        """Compare a displacement with none at similar poses at other times: what recurs with the pose is motion.
+
+        Parameters
+        ----------
+        displacement : np.ndarray
+            By how much the marker is displaced (3,), mm.
+        frames : np.ndarray
+            In which frames (n,).
+        apart : int
+            Frames beside these that are no other time.
+
+        Returns
+        -------
         float
             Logarithm of the likelihood with the displacement less that without it, at most 0: that the marker is elsewhere at similar
             poses is no evidence for a displacement, since motion may differ.
         """
         poses, count = self._poses, self.options.similar_poses.max_samples
         some = frames[np.unique(np.linspace(0, len(frames) - 1, count).astype(int))]
-        near = intervals.samples(self.options.level_window_s, self.scene.rate)
-        usual, deviation = poses.predict(some, excluded=(int(frames[0]) - near, int(frames[-1]) + 1 + near))
+        usual, deviation = poses.predict(some, excluded=(int(frames[0]) - apart, int(frames[-1]) + 1 + apart))
         scale = np.hypot(deviation, self.options.similar_poses.min_deviation_mm)
         points = self.scene.positions[some, self.marker]
         before, after = (poses.distances(own, some) - usual for own in (points, points - displacement))

@@ -193,7 +193,9 @@ class Explanations:
     def _level_ratio(self, displacement: np.ndarray, first: int, last: int) -> float:
         """What the level says for a displacement between two edges or ends, and against it beyond an end."""
         inside = np.arange(self.frames[first], self.frames[last])
-        ratio = self.evidence.log_ratio(displacement, inside) + self.evidence.recurrence(displacement, inside)
+        apart = intervals.samples(self.options.level_window_s, self.rate)
+        ratio = self.evidence.log_ratio(displacement, inside)
+        ratio += self.evidence.recurrence(displacement, inside, apart=apart)
         for end, edge, beyond in ((first, last, self.beyond[0]), (last, first, self.beyond[1])):
             if end in (0, len(self.frames) - 1):
                 if len(beyond):

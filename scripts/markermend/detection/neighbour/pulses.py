@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
+from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.residual_windows import Exceedances, ResidualStatistics, WindowFilters
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
@@ -152,8 +153,8 @@ def find_pulses(
     statistics: ResidualStatistics,
     marker: int,
     dip_covariance: WindowCovariance,
+    evidence: LevelEvidence,
     *,
-    rate: float,
     options: PeaksOptions,
 ) -> list[Pulse]:
     """Find the pulses of one marker, peaks and dips; none has a stronger one within the context by which that is judged.
@@ -166,8 +167,8 @@ def find_pulses(
         Index of the marker.
     dip_covariance : WindowCovariance
         Covariance of windows as long as those of the longest dip.
-    rate : float
-        Sampling rate, Hz.
+    evidence : LevelEvidence
+        What the level of the marker says of dips.
     options : PeaksOptions
         Longest pulse, threshold, context, and attribution.
 
@@ -176,6 +177,7 @@ def find_pulses(
     list[Pulse]
         The pulses, the strongest first.
     """
+    rate = evidence.scene.rate
     context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
     short, longest = (
         intervals.samples(seconds, rate) for seconds in (options.max_duration_s, options.max_dip_duration_s)
@@ -185,21 +187,32 @@ def find_pulses(
         for length in range(1, min(max(short, longest), stop - start - 2 * context) + 1):
             peak = length <= short
             covariance = statistics.covariance if peak else dip_covariance
-            reach, factor = (0, 1.0) if peak else (options.dip_ramp_frames, options.dip_threshold_factor)
+            reach, least = (0, 1.0) if peak else (options.dip_ramp_frames, options.likely_dip_threshold_factor)
             size = length + 2 * context
             # Near a gap or an end of the recording a dip cannot be distinguished from motion.
             spans = residual_windows.window_spans(start, stop, size, context)[: None if peak else 1]
             for span, offsets in spans:
                 inside = tuple(offset for offset in offsets if offset + length <= size)
                 filters = pulse_filters(covariance, length, size, inside)
-                over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=factor)
-                for pulse in _pulses(over, filters, (length, reach), covariance, options):
-                    candidates.append(replace(pulse, score=pulse.score / factor))
+                over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=least)
+                found = _pulses(over, filters, (length, reach), covariance, options)
+                candidates += found if peak else _dips(found, evidence, options)
     kept: list[Pulse] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
             kept.append(candidate)
     return kept
+
+
+def _dips(found: Iterable[Pulse], evidence: LevelEvidence, options: PeaksOptions) -> Iterator[Pulse]:
+    """The pulses that are above the threshold of dips, which depends on what residual and usual distances say of their level."""
+    for pulse in found:
+        residual, shape = evidence.log_ratios(pulse.deviation.mean(axis=0), np.arange(pulse.start, pulse.stop))
+        factor = options.unlikely_dip_threshold_factor if shape < 0 else options.dip_threshold_factor
+        if min(residual, shape) >= options.min_dip_log_ratio:
+            factor = options.likely_dip_threshold_factor
+        if pulse.score > factor:
+            yield replace(pulse, score=pulse.score / factor)
 
 
 def _pulses(
@@ -222,7 +235,10 @@ def _pulses(
         innovation = innovation_map(covariance, length, filters.length, offset)
         deviation = innovation @ over.residual[i].T
         own = residual_windows.recorded_part(innovation @ over.positions[i].T, deviation)
-        inside = np.flatnonzero(own >= fraction * own.max())
+        largest = np.linalg.norm(deviation, axis=1).max()
+        inside = np.flatnonzero(own >= fraction * largest)
+        if not len(inside):  # The deviation is a neighbour's.
+            continue
         low, high = int(inside[0]), int(inside[-1]) + 1
         # Up to the very border of a gap a level shift and a pulse are the same.
         enclosed = offset + low > 0 and offset + high < filters.length

@@ -269,12 +269,15 @@ def exceedances(
         sliding_windows(values[span, marker], filters.length) for values in (statistics.residual, statistics.positions)
     )
     amplitude = (residual @ filters.weights.T).transpose(0, 2, 1)
-    at, which = np.nonzero((amplitude**2).sum(axis=2) > (fraction * options.floor_mm) ** 2)
-    amplitude = amplitude[at, which]
+    # The noise is at least the local scale: most windows are below the threshold whatever their misfit.
+    deviation = options.threshold_sigmas * filters.deviation
+    frames = np.arange(span.start, span.start + len(amplitude))[:, None] + filters.offsets
+    least = fraction * np.maximum(deviation * statistics.local_scale[frames, marker], options.floor_mm)
+    at, which = np.nonzero((amplitude**2).sum(axis=2) > least**2)
+    amplitude, frame = amplitude[at, which], frames[at, which]
     own = recorded_part(np.einsum("ian,in->ia", positions[at], filters.weights[which]), amplitude)
-    misfit = filters.misfit(residual[at], which)
-    frame = span.start + at + filters.offsets[which]
+    misfit = filters.misfit(residual[at], which) if len(at) else np.zeros(0)
     noise = np.hypot(misfit, statistics.local_scale[frame, marker])
-    score = own / np.maximum(options.threshold_sigmas * noise * filters.deviation[which], options.floor_mm)
+    score = own / np.maximum(deviation[which] * noise, options.floor_mm)
     k = score > fraction
     return Exceedances(residual[at[k]], positions[at[k]], which[k], frame[k], amplitude[k], score[k], misfit[k])

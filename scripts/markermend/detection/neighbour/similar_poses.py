@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from markermend.numerics.distances import distances
-from markermend.options.detection.steps import SimilarPosesOptions
+from markermend.options.detection.level import SimilarPosesOptions
 from markermend.prediction.scene import Scene
 
 

@@ -7,7 +7,6 @@ from typing import Annotated
 
 from markermend.options.declaration import (
     Count,
-    Factor,
     Laboratory,
     NotNegative,
     Positive,
@@ -16,6 +15,7 @@ from markermend.options.declaration import (
     Shared,
 )
 from markermend.options.detection.detector import DetectorOptions, Preset
+from markermend.options.detection.level import LevelOptions
 from markermend.options.detection.published import PublishedPeaksOptions
 from markermend.options.detection.residual_windows import ResidualWindowOptions
 from markermend.options.shape import ShapeOptions
@@ -62,8 +62,19 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
     max_dip_duration_s: PositiveSeconds = 0.12
     """Longest dip: longer than a peak, and too short for the two jumps of a step to be separated if they have ramps."""
 
-    dip_threshold_factor: Factor = 2
-    """Factor by which the threshold of a dip exceeds that of a peak: motion makes such pulses."""
+    dip_threshold_factor: Positive = 1.25
+    """Threshold of a dip, in units of that of a peak: motion makes such pulses.
+
+    Change it when motion is taken for dips (higher), or dips are missed (lower)."""
+
+    likely_dip_threshold_factor: Positive = 0.7
+    """The same of a dip for which residual and usual distances speak both, see `min_dip_log_ratio`."""
+
+    unlikely_dip_threshold_factor: Positive = 2
+    """The same of a dip against which the usual distances speak."""
+
+    min_dip_log_ratio: NotNegative = 3
+    """Residual and distances speak for a dip if the logarithm of the ratio of the likelihoods with it and without it is at least this."""
 
     white_noise_ratio: Positive = 0.01
     """Independent noise that is always allowed for, in units of the mean variance (far above 1: samples count as independent).
@@ -94,6 +105,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The subject's usual shape."""
+
+    level: Annotated[LevelOptions, Shared()] = field(default_factory=LevelOptions)
+    """The evidence of a displaced level."""
 
     coordinates: PublishedPeaksOptions = field(default_factory=PublishedPeaksOptions)
     """Options of the preset `coordinates`: coordinate by coordinate, with robust thresholds."""

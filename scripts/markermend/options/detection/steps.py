@@ -9,14 +9,11 @@ from markermend.options.declaration import (
     Above,
     AtLeast,
     AtMost,
-    Count,
     CountOrNone,
     Factor,
     Laboratory,
-    NotEmpty,
     NotNegative,
     Positive,
-    PositiveMillimetres,
     PositiveSeconds,
     Seconds,
     Share,
@@ -24,40 +21,10 @@ from markermend.options.declaration import (
 )
 from markermend.options.detection.detector import DetectorOptions, Preset
 from markermend.options.detection.displacement import DisplacementOptions
+from markermend.options.detection.level import LevelOptions
 from markermend.options.detection.published import PublishedStepsOptions
 from markermend.options.detection.residual_windows import ResidualWindowOptions
 from markermend.options.shape import ShapeOptions
-
-
-@dataclass(frozen=True)
-class SimilarPosesOptions:
-    """Compare the distances of a marker with those at similar poses at other times: what recurs with the pose is motion."""
-
-    neighbours: Count = 8
-    """Nearest neighbours to which the distances of a marker are compared, and whose distances among each other are the pose."""
-
-    poses: Count = 9
-    """The most similar poses from which the distances are predicted."""
-
-    min_poses: Annotated[int, AtLeast(1)] = 3
-    """Fewer of them predict nothing."""
-
-    sampling_interval_s: PositiveSeconds = 0.1
-    """Time from one pose that is looked at to the next."""
-
-    pose_tolerance_mm: PositiveMillimetres = 0.5
-    """Poses are equally similar where the distances of the marker would differ by less, see `distance_slope`."""
-
-    distance_slope: NotNegative = 0.1
-    """By how much the distances of a marker may differ where the pose does, per mm of its root mean square difference."""
-
-    min_deviation_mm: PositiveMillimetres = 1.5
-    """Standard deviation of the distances at equal poses, at least: a few distances do not fix a pose to the millimetre.
-
-    Change it when small steps are missed (higher), or motion that recurs is taken for steps (lower)."""
-
-    max_samples: Count = 8
-    """Frames of a stretch, evenly spaced, that are compared."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +37,9 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
 
     shape: Annotated[ShapeOptions, Shared()] = field(default_factory=ShapeOptions)
     """The evidence of the subject's usual shape."""
+
+    level: Annotated[LevelOptions, Shared()] = field(default_factory=LevelOptions)
+    """The evidence of a displaced level."""
 
     displacement: Annotated[DisplacementOptions, Shared()] = field(default_factory=DisplacementOptions)
     """Lasting displacements."""
@@ -142,18 +112,6 @@ class StepsOptions(ResidualWindowOptions, DetectorOptions):
     displaced_cost_per_s: NotNegative = 8
     """By how much the logarithm of the likelihood of a step falls with its duration, per second: the longer part is right where
     nothing else decides."""
-
-    correlation_time_s: PositiveSeconds = 0.25
-    """Time over which the level of a marker against its neighbours varies: samples nearer to each other say the same."""
-
-    remaining_fractions: Annotated[tuple[Annotated[float, Above(0), AtMost(1)], ...], NotEmpty] = (1, 0.5, 0.25)
-    """Parts of a displacement, all of them tried, that remain in the residual: the regression has learnt the others (0 to 1)."""
-
-    min_shape_deviation_mm: PositiveMillimetres = 0.5
-    """No distance counts as steadier than this when levels are compared."""
-
-    similar_poses: SimilarPosesOptions = field(default_factory=SimilarPosesOptions)
-    """Comparison with similar poses at other times."""
 
     min_probability: Share = 0.95
     """Probability that a stretch is displaced rather than the stretches around it, or none, at least (0 to 1).

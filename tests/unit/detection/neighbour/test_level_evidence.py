@@ -31,7 +31,9 @@ def nothing():
 
 
 def test_the_shape_says_which_level_is_right():
-    displaced, good = (LevelEvidence(body(displaced=own), 0, nothing(), STEPS) for own in (True, False))
+    displaced, good = (
+        LevelEvidence(body(displaced=own), 0, nothing(), STEPS.level, STEPS.shape) for own in (True, False)
+    )
     assert displaced.log_ratio(SHIFT, INSIDE) > 5
     assert displaced.log_ratio(-SHIFT, INSIDE) < displaced.log_ratio(SHIFT, INSIDE) - 5
     assert good.log_ratio(SHIFT, INSIDE) < -5
@@ -43,7 +45,7 @@ def test_the_residual_speaks_for_a_displacement_also_where_the_regression_has_le
     for part in (1.0, 0.5, 0.0):
         residual = nothing() / 2
         residual[INSIDE] += part * SHIFT
-        ratios.append(LevelEvidence(alone, 0, residual, STEPS).log_ratio(SHIFT, INSIDE))
+        ratios.append(LevelEvidence(alone, 0, residual, STEPS.level, STEPS.shape).log_ratio(SHIFT, INSIDE))
     assert ratios[0] > ratios[1] > 5
     assert ratios[2] < 0
 
@@ -53,7 +55,7 @@ def test_nothing_is_said_of_what_is_missing():
     scene.positions[INSIDE, 0] = np.nan
     residual = nothing()
     residual[INSIDE] = np.nan
-    assert LevelEvidence(scene, 0, residual, STEPS).log_ratio(SHIFT, INSIDE) == pytest.approx(0)
+    assert LevelEvidence(scene, 0, residual, STEPS.level, STEPS.shape).log_ratio(SHIFT, INSIDE) == pytest.approx(0)
 
 
 @pytest.mark.parametrize(("times", "least", "most"), [(1, 0, 0), (4, -np.inf, -5)])
@@ -66,5 +68,7 @@ def test_a_displacement_that_recurs_with_the_pose_is_motion(times, least, most):
     displaced = [np.arange(*visit) for visit in intervals.runs(bend > 0.5)][:times]
     positions[np.concatenate(displaced), 0] += SHIFT
     scene = Scene(positions, 100.0, [np.arange(1, 5), *(np.zeros(0, int) for _ in range(4))])
-    recurrence = LevelEvidence(scene, 0, np.zeros((frames, 3)), STEPS).recurrence(SHIFT, displaced[0])
+    recurrence = LevelEvidence(scene, 0, np.zeros((frames, 3)), STEPS.level, STEPS.shape).recurrence(
+        SHIFT, displaced[0], apart=30
+    )
     assert least <= recurrence <= most

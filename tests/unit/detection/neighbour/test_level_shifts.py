@@ -31,7 +31,7 @@ def explanations(residual, *found, missing=(), options=STEPS):
     gone[list(missing)] = True
     residual = np.where(gone[:, None], np.nan, residual)
     scene = Scene(residual[:, None], RATE, [np.zeros(0, int)])
-    evidence = LevelEvidence(scene, 0, residual, options)
+    evidence = LevelEvidence(scene, 0, residual, options.level, options.shape)
     return level_shifts.explanations(list(found), evidence, missing=gone, rate=RATE, options=options)
 
 

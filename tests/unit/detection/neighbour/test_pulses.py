@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.shape import Shape
 from markermend.detection.neighbour import pulses
+from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance
-from support.residuals import PEAKS, peak_statistics, rough
+from markermend.prediction.scene import Scene
+from support.residuals import PEAKS, alone, peak_statistics, rough
 from support.signals import RATES
 
 
@@ -40,10 +43,28 @@ def test_a_wave_has_the_amplitude_that_it_was_given():
         assert filters.misfit(window[None, None], np.array([0])) == pytest.approx(0, abs=1e-3)
 
 
-def find(statistics, *, rate=100.0, options=PEAKS):
+def find(statistics, *, rate=100.0, options=PEAKS, scene=None):
     longest = round(options.max_dip_duration_s * rate) + 2 * max(pulses.MIN_CONTEXT, round(options.context_s * rate))
     covariance = fit_window_covariance(statistics.residual, size=longest, order=2, shrinkage=0.01, max_windows=5000)
-    return pulses.find_pulses(statistics, 0, covariance, rate=rate, options=options)
+    scene = alone(statistics.positions[:, 0], rate) if scene is None else scene
+    evidence = LevelEvidence(scene, 0, statistics.residual[:, 0], options.level, options.shape)
+    return pulses.find_pulses(statistics, 0, covariance, evidence, options=options)
+
+
+def test_a_dip_of_which_residual_and_distances_give_evidence_is_found_below_the_threshold():
+    rng = np.random.default_rng(5)
+    residual, mates = rough(400, 5), rng.normal(0, 200, (5, 3))
+    residual[150:159] += np.concatenate([[0.25, 0.5, 0.75], np.ones(4), [0.67, 0.33]])[:, None] * [1.7, 0, 0]
+    positions = np.concatenate([residual[:, None], np.broadcast_to(mates, (400, 5, 3))], axis=1)
+    distance = np.linalg.norm(positions[0, :, None] - positions[0], axis=2)
+    statistics = peak_statistics(residual, residual, 100.0)
+    found = []
+    for deviation in (0.5, 50.0):
+        spread = np.full((6, 6), deviation)
+        shape = Shape(distance, spread, spread)
+        scene = Scene(positions, 100.0, [np.zeros(0, int)] * 6, shape=shape)
+        found.append([(one.start, one.stop) for one in find(statistics, scene=scene)])
+    assert found == [[(150, 159)], []]
 
 
 def test_a_dip_is_found_with_its_ramps():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from markermend.detection.neighbour.similar_poses import SimilarPoses
-from markermend.options.detection.steps import SimilarPosesOptions
+from markermend.options.detection.level import SimilarPosesOptions
 from markermend.prediction.scene import Scene
 from support.naive import level_shifts as naive
 
