@@ -38,7 +38,7 @@ from benchmarks.support.defaults import DATA
 from benchmarks.support.recording_folds import CROPS, GROUPS, Crop, load
 from markermend import api
 from markermend.core.recording import Recording
-from markermend.detection.neighbour import nearest_neighbours, pulses, residual_scale, residual_windows
+from markermend.detection.neighbour import nearest_neighbours, pulse_filters, pulses, residual_scale, residual_windows
 from markermend.detection.neighbour.drifts.regression import MIN_SCALE_MM
 from markermend.detection.peaks import PeakDetector
 from markermend.detection.slow import SlowChanges
@@ -162,7 +162,7 @@ def dips(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
     for seconds in DIP_SECONDS:
         length = intervals.samples(seconds, scene.rate)
         size = length + 2 * context
-        filters = pulses.pulse_filters(detector.covariance(residual, size), length, size, (context,))
+        filters = pulse_filters.pulse_filters(detector.covariance(residual, size), length, size, (context,))
         ramp, after = min(DIP_RAMP_FRAMES, (length - 1) // 2), np.arange(size) - context + 1
         course = np.clip(np.minimum(after, length + 1 - after) / (ramp + 1), 0.0, 1.0)
         across = filters.precision @ course

@@ -10,7 +10,7 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection import inputs
-from markermend.detection.neighbour import attribution, pulses, residual_windows
+from markermend.detection.neighbour import attribution, pulse_filters, pulses, residual_windows
 from markermend.detection.neighbour.common_motion import without_common_motion
 from markermend.detection.neighbour.level_evidence import LevelEvidence
 from markermend.detection.neighbour.residual_windows import ResidualStatistics, WindowFilters
@@ -83,7 +83,7 @@ class PeakDetector(WindowDetector):
 
     def central_filter(self, covariance: WindowCovariance) -> WindowFilters:
         """Make the filter of the longest pulse; see `WindowDetector.central_filter`."""
-        return pulses.pulse_filters(covariance, self._longest, self.window, (self._context,))
+        return pulse_filters.pulse_filters(covariance, self._longest, self.window, (self._context,))
 
     def measure(self, residual: np.ndarray) -> ResidualStatistics:
         """Estimate the covariances of windows of peaks, and of those of dips; see `Detector.measure`."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
 from markermend.detection.neighbour import residual_windows
 from markermend.detection.neighbour.level_evidence import LevelEvidence
+from markermend.detection.neighbour.pulse_filters import innovation_map, misfit_of_change, pulse_filters
 from markermend.detection.neighbour.residual_windows import Exceedances, ResidualStatistics, WindowFilters
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs
@@ -38,115 +38,6 @@ class Pulse:
     stop: int
     score: float
     deviation: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
-class PulseFilters(WindowFilters):
-    """Matched filters of a half wave, whose misfit is that of the samples outside of it, whatever its shape.
-
-    Attributes
-    ----------
-    inside : np.ndarray
-        The samples of the half wave (c, length).
-    """
-
-    inside: np.ndarray
-
-    def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
-        """Compute what samples of any size in place of the half wave explain; see `WindowFilters.explained`."""
-        used, which = np.unique(filters, return_inverse=True)
-        inside = self.inside[used]
-        root = np.linalg.cholesky(self.precision[inside[:, :, None], inside[:, None]])
-        maps = np.linalg.solve(root, self.precision[inside])
-        each = maps if len(used) == 1 else maps[which]
-        square: np.ndarray = ((windows @ each.swapaxes(1, 2)) ** 2).sum(axis=(1, 2))
-        return square
-
-
-@lru_cache(maxsize=512)
-def pulse_filters(covariance: WindowCovariance, length: int, size: int, offsets: tuple[int, ...]) -> PulseFilters:
-    """Make the matched filters of a half wave of sine.
-
-    Parameters
-    ----------
-    covariance : WindowCovariance
-        Covariance of the residual windows.
-    length : int
-        Samples of the half wave.
-    size : int
-        Samples in a window.
-    offsets : tuple[int, ...]
-        First sample of the half wave.
-
-    Returns
-    -------
-    PulseFilters
-        A filter for each offset.
-    """
-    precision = covariance.precision(size)
-    wave = np.sin(np.pi * (np.arange(length) + 0.5) / length)
-    inside = np.array(offsets)[:, None] + np.arange(length)
-    across, block = precision[inside], precision[inside[:, :, None], inside[:, None]]
-    information = wave @ block @ wave
-    return PulseFilters(
-        offsets=np.array(offsets),
-        weights=wave @ across / information[:, None],
-        deviation=information**-0.5,
-        precision=precision,
-        degrees_of_freedom=covariance.degrees_of_freedom(size) - length,
-        inside=inside,
-    )
-
-
-@lru_cache(maxsize=512)
-def innovation_map(covariance: WindowCovariance, length: int, size: int, offset: int) -> np.ndarray:
-    """Make the map from a window to the deviation of some samples from what the others predict.
-
-    Parameters
-    ----------
-    covariance : WindowCovariance
-        Covariance of the residual windows.
-    length : int
-        How many samples.
-    size : int
-        Samples in a window.
-    offset : int
-        The first of them.
-
-    Returns
-    -------
-    np.ndarray
-        Matrix (length, size).
-    """
-    across = covariance.precision(size)[offset : offset + length]
-    deviation: np.ndarray = np.linalg.solve(across[:, offset : offset + length], across)
-    return deviation
-
-
-@lru_cache(maxsize=512)
-def whitened_changes(covariance: WindowCovariance, size: int, *, order: int) -> np.ndarray:
-    """Make the map from a window to the amplitudes of changes of level or velocity at each place, each in standard deviations.
-
-    Parameters
-    ----------
-    covariance : WindowCovariance
-        Covariance of the residual windows.
-    size : int
-        Samples in a window.
-    order : int
-        0 for steps, changes of level; 1 for kinks, changes of velocity.
-
-    Returns
-    -------
-    np.ndarray
-        Matrix (size - 1 - order, size).
-    """
-    precision = covariance.precision(size)
-    after = np.arange(size) - np.arange(1 + order, size)[:, None] + 1
-    change = np.maximum(after, 0) ** order * (after > 0)
-    across = change @ precision
-    whitened: np.ndarray = across / np.sqrt(np.maximum((across * change).sum(axis=1), 1e-12))[:, None]
-    return whitened
 
 
 def find_pulses(
@@ -196,7 +87,7 @@ def find_pulses(
                 filters = pulse_filters(covariance, length, size, inside)
                 over = residual_windows.exceedances(statistics, marker, span, filters, options, fraction=least)
                 found = _pulses(over, filters, (length, reach), covariance, options)
-                candidates += found if peak else _dips(found, evidence, options)
+                candidates += found if peak else _dips(found, evidence, context, options)
     kept: list[Pulse] = []
     for candidate in sorted(candidates, key=lambda c: (-c.score, c.stop - c.start, c.start)):
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
@@ -204,14 +95,21 @@ def find_pulses(
     return kept
 
 
-def _dips(found: Iterable[Pulse], evidence: LevelEvidence, options: PeaksOptions) -> Iterator[Pulse]:
-    """The pulses that are above the threshold of dips, which depends on what residual and usual distances say of their level."""
+def _dips(found: Iterable[Pulse], evidence: LevelEvidence, context: int, options: PeaksOptions) -> Iterator[Pulse]:
+    """The pulses that are above the threshold of dips, which depends on what residual and usual distances say of their level.
+
+    A pulse beside which the marker is displaced as well, by half of that evidence or more, is part of a step.
+    """
     for pulse in found:
-        residual, shape = evidence.log_ratios(pulse.deviation.mean(axis=0), np.arange(pulse.start, pulse.stop))
+        displacement = pulse.deviation.mean(axis=0)
+        residual, shape = evidence.log_ratios(displacement, np.arange(pulse.start, pulse.stop))
         factor = options.unlikely_dip_threshold_factor if shape < 0 else options.dip_threshold_factor
         if min(residual, shape) >= options.min_dip_log_ratio:
             factor = options.likely_dip_threshold_factor
-        if pulse.score > factor:
+        last = min(pulse.stop + context, len(evidence.residual))
+        beside = np.arange(max(pulse.start - context, 0), pulse.start), np.arange(pulse.stop, last)
+        most = max(residual + shape, 0.0) / 2
+        if pulse.score > factor and all(evidence.log_ratio(displacement, frames) <= most for frames in beside):
             yield replace(pulse, score=pulse.score / factor)
 
 
@@ -243,15 +141,7 @@ def _pulses(
         # Up to the very border of a gap a level shift and a pulse are the same.
         enclosed = offset + low > 0 and offset + high < filters.length
         ratios = (options.max_shift_ratio, options.max_kink_ratio) if enclosed else ()
-        left = (_misfit_of_change(over.residual[i], covariance, order=order) for order in range(len(ratios)))
+        left = (misfit_of_change(over.residual[i], covariance, order=order) for order in range(len(ratios)))
         if any(misfit <= ratio * over.misfit[i] for misfit, ratio in zip(left, ratios, strict=True)):
             continue
         yield Pulse(first + low, first + high, float(over.score[i]), deviation[low:high])
-
-
-def _misfit_of_change(window: np.ndarray, covariance: WindowCovariance, *, order: int) -> float:
-    """Root mean square that the change of level or velocity which fits best leaves of a window (3, n), mm."""
-    size = window.shape[1]
-    whole = np.einsum("an,nm,am->", window, covariance.precision(size), window)
-    explained = ((window @ whitened_changes(covariance, size, order=order).T) ** 2).sum(axis=0).max()
-    return float(np.sqrt(max(whole - explained, 0) / (3 * (covariance.degrees_of_freedom(size) - 1))))

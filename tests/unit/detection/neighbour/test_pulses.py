@@ -8,39 +8,10 @@ import pytest
 from markermend.core.shape import Shape
 from markermend.detection.neighbour import pulses
 from markermend.detection.neighbour.level_evidence import LevelEvidence
-from markermend.numerics.window_covariance import WindowCovariance, fit_window_covariance
+from markermend.numerics.window_covariance import fit_window_covariance
 from markermend.prediction.scene import Scene
 from support.residuals import PEAKS, alone, peak_statistics, rough
 from support.signals import RATES
-
-
-@pytest.mark.parametrize("offset", [0, 3, 6, 12])
-def test_with_independent_samples_the_innovation_is_that_of_a_fitted_polynomial(offset):
-    window = np.random.default_rng(1).normal(0, 1, 16)
-    independent, inside = WindowCovariance(np.eye(16), 3), np.arange(offset, offset + 4)
-    others = np.setdiff1d(np.arange(16), inside)
-    fit = np.polyfit(others, window[others], 3)
-    off = window - np.polyval(fit, np.arange(16))
-    np.testing.assert_allclose(pulses.innovation_map(independent, 4, 16, offset) @ window, off[inside])
-    filters = pulses.pulse_filters(independent, 4, 16, (offset,))
-    basis = np.linalg.qr(np.vander(np.linspace(-1, 1, 16), 4))[0]
-    unit = 1 - (basis[8] ** 2).sum()  # how well the middle sample follows from the others
-    [misfit] = filters.misfit(window[None, None], np.array([0]))
-    assert misfit**2 == pytest.approx((off[others] ** 2).sum() / unit / (16 - 4 - 4))
-
-
-def test_a_wave_has_the_amplitude_that_it_was_given():
-    size, at = 16, np.arange(16)
-    covariance = fit_window_covariance(
-        rough(2000, 9)[:, None].cumsum(axis=0), size=size, order=2, shrinkage=0.01, max_windows=5000
-    )
-    wave = np.sin(np.pi * (np.arange(5) + 0.5) / 5)
-    for offset in (0, 6, 11):
-        filters = pulses.pulse_filters(covariance, 5, size, (offset,))
-        window = 0.1 * at**2 - at + 3.0
-        window[offset : offset + 5] += 4 * wave
-        assert filters.weights[0] @ window == pytest.approx(4)
-        assert filters.misfit(window[None, None], np.array([0])) == pytest.approx(0, abs=1e-3)
 
 
 def find(statistics, *, rate=100.0, options=PEAKS, scene=None):
@@ -51,20 +22,28 @@ def find(statistics, *, rate=100.0, options=PEAKS, scene=None):
     return pulses.find_pulses(statistics, 0, covariance, evidence, options=options)
 
 
-def test_a_dip_of_which_residual_and_distances_give_evidence_is_found_below_the_threshold():
-    rng = np.random.default_rng(5)
-    residual, mates = rough(400, 5), rng.normal(0, 200, (5, 3))
+def among_mates(positions, *, deviation):
+    """A scene of a marker (frames, 3) and five mates at rest, with distances of a standard deviation that is usual."""
+    mates = np.broadcast_to(np.random.default_rng(5).normal(0, 200, (5, 3)), (len(positions), 5, 3))
+    together = np.concatenate([positions[:, None], mates], axis=1)
+    distance = np.linalg.norm(together[0, :, None] - together[0], axis=2)
+    spread = np.full(distance.shape, deviation)
+    return Scene(together, 100.0, [np.zeros(0, int)] * 6, shape=Shape(distance, spread, spread))
+
+
+def test_a_dip_for_which_residual_and_distances_speak_is_found_below_the_threshold():
+    residual = rough(400, 5)
     residual[150:159] += np.concatenate([[0.25, 0.5, 0.75], np.ones(4), [0.67, 0.33]])[:, None] * [1.7, 0, 0]
-    positions = np.concatenate([residual[:, None], np.broadcast_to(mates, (400, 5, 3))], axis=1)
-    distance = np.linalg.norm(positions[0, :, None] - positions[0], axis=2)
     statistics = peak_statistics(residual, residual, 100.0)
-    found = []
-    for deviation in (0.5, 50.0):
-        spread = np.full((6, 6), deviation)
-        shape = Shape(distance, spread, spread)
-        scene = Scene(positions, 100.0, [np.zeros(0, int)] * 6, shape=shape)
-        found.append([(one.start, one.stop) for one in find(statistics, scene=scene)])
-    assert found == [[(150, 159)], []]
+    found = [find(statistics, scene=among_mates(residual, deviation=own)) for own in (0.5, 50.0)]
+    assert [[(one.start, one.stop) for one in each] for each in found] == [[(150, 159)], []]
+
+
+def test_the_first_part_of_a_step_is_no_dip():
+    residual = rough(400, 5)
+    residual[150:171, 0] += np.repeat([10.0, 5.0], [9, 12])
+    statistics = peak_statistics(residual, residual, 100.0)
+    assert not find(statistics, scene=among_mates(residual, deviation=1.0))
 
 
 def test_a_dip_is_found_with_its_ramps():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from markermend.detection.neighbour import edges, pulses, residual_windows
+from markermend.detection.neighbour import edges, pulse_filters, pulses, residual_windows
 from markermend.numerics.window_covariance import WindowCovariance
 from support.naive import residual_windows as naive
 from support.residuals import PEAKS, STEPS, peak_statistics, rough, step_statistics
@@ -53,7 +53,7 @@ def test_pulses_exceed_as_generalised_least_squares_says(length):
     statistics = peak_statistics(residual, residual, 100.0, low)
     size = length + 2 * residual_windows.context_samples(100.0, low, min_samples=pulses.MIN_CONTEXT)
     offset = (size - length) // 2
-    filters = pulses.pulse_filters(statistics.covariance, length, size, (offset,))
+    filters = pulse_filters.pulse_filters(statistics.covariance, length, size, (offset,))
     found = residual_windows.exceedances(statistics, 0, slice(0, 150), filters, low)
     expected = {}
     for start in range(150 - size + 1):
@@ -74,7 +74,7 @@ def test_the_misfit_about_a_frame_is_that_of_the_window_around_it_or_of_the_near
     residual[40] = np.nan
     size = 12
     covariance = WindowCovariance(np.eye(size), 2)
-    filters = pulses.pulse_filters(covariance, 2, size, (5,))
+    filters = pulse_filters.pulse_filters(covariance, 2, size, (5,))
     misfit = residual_windows.window_misfit(residual, filters)
     assert np.array_equal(np.isnan(misfit), np.isnan(residual[:, 0]))
     for start, stop in ((0, 20), (22, 40), (41, 60)):
