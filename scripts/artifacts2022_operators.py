@@ -1,6 +1,6 @@
 """Compare what persons found in a recording with what the algorithm finds (skurowski2022, E2).
 
-Reads: PREPARED, a recording, and the tables of decisions that the options name; without any, the person is one who sees all artifacts
+Reads: PREPARED, a recording, and the tables of persons that the options name; without any, the person is one who sees all artifacts
 that are put into the denoised recording. Writes: RUNS, one row for each class and person.
 """
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from markermend import api
-from markermend.evaluation.artifacts2022 import command, operators, runs
+from markermend.evaluation.artifacts2022 import command, operator_tables, operators, runs
 from markermend.evaluation.artifacts2022.options import PRESETS
 from markermend.evaluation.randomness import generator
 from markermend.evaluation.table_files import write_table
@@ -22,7 +22,8 @@ def main(argv: list[str] | None = None) -> None:
     flags, options = job.flags, job.options.operators
     recording = job.recording
     people = {
-        name: operators.read_operator(Path(table), flags.recording, recording) for name, table in options.tables.items()
+        name: operator_tables.read_operator(Path(table), flags.recording, recording)
+        for name, table in options.tables.items()
     }
     if not people:
         rng = generator(flags.seed, flags.recording, "operators")

@@ -63,19 +63,66 @@ def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[st
         raise Problem("decision", _unknown(row["decision"], VERBS))
     yield "marker", row["marker"]
     yield "decision", row["decision"]
+    yield from read_frames(row, required=row["decision"] == "class").items()
+    if value := _value_of(row, methods):
+        yield "value", value
+    if "note" in row:
+        yield "note", " ".join(row["note"].split())
+
+
+def read_frames(row: Mapping[str, str], *, required: bool) -> dict[str, int]:
+    """Read the first and the last frame.
+
+    Parameters
+    ----------
+    row : mapping of str to str
+        The cells that are not empty, by their columns.
+    required : bool
+        Whether there must be frames; else there may be none, for the whole recording.
+
+    Returns
+    -------
+    dict of str to int
+        The frames by their columns, as the capture program numbers them; both, or none.
+
+    Raises
+    ------
+    Problem
+        For a cell that is no number, or that is empty where it must not be, and for a last frame before the first.
+    """
     frames = {column: _whole(column, row[column]) for column in ("first_frame", "last_frame") if column in row}
     if len(frames) == 1:
         (column,) = {"first_frame", "last_frame"} - set(frames)
         raise Problem(column, "is empty: give both frames, or neither for the whole recording")
     if frames and frames["first_frame"] > frames["last_frame"]:
         raise Problem("last_frame", f"{frames['last_frame']} comes before the first, {frames['first_frame']}")
-    if row["decision"] == "class" and not frames:
+    if required and not frames:
         raise Problem("first_frame", "is empty: an artifact has a first and a last frame")
-    yield from frames.items()
-    if value := _value_of(row, methods):
-        yield "value", value
-    if "note" in row:
-        yield "note", " ".join(row["note"].split())
+    return frames
+
+
+def read_class(row: Mapping[str, str]) -> str:
+    """Read the class of a finding.
+
+    Parameters
+    ----------
+    row : mapping of str to str
+        The cells that are not empty, by their columns.
+
+    Returns
+    -------
+    str
+        The class, also where its detector is named; GAP for a gap that was filled; empty where there is none.
+
+    Raises
+    ------
+    Problem
+        For what is no class.
+    """
+    kind = NAMES.get(row.get("class", ""), row.get("class", ""))
+    if kind and kind not in (*BY_NAME, GAP):
+        raise Problem("class", _unknown(kind, (*BY_NAME, GAP)))
+    return kind
 
 
 def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:

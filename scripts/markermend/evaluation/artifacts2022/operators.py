@@ -6,24 +6,15 @@ if a person found the same class there: the paper's expert judged the classifica
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from markermend import api
-from markermend.core.artifacts import BY_NAME
-from markermend.core.decisions import EVER
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.evaluation.classification import CLASSES
-from markermend.export.change_table import COLUMNS as COLUMNS_OF_CHANGES
-from markermend.planning.decision_table import COLUMNS as COLUMNS_OF_DECISIONS
-from markermend.planning.recordings import BadDataSet
-from markermend.planning.tables import read_table
 from markermend.simulation.published_contamination import contaminate_coordinates
 
 COLUMNS = (
@@ -40,12 +31,6 @@ COLUMNS = (
     "only_algorithm",
 )
 """Columns of the table of findings."""
-
-REQUIRED = ("recording", "marker", "decision")
-"""The columns that a table of decisions must have."""
-
-REQUIRED_OF_FINDINGS = ("recording", "marker", "first_frame", "last_frame", "class")
-"""The columns that a table of findings must have."""
 
 EVERY = "all"
 """Name of the row over all classes."""
@@ -105,70 +90,6 @@ def synthetic_operator(
         clean.positions, clean.markers, amplitude=amplitude_mm, share=share_percent / 100, rng=rng
     )
     return replace(clean, positions=made.positions), dict(made.events)
-
-
-def read_operator(path: Path, name: str, recording: Recording) -> dict[str, list[Event]]:
-    """Read what a person found.
-
-    Parameters
-    ----------
-    path : Path
-        Either a table of decisions (config/README.md), of which the lines `accept` and `class` with a class are what was found, or a table of
-        findings: the columns `recording`, `marker`, `first_frame`, `last_frame` and `class`, and those of changes.tsv.
-    name : str
-        The recording as the table calls it.
-    recording : Recording
-        The recording.
-
-    Returns
-    -------
-    dict of str to list of Event
-        The findings by detector; lines without a class or without frames are left out.
-
-    Raises
-    ------
-    BadOptions or BadDataSet
-        With lines that mean nothing or contradict each other.
-    """
-    header = path.read_text(encoding="utf-8-sig").partition("\n")[0]
-    read = _read_findings if "class" in re.split("[\t,;]", header.strip()) else _read_decisions
-    found: dict[str, list[Event]] = {}
-    for stage, event in read(path, name, recording):
-        found.setdefault(stage, []).append(event)
-    return found
-
-
-def _read_decisions(path: Path, name: str, recording: Recording) -> Iterator[tuple[str, Event]]:
-    """The findings in a table of decisions."""
-    rows = read_table(str(path), what="decisions", columns=COLUMNS_OF_DECISIONS, required=REQUIRED)
-    lines = [
-        {column: text for column, text in row.items() if column not in ("recording", "subject")}
-        for _, row in rows
-        if row["recording"] == name
-    ]
-    for decision in api.read_decisions(lines, recording):
-        artifact = BY_NAME.get(decision.value.partition(":")[0])
-        if decision.verb not in ("accept", "class") or artifact is None or abs(decision.start) == EVER:
-            continue
-        for marker in recording.markers:
-            if decision.matches(marker):
-                yield artifact.stage, Event(marker, decision.start, decision.stop, 1.0)
-
-
-def _read_findings(path: Path, name: str, recording: Recording) -> Iterator[tuple[str, Event]]:
-    """The findings in a table of findings; what is no artifact, such as a filled gap, is left out."""
-    for number, row in read_table(
-        str(path), what="findings", columns=COLUMNS_OF_CHANGES, required=REQUIRED_OF_FINDINGS
-    ):
-        artifact = BY_NAME.get(row.get("class", ""))
-        if row["recording"] != name or artifact is None:
-            continue
-        if row["marker"] not in recording.markers:
-            raise BadDataSet(
-                f"findings: {path} line {number} names marker {row['marker']!r}, which {name} does not have"
-            )
-        start, stop = (int(row[column]) - recording.first_frame for column in ("first_frame", "last_frame"))
-        yield artifact.stage, Event(row["marker"], start, stop + 1, 1.0)
 
 
 def compare(human: Mapping[str, Sequence[Event]], algorithm: Mapping[str, Sequence[Event]]) -> dict[str, Agreement]:

@@ -1,14 +1,10 @@
 """Findings of a person against those of the algorithm: both, only one, by class."""
 
-from dataclasses import replace
-
 import numpy as np
-import pytest
 
 from markermend.core.events import Event
 from markermend.evaluation.artifacts2022 import operators
 from markermend.evaluation.artifacts2022.operators import Agreement
-from markermend.planning.recordings import BadDataSet
 
 HUMAN = {"peaks": [Event("A", 10, 11, 1.0), Event("A", 50, 52, 1.0)], "steps": [Event("B", 100, 150, 1.0)]}
 MACHINE = {"peaks": [Event("A", 9, 12, 1.0)], "slow": [Event("B", 140, 200, 1.0), Event("A", 300, 400, 1.0)]}
@@ -50,41 +46,6 @@ def test_the_synthetic_person_sees_all_that_was_put_in(walker):
     for event in (event for own in findings.values() for event in own):
         seen[event.start : event.stop, clean.markers.index(event.marker)] = True
     assert not (changed & ~seen).any() and changed.any()
-
-
-def test_a_table_of_decisions_is_read(tmp_path, walker):
-    recording = replace(walker.recording, facts={**walker.recording.facts, "first_frame": 1})
-    a, b = recording.markers[:2]
-    table = tmp_path / "decisions.tsv"
-    table.write_text(
-        "recording\tmarker\tfirst_frame\tlast_frame\tdecision\tvalue\n"
-        f"walk\t{a}\t11\t20\tclass\tstep\nwalk\t{b}\t31\t31\taccept\tpeak\n"
-        f"walk\t{b}\t50\t60\tprotect\t\nother\t{a}\t5\t6\tclass\tnoise\nwalk\t{a}\t90\t95\tmissing\t\n"
-    )
-    found = operators.read_operator(table, "walk", recording)
-    first = recording.first_frame
-    assert {kind: [(e.marker, e.start, e.stop) for e in own] for kind, own in found.items()} == {
-        "steps": [(a, 11 - first, 21 - first)],
-        "peaks": [(b, 31 - first, 32 - first)],
-    }
-
-
-def test_a_table_of_findings_is_read(tmp_path, walker):
-    recording = walker.recording
-    a, first = recording.markers[0], recording.first_frame
-    table = tmp_path / "changes.tsv"
-    table.write_text(
-        "recording\tmarker\tfirst_frame\tlast_frame\tclass\n"
-        f"walk\t{a}\t{first + 10}\t{first + 10}\tpeak\nwalk\t{a}\t{first + 20}\t{first + 29}\tslow\n"
-        f"walk\t{a}\t{first + 50}\t{first + 60}\tfilled\nother\t{a}\t5\t6\tnoise\n"
-    )
-    assert operators.read_operator(table, "walk", recording) == {
-        "peaks": [Event(a, 10, 11, 1.0)],
-        "slow": [Event(a, 20, 30, 1.0)],
-    }
-    table.write_text("recording,marker,first_frame,last_frame,class\nwalk,nobody,1,2,peak\n")
-    with pytest.raises(BadDataSet, match="nobody"):
-        operators.read_operator(table, "walk", recording)
 
 
 def test_rows_name_recording_operator_and_detectors():
