@@ -133,8 +133,8 @@ def _pulses(
         innovation = innovation_map(covariance, length, filters.length, offset)
         deviation = innovation @ over.residual[i].T
         own = residual_windows.recorded_part(innovation @ over.positions[i].T, deviation)
-        largest = np.linalg.norm(deviation, axis=1).max()
-        inside = np.flatnonzero(own >= fraction * largest)
+        largest = np.linalg.norm(deviation, axis=1) if extent[1] else own
+        inside = np.flatnonzero(own >= fraction * largest.max())
         if not len(inside):  # The deviation is a neighbour's.
             continue
         low, high = int(inside[0]), int(inside[-1]) + 1
