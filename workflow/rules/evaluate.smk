@@ -13,15 +13,12 @@ except BadOptions as error:
     raise WorkflowError(f"The options of the experiments cannot be used (see config/evaluate/full.yaml):\n{error}")
 
 # Snakemake names its targets only when it has read this file: what is missing is said now where none of the experiments is asked for.
-if (
-    plan.data.missing
-    and workflow.is_main_process
-    and not any(of_experiments(word, papers.folder) for word in sys.argv[1:])
-):
-    raise WorkflowError(plan.data.missing)
-
-if papers.note and workflow.is_main_process and any(of_experiments(word, papers.folder) for word in sys.argv[1:]):
-    logger.warning(papers.note)
+if workflow.is_main_process:
+    asked_for = any(of_experiments(word, papers.folder) for word in sys.argv[1:])
+    if plan.data.missing and not asked_for:
+        raise WorkflowError(plan.data.missing)
+    if papers.note and asked_for:
+        logger.warning(papers.note)
 
 PUBLISHED = PROJECT / "config/evaluate/published"
 

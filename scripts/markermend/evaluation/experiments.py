@@ -54,14 +54,13 @@ class Experiments:
         The folder of the experiments' results.
     entries : sequence of Entry
         The recordings; synthetic ones if there are none.
-    given : int
+    given : int, optional
         How many recordings were given, with those that are left out.
     """
 
     options: EvaluationOptions
     folder: str
     entries: Sequence[Entry]
-
     given: int = 0
 
     @property

@@ -51,7 +51,7 @@ class Option:
 
     @property
     def marks(self) -> tuple[Any, ...]:
-        """What is annotated: unit, bounds, and the other marks of this module."""
+        """What is annotated: unit, bounds, and the other marks of `declaration`."""
         return peel(self.hint)[1]
 
     @property

@@ -78,7 +78,7 @@ def find_pulses(
         for length in range(1, min(max(short, longest), stop - start - 2 * context) + 1):
             peak = length <= short
             covariance = statistics.covariance if peak else dip_covariance
-            reach, least = (0, 1.0) if peak else (options.dip_ramp_frames, options.likely_dip_threshold_factor)
+            reach, least = (0, 1.0) if peak else (options.dip_ramp_frames, min(_dip_factors(options)))
             size = length + 2 * context
             # Near a gap or an end of the recording a dip cannot be distinguished from motion.
             spans = residual_windows.window_spans(start, stop, size, context)[: None if peak else 1]
@@ -103,14 +103,20 @@ def _dips(found: Iterable[Pulse], evidence: LevelEvidence, context: int, options
     for pulse in found:
         displacement = pulse.deviation.mean(axis=0)
         residual, shape = evidence.log_ratios(displacement, np.arange(pulse.start, pulse.stop))
-        factor = options.unlikely_dip_threshold_factor if shape < 0 else options.dip_threshold_factor
+        likely, usual, unlikely = _dip_factors(options)
+        factor = unlikely if shape < 0 else usual
         if min(residual, shape) >= options.min_dip_log_ratio:
-            factor = options.likely_dip_threshold_factor
+            factor = likely
         last = min(pulse.stop + context, len(evidence.residual))
         beside = np.arange(max(pulse.start - context, 0), pulse.start), np.arange(pulse.stop, last)
         most = max(residual + shape, 0.0) / 2
         if pulse.score > factor and all(evidence.log_ratio(displacement, frames) <= most for frames in beside):
             yield replace(pulse, score=pulse.score / factor)
+
+
+def _dip_factors(options: PeaksOptions) -> tuple[float, float, float]:
+    """Thresholds of likely, other, and unlikely dips, in units of that of a peak."""
+    return options.likely_dip_threshold_factor, options.dip_threshold_factor, options.unlikely_dip_threshold_factor
 
 
 def _pulses(

@@ -66,13 +66,13 @@ def _classification(measures: pd.DataFrame, confusion: pd.DataFrame) -> Iterator
             reason = f"nothing was found as {kind}" if measure == "FDR" else f"no samples of {kind} were there"
         if tested is False:
             reason = confusion_reason(_of(confusion, amplitude), kind=kind, measure=measure) or "none is wrong here"
-        if measure == "F":
-            reason = f"{reason}; {_implied(measures)}" if len(own) else reason
+        if measure == "F" and len(own):
+            reason = "; ".join(filter(None, (reason, _implied(measures))))
         yield Claim(claim, published, f"{span(own, digits)}{unit}" if len(own) else "", verdict(tested), reason)
 
 
 def _implied(measures: pd.DataFrame) -> str:
-    """What the printed rates of slow changes leave of F where most of the time is distorted; they cannot both hold there."""
+    """What the printed rates of slow changes leave of F at the largest share of the time; the printed F cannot hold together with them."""
     share = measures["share_percent"].max()
     most, least = (
         implied_f(share / 100, sensitivity=PRINTED_SLOW[0], false_discovery=rate) for rate in PRINTED_SLOW[1:]

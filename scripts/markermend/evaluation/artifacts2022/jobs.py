@@ -39,7 +39,7 @@ def jobs(options: Artifacts2022Options, recordings: Sequence[str], folder: str) 
     ours = [preset for preset in options.presets if preset != "paper"]
     classification = [
         _classified(recordings, presets, options, runs)
-        for presets, runs in ((published, options.runs), (ours, options.default_runs))
+        for presets, runs in ((published, options.runs), (ours, min(options.runs, options.default_runs)))
     ]
     repairs, operators = options.repairs, options.operators
     repair: Conditions = {

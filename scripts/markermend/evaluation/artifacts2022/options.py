@@ -78,7 +78,7 @@ class RepairExperimentOptions:
         Returns
         -------
         RepairExperimentOptions
-            The options.
+            The options; the same if there is no other method.
         """
         if run < self.default_runs or self.methods == ("default",):
             return self
@@ -183,7 +183,7 @@ class Artifacts2022Options(PaperOptions):
     """Runs of each condition."""
 
     default_runs: Count = 1000
-    """Runs of each condition of our own detectors, which take twenty times as long."""
+    """Those of them with which our own detectors are run, too, which take twenty times as long."""
 
     batch: Count = 20
     """Runs of one job."""

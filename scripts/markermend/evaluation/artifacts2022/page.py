@@ -101,8 +101,8 @@ def _readings(readings: pd.DataFrame) -> Section:
 def _slow(slow: pd.DataFrame) -> Section:
     """What the detection of slow changes depends on."""
     sentences = (
-        "The network learns the recording before it is contaminated (clean), or the one in which it detects (contaminated). What remains is the part of a slow change that is left in the residual; the "
-        "deviation of the residual is its standard deviation, of which the upper threshold is three. The charts have the largest lower threshold. "
+        "The network learns the recording before it is contaminated (clean), or the one in which it detects (contaminated). What remains is "
+        "the part of a slow change that is left in the residual; the deviation of the residual is its standard deviation, of which the upper threshold is three. The charts have the largest lower threshold. "
         "The paper prints a lower threshold of 0.5, and 0.5 s for the shortest slow change.",
     )
     drawn = slow[slow["lower_sigmas"] == slow["lower_sigmas"].max()]
@@ -150,7 +150,8 @@ def _operators(operators: pd.DataFrame) -> Section:
     """Findings of persons and of the algorithm (Table 2)."""
     sentences = (
         "What a person found is confirmed where the algorithm finds anything on this marker in any of its frames, or else missed, in the words "
-        "of the paper. What the algorithm finds is approved where the person found the same class there, or else rejected.",
+        "of the paper. What the algorithm finds is approved where the person found the same class there, or else rejected. "
+        "The published network learns the recording in which it detects.",
     )
     return Section("Persons and the algorithm (Table 2)", sentences, "operators.tsv")
 

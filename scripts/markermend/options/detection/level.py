@@ -7,7 +7,6 @@ from typing import Annotated
 
 from markermend.options.declaration import (
     Above,
-    AtLeast,
     AtMost,
     Count,
     NotEmpty,
@@ -27,7 +26,7 @@ class SimilarPosesOptions:
     poses: Count = 9
     """The most similar poses from which the distances are predicted."""
 
-    min_poses: Annotated[int, AtLeast(1)] = 3
+    min_poses: Count = 3
     """Fewer of them predict nothing."""
 
     sampling_interval_s: PositiveSeconds = 0.1

@@ -167,7 +167,7 @@ class PublishedSlowOptions(ThresholdOptions):
     """Shortest time beyond the upper threshold."""
 
     min_duration_s: Seconds = 0.5
-    """Shortest time beyond the lower threshold: by that of the paper, half of the slow changes of 0.5 s on average are lost.
+    """Shortest time beyond the lower threshold; by that of the paper, half of the slow changes of 0.5 s on average are lost.
 
     Change it when short slow changes are missed (shorter)."""
 

@@ -20,6 +20,10 @@ def test_our_own_detectors_have_runs_of_their_own():
     assert all("/paper/" in file for file in jobs(replace(OPTIONS, presets=("paper",)), ["a"], "out")["runs"].files)
 
 
+def test_our_own_detectors_have_no_more_runs_than_there_are():
+    assert sum("/default/" in file for file in jobs(replace(OPTIONS, runs=2), ["walk"], "out")["runs"].files) == 1
+
+
 def test_our_own_repair_is_left_out_of_later_runs():
     options = RepairExperimentOptions(methods=("linear", "default"), runs=6, default_runs=2)
     assert [options.of_run(run).methods for run in (1, 2)] == [("linear", "default"), ("linear",)]
