@@ -12,7 +12,7 @@ from markermend.options.declaration import AtLeast, Count, Millimetres, NotNegat
 class ShapeOptions:
     """Judge by the subject's usual distances whether a marker is where its label says.
 
-    Labels, steps, slow changes and repairs are judged by the same evidence.
+    Labels, dips, steps, slow changes and repairs are judged by the same evidence.
     """
 
     anchors: Count = 8

@@ -28,6 +28,9 @@ def test_the_files_can_be_used(path):
     [
         ({"artefacts2022": {}}, "evaluate.artefacts2022: there is no such key; did you mean artifacts2022?"),
         ({"artifacts2022": {"runs": 0}}, "evaluate.artifacts2022.runs"),
+        ({"artifacts2022": {"repairs": {"smoother_samples": 13}}}, "evaluate.artifacts2022.repairs: polynomials of order 13 need more"),
+        ({"artifacts2022": {"operators": {"tables": {"expert": ""}}}}, "evaluate.artifacts2022.operators.tables.expert: "),
+        ({"artifacts2022": {"slow": {"network_steps": []}}}, "evaluate.artifacts2022.slow.network_steps: "),
         ({"pma2018": {"published_as": {"CMU4": ["85_03"]}}}, "evaluate.pma2018.published_as.CMU4: there is no such key; did you mean CMU"),
         ({"pma2018": {"published_as": {"CMU1": [8502]}}}, "evaluate.pma2018.published_as.CMU1.0.: "),
         ({"gaps2021": {"published_as": {"static": ["walk"]}}}, "evaluate.gaps2021: published_as: walk stands for two sequences"),

@@ -67,6 +67,12 @@ class RepairExperimentOptions:
     batch: Count = 5
     """Runs of one job."""
 
+    def __post_init__(self) -> None:
+        if self.smoother_order >= self.smoother_samples:
+            raise ValueError(
+                f"polynomials of order {self.smoother_order} need more than smoother_samples: {self.smoother_samples}"
+            )
+
     def of_run(self, run: int) -> RepairExperimentOptions:
         """Give the options of a run: without our own repair where it is not made.
 
@@ -112,7 +118,7 @@ class SlowSweepOptions:
     training_frames: Annotated[tuple[Count, ...], Distinct, NotEmpty] = (800, 1_000_000)
     """Training frames, at most."""
 
-    network_steps: Annotated[tuple[Count, ...], Distinct] = (20, 100, 300, 1000)
+    network_steps: Annotated[tuple[Count, ...], Distinct, NotEmpty] = (20, 100, 300, 1000)
     """Steps of the training, at most."""
 
     deviations_over: Annotated[tuple[Literal["coordinate", "marker", "recording"], ...], Distinct, NotEmpty] = (
@@ -145,7 +151,7 @@ class SlowSweepOptions:
 class OperatorOptions:
     """What persons found against what the algorithm finds (E2)."""
 
-    tables: Mapping[str, str] = field(default_factory=dict)
+    tables: Mapping[str, Annotated[str, NotEmpty]] = field(default_factory=dict)
     """Tables by the names of the persons who made them: of decisions, whose lines `accept` and `class` are what was found in the recordings, or
     of findings, with recording, marker, first_frame, last_frame and class, such as changes.tsv. The recordings are not denoised. Without any
     table they are contaminated, and the person is one who sees all of it."""
