@@ -136,7 +136,7 @@ def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) 
         For a name that is not among PREDICTORS.
     """
     if options.predictor == "replicated_network":
-        return ReplicatedNetwork(replace(predictors.replicated_network, **options.replicated_network_changes))
+        return make_network(options, predictors)
     if options.predictor == "polynomial":
         return Polynomial(predictors.polynomial)
     if options.predictor == "savitzky_golay":
@@ -146,6 +146,24 @@ def make_predictor(options: PublishedSlowOptions, predictors: PredictorOptions) 
     if options.predictor == "local_ridge":
         return LocalRidge(predictors.local_ridge)
     raise ValueError(f"predictor {options.predictor!r} is none of {', '.join(PREDICTORS)}")
+
+
+def make_network(options: PublishedSlowOptions, predictors: PredictorOptions) -> ReplicatedNetwork:
+    """Make the replicated network.
+
+    Parameters
+    ----------
+    options : PublishedSlowOptions
+        What differs for detection.
+    predictors : PredictorOptions
+        Options of the predictors.
+
+    Returns
+    -------
+    ReplicatedNetwork
+        The network, untrained.
+    """
+    return ReplicatedNetwork(replace(predictors.replicated_network, **options.replicated_network_changes))
 
 
 def hysteresis(level: np.ndarray, *, lower: float, min_upper: int) -> list[tuple[int, int]]:

@@ -87,8 +87,7 @@ def network_of(options: api.Options) -> ReplicatedNetwork:
     ReplicatedNetwork
         The network.
     """
-    changes = options.slow.paper.replicated_network_changes
-    return ReplicatedNetwork(replace(options.slow.predictors.replicated_network, **changes))
+    return slow.make_network(options.slow.paper, options.slow.predictors)
 
 
 def learn(clean: Recording, options: api.Options) -> TrainedRegressions:
