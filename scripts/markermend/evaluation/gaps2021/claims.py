@@ -53,12 +53,13 @@ def _of_correlations(tables: Mapping[str, pd.DataFrame]) -> Iterator[Claim]:
     ours, printed = own["correlation"].mean(), own["published"].mean()
     highest, stated = (values.abs().sort_values(ascending=False).index[:2] for values in (ours, printed))
     reason = "" if len(ours) else FEW_RECORDINGS
+    stated_here = ", ".join(f"{name} {ours[name]:.2f}" for name in stated if name in ours)
     yield Claim(
         "Acceleration and monotonicity correlate most with the errors",
         ", ".join(f"{name} {printed[name]:.2f}" for name in stated),
         ", ".join(f"{name} {ours[name]:.2f}" for name in highest),
         verdict(set(highest) == set(KEY_DESCRIPTORS) if len(ours) else None),
-        reason,
+        f"here {stated_here}" if stated_here and set(highest) != set(KEY_DESCRIPTORS) else reason,
     )
     rising = ours.drop("complexity", errors="ignore")
     yield Claim(
@@ -89,13 +90,18 @@ def _significance(table: pd.DataFrame) -> Claim:
     if not len(stated):
         return Claim(claim, "", "", UNTESTED, FEW_RECORDINGS)
     found, recordings = stated["p"].astype(float) < SIGNIFICANT, int(own["recordings"].max())
-    fewer = f"of {recordings} recordings, not 6, only correlations above {_critical(recordings):.3f} are significant"
+    limit = f"of {recordings} recordings only correlations above {_critical(recordings):.3f} are significant"
+    nearly = stated["correlation"].astype(float).abs() > _critical(recordings) / 2
+    sign = stated["correlation"].astype(float) * stated["correlation_published"].astype(float) > 0
+    reason = (
+        f"{limit}; {int((sign & nearly).sum())} of the {len(stated)} have the printed sign and at least half of that"
+    )
     return Claim(
         claim,
         f"{len(stated)} of {int(printed.notna().sum())}",
         f"{int(found.sum())} of these {len(stated)}",
         verdict(bool(found.mean() >= 0.5)),
-        fewer if recordings < 6 else "",
+        reason,
     )
 
 

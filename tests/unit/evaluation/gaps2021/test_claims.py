@@ -61,6 +61,16 @@ def test_a_statement_that_fails_names_where(runs, descriptors, figures):
     assert row["holds"] == NO and row["ours"] == "5 of 12" and "walking at 20" in row["reason"]
 
 
+def test_networks_whose_errors_do_not_grow_with_the_gap_are_said(runs, descriptors, figures):
+    network = runs["method"].str.startswith("network")
+    table = judged(runs.assign(error=runs["error"].where(~network, 30.0)), descriptors, figures)
+    row = table[table["claim"].str.startswith("At 10 and 20 samples the recurrent")].iloc[0]
+    assert row["holds"] == NO
+    assert "the errors of networks grow 1.0 times here, 16.5 times in the paper" in row["reason"]
+    spline = table[table["claim"].str.contains("spline")].iloc[0]
+    assert "networks" not in spline["reason"]
+
+
 def test_low_rank_completion_that_is_no_interpolation_is_said(runs, descriptors, figures):
     own = runs.assign(error=np.where(runs["method"] == "msvd", 0.5 * runs["error"], runs["error"]))
     row = judged(own, descriptors, figures).iloc[-1]
