@@ -1,6 +1,7 @@
 """Contaminate a clean recording with one class of artifacts, locate, repair, and measure the error (skurowski2022, E3).
 
-Reads: PREPARED, a clean recording; NETWORKS, what the network learned of it. Writes: RUNS, one row for each method and what was located in each run.
+Reads: PREPARED, a clean recording; NETWORKS, what the network learned of it, where it is needed.
+Writes: RUNS, one row for each method and what was located in each run.
 """
 
 from markermend.evaluation.artifacts2022 import command, repairs

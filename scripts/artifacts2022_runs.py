@@ -1,6 +1,7 @@
 """Contaminate a clean recording as the artifact detection paper did, detect, and count samples by class (skurowski2022, E1).
 
-Reads: PREPARED, a clean recording; NETWORKS, what the network learned of it. Writes: RUNS, one row for each true and found class of each run.
+Reads: PREPARED, a clean recording; NETWORKS, what the network learned of it, where it is needed.
+Writes: RUNS, one row for each true and found class of each run.
 """
 
 from markermend.evaluation.artifacts2022 import command, runs

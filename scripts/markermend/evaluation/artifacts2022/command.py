@@ -107,7 +107,7 @@ def condition_flags(made: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 
 def network_flag(made: argparse.ArgumentParser) -> argparse.ArgumentParser:
-    """Add the flag of jobs that need trained networks.
+    """Add the flag of jobs that may need trained networks.
 
     Parameters
     ----------
@@ -119,7 +119,8 @@ def network_flag(made: argparse.ArgumentParser) -> argparse.ArgumentParser:
     ArgumentParser
         The same parser.
     """
-    made.add_argument("--networks", type=Path, required=True, help="what artifacts2022_networks.py wrote")
+    learned = "what artifacts2022_networks.py wrote, where the published network learns the clean recording"
+    made.add_argument("--networks", type=Path, nargs="?", help=learned)
     return made
 
 

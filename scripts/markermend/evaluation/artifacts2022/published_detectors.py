@@ -124,26 +124,33 @@ def options_of(options: Artifacts2022Options) -> api.Options:
     return published_options({}, network_steps=options.network_steps, training_frames=options.training_frames)
 
 
-def read_detectors(options: Artifacts2022Options, networks: Path) -> PublishedDetectors:
+def read_detectors(options: Artifacts2022Options, networks: Path | None) -> PublishedDetectors:
     """Make the published detectors for contaminated copies of a recording.
 
     Parameters
     ----------
     options : Artifacts2022Options
         What the network learns, and how.
-    networks : Path
-        The file of the networks that learned the clean recording; see network_file.
+    networks : Path or None
+        The file of the networks that learned the clean recording; see network_file. It is not needed where they learn the contaminated one.
 
     Returns
     -------
     PublishedDetectors
         The detectors.
+
+    Raises
+    ------
+    ValueError
+        Without networks that are needed.
     """
     own = options_of(options)
     network = network_of(own)
-    if options.trained_on == "clean":
-        return PublishedDetectors(own, read_networks(networks, network.options))
-    return PublishedDetectors(own, network)
+    if options.trained_on == "contaminated":
+        return PublishedDetectors(own, network)
+    if networks is None:
+        raise ValueError("trained_on: a network that learns the clean recording must be given (--networks)")
+    return PublishedDetectors(own, read_networks(networks, network.options))
 
 
 def claimed(found: Mapping[str, Sequence[Event]], recording: Recording) -> np.ndarray:

@@ -70,7 +70,7 @@ def preset_options(preset: str, *, network_steps: int | None = None) -> api.Opti
     return api.Options.read({kind: {"preset": preset} for kind in kinds if (kind, preset) != ("slow", "coordinates")})
 
 
-def detectors(preset: str, options: Artifacts2022Options, networks: Path) -> Find:
+def detectors(preset: str, options: Artifacts2022Options, networks: Path | None) -> Find:
     """Make the detectors of a preset for contaminated copies of a recording.
 
     Parameters
@@ -79,7 +79,7 @@ def detectors(preset: str, options: Artifacts2022Options, networks: Path) -> Fin
         See Condition.
     options : Artifacts2022Options
         What the published network learns, and how.
-    networks : Path
+    networks : Path or None
         The file of the networks that learned the recording; see published_detectors.read_detectors.
 
     Returns

@@ -45,10 +45,12 @@ def test_the_paper_runs_its_four_detectors_alone():
     assert "labels" in default.general.detect and default.slow.preset == "default"
 
 
-def test_only_the_published_detectors_need_networks(tmp_path):
+def test_only_published_detectors_that_learn_the_clean_recording_need_networks(tmp_path):
     options = Artifacts2022Options(trained_on="clean")
     for preset in ("default", "coordinates"):
-        classification.detectors(preset, options, tmp_path / "none.json")
+        classification.detectors(preset, options, None)
+    with pytest.raises(ValueError, match="--networks"):
+        classification.detectors("paper", options, None)
     with pytest.raises(FileNotFoundError):
         classification.detectors("paper", options, tmp_path / "none.json")
-    classification.detectors("paper", replace(options, trained_on="contaminated"), tmp_path / "none.json")
+    classification.detectors("paper", replace(options, trained_on="contaminated"), None)
