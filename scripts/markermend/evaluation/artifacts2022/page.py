@@ -102,7 +102,8 @@ def _slow(slow: pd.DataFrame) -> Section:
     """What the detection of slow changes depends on."""
     sentences = (
         "The network learns the recording before it is contaminated (clean), or the one in which it detects (contaminated). What remains is "
-        "the part of a slow change that is left in the residual; the deviation of the residual is its standard deviation, of which the upper threshold is three. The charts have the largest lower threshold. "
+        "the part of a slow change that is left in the residual; the deviation of the residual is its standard deviation over the recording. The "
+        "upper threshold is three deviations, of each coordinate, each marker, or the recording. The charts have the largest lower threshold. "
         "The paper prints a lower threshold of 0.5, and 0.5 s for the shortest slow change.",
     )
     drawn = slow[slow["lower_sigmas"] == slow["lower_sigmas"].max()]
