@@ -143,8 +143,8 @@ class SlowSweepOptions:
     runs: Count = 20
     """Runs of each condition."""
 
-    batch: Count = 1
-    """Runs of one job."""
+    batch: Count = 5
+    """Runs of one job, which trains its networks once."""
 
 
 @dataclass(frozen=True)
