@@ -9,7 +9,7 @@ from markermend.core.artifacts import DETECTORS
 
 KNOWN = [
     ("2022_01_0403.c3d", {"labels": [("LTH1", 194, 801), ("LTH2", 194, 801), ("LTH1", 904, 936), ("LTH2", 904, 936)]}),
-    ("UNIPD_Walking2.c3d", {"steps": [("RCA", 78, 84)]}),
+    ("UNIPD_Walking2.c3d", {"peaks": [("RCA", 78, 84)]}),
     ("flicker_ee8cdcfd_markers.trc", {"noise": [("RFHD", 0, 230), ("CLAV", 325, 360)]}),
 ]
 """Class, marker and half-open interval of what a person saw there."""

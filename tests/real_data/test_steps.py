@@ -9,10 +9,10 @@ from markermend.core import events
 
 @pytest.fixture(scope="module")
 def gait(data):
-    """A recording whose markers flip between two levels, and the samples that steps are found on."""
+    """A recording whose markers flip between two levels, and the samples that steps are found on, or dips, if they are short."""
     recording = api.read(data / "clean/Qualisys.c3d")
-    found = api.detect(recording, api.infer_mesh([recording]))["steps"]
-    return recording, events.mask(found, recording.frames, recording.markers)
+    found = api.detect(recording, api.infer_mesh([recording]))
+    return recording, events.mask([*found["steps"], *found["peaks"]], recording.frames, recording.markers)
 
 
 def share(gait, marker, first, last):

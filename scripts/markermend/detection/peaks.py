@@ -96,8 +96,15 @@ class PeakDetector(WindowDetector):
         return self._pulses(statistics, marker, self.options)
 
     def find_candidates(self, statistics: ResidualStatistics, marker: int) -> list[Event]:
-        """Find the pulses of one marker, also where its velocity changes, as it does amid motion; see `Detector.find_candidates`."""
-        return self._pulses(statistics, marker, replace(self.options, max_kink_ratio=0.0))
+        """Find the pulses of one marker, also where its velocity changes, as it does amid motion; see `Detector.find_candidates`.
+
+        A trajectory is no residual that could speak for a dip.
+        """
+        return self._pulses(
+            statistics,
+            marker,
+            replace(self.options, max_kink_ratio=0.0, likely_dip_threshold_factor=self.options.dip_threshold_factor),
+        )
 
     def _pulses(self, statistics: ResidualStatistics, marker: int, options: PeaksOptions) -> list[Event]:
         """The pulses of one marker as events."""

@@ -70,12 +70,12 @@ def find_pulses(
     """
     rate = evidence.scene.rate
     context = residual_windows.context_samples(rate, options, min_samples=MIN_CONTEXT)
-    short, longest = (
-        intervals.samples(seconds, rate) for seconds in (options.max_duration_s, options.max_dip_duration_s)
-    )
+    short = intervals.samples(options.max_duration_s, rate)
     candidates: list[Pulse] = []
     for start, stop in runs(~np.isnan(statistics.local_scale[:, marker])):
-        for length in range(1, min(max(short, longest), stop - start - 2 * context) + 1):
+        for length in pulse_lengths(rate, options):
+            if length > stop - start - 2 * context:
+                break
             peak = length <= short
             covariance = statistics.covariance if peak else dip_covariance
             reach, least = (0, 1.0) if peak else (options.dip_ramp_frames, min(_dip_factors(options)))
@@ -93,6 +93,30 @@ def find_pulses(
         if all(candidate.stop + context <= one.start or one.stop + context <= candidate.start for one in kept):
             kept.append(candidate)
     return kept
+
+
+def pulse_lengths(rate: float, options: PeaksOptions) -> list[int]:
+    """List the lengths at which pulses are looked for: each of those of peaks, and those of dips, which grow by a factor.
+
+    Parameters
+    ----------
+    rate : float
+        Sampling rate, Hz.
+    options : PeaksOptions
+        Longest peak, longest dip, and the factor.
+
+    Returns
+    -------
+    list[int]
+        Samples, in order.
+    """
+    short, longest = (
+        intervals.samples(seconds, rate) for seconds in (options.max_duration_s, options.max_dip_duration_s)
+    )
+    lengths = list(range(1, short + 1))
+    while lengths[-1] < longest:
+        lengths.append(min(longest, max(lengths[-1] + 1, int(lengths[-1] * options.dip_length_ratio))))
+    return lengths
 
 
 def _dips(found: Iterable[Pulse], evidence: LevelEvidence, context: int, options: PeaksOptions) -> Iterator[Pulse]:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from markermend.options.declaration import (
     Count,
+    Factor,
     Laboratory,
     NotNegative,
     Positive,
@@ -61,6 +62,9 @@ class PeaksOptions(ResidualWindowOptions, DetectorOptions):
 
     max_dip_duration_s: PositiveSeconds = 0.12
     """Longest dip: longer than a peak, and too short for the two jumps of a step to be separated if they have ramps."""
+
+    dip_length_ratio: Factor = 1.2
+    """Dips are looked for at lengths that grow by this factor: a pattern fits a dip that is a little shorter or longer."""
 
     dip_threshold_factor: Positive = 1.25
     """Threshold of a dip, in units of that of a peak: motion makes such pulses.

@@ -46,6 +46,15 @@ def test_the_first_part_of_a_step_is_no_dip():
     assert not find(statistics, scene=among_mates(residual, deviation=1.0))
 
 
+@pytest.mark.parametrize(
+    ("rate", "longest_peak", "dips"),
+    [(50.0, 3, [4, 5, 6]), (100.0, 5, [6, 7, 8, 9, 10, 12]), (200.0, 10, [12, 14, 16, 19, 22, 24])],
+)
+def test_the_lengths_of_dips_grow_by_a_factor(rate, longest_peak, dips):
+    lengths = pulses.pulse_lengths(rate, replace(PEAKS, dip_length_ratio=1.2))
+    assert lengths == [*range(1, longest_peak + 1), *dips]
+
+
 def test_a_dip_is_found_with_its_ramps():
     residual = rough(400, 5)
     dip = np.concatenate([[0.25, 0.5, 0.75], np.ones(4), [0.67, 0.33]])
