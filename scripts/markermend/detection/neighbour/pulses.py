@@ -122,9 +122,11 @@ def pulse_lengths(rate: float, options: PeaksOptions) -> list[int]:
 def _dips(found: Iterable[Pulse], evidence: LevelEvidence, context: int, options: PeaksOptions) -> Iterator[Pulse]:
     """The pulses that are above the threshold of dips, which depends on what residual and usual distances say of their level.
 
-    A pulse beside which the marker is displaced as well, by half of that evidence or more, is part of a step.
+    A pulse that is no longer than a peak is one, or nothing: peaks have filters of their own. A pulse beside which the marker is displaced
+    as well, by half of that evidence or more, is part of a step.
     """
-    for pulse in found:
+    longest_peak = intervals.samples(options.max_duration_s, evidence.scene.rate)
+    for pulse in (one for one in found if one.stop - one.start > longest_peak):
         displacement = pulse.deviation.mean(axis=0)
         residual, shape = evidence.log_ratios(displacement, np.arange(pulse.start, pulse.stop))
         likely, usual, unlikely = _dip_factors(options)
