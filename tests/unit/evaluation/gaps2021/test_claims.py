@@ -71,6 +71,13 @@ def test_networks_whose_errors_do_not_grow_with_the_gap_are_said(runs, descripto
     assert "networks" not in spline["reason"]
 
 
+def test_networks_whose_errors_grow_with_the_gap_as_printed_are_no_reason(runs, descriptors, figures):
+    worse = (runs["method"] == "network_linear") & (runs["length"] >= 50)
+    table = judged(runs.assign(error=runs["error"].where(~worse, 3000.0)), descriptors, figures)
+    failing = table[table["claim"].str.startswith("From 50 samples") & (table["holds"] == NO)]
+    assert len(failing) and not failing["reason"].str.contains("grow").any()
+
+
 def test_low_rank_completion_that_is_no_interpolation_is_said(runs, descriptors, figures):
     own = runs.assign(error=np.where(runs["method"] == "msvd", 0.5 * runs["error"], runs["error"]))
     row = judged(own, descriptors, figures).iloc[-1]
