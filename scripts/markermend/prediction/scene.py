@@ -10,6 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from markermend.core.mesh import Mesh
+from markermend.core.poses import Pool
 from markermend.core.recording import Recording
 from markermend.core.shape import Shape
 
@@ -47,6 +48,8 @@ class Scene:
     near_jumps : np.ndarray | None
         Frames near those at which a marker is known to jump, bool (frames, markers): about the borders of what was found and
         left; None where nothing was left.
+    pool : Pool | None
+        Poses from the subject's other recordings, from which predictors learn besides; None where there are none.
     """
 
     positions: np.ndarray
@@ -59,6 +62,7 @@ class Scene:
     segments: Mapping[str, np.ndarray] | None = None
     unlabelled: Mapping[str, np.ndarray] | None = None
     near_jumps: np.ndarray | None = None
+    pool: Pool | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:

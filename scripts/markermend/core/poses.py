@@ -1,0 +1,85 @@
+"""Poses of a subject: a bounded sample of frames from all of the subject's recordings, from which predictors learn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Pool:
+    """Poses from the subject's other recordings, as the predictors of one recording see them.
+
+    Attributes
+    ----------
+    positions : np.ndarray
+        Positions (rows, markers, 3), mm, NaN = missing; markers as in the recording.
+    recording : np.ndarray
+        Number of the recording of each row (rows,), ascending from 0 without a gap.
+    names : tuple of str
+        Names of these recordings.
+    """
+
+    positions: np.ndarray
+    recording: np.ndarray
+    names: tuple[str, ...]
+
+    @cached_property
+    def present(self) -> np.ndarray:
+        """Whether each marker is seen, bool (rows, markers)."""
+        present: np.ndarray = ~np.isnan(self.positions).any(axis=2)
+        return present
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """A bounded sample of the poses of a subject.
+
+    Attributes
+    ----------
+    markers : tuple of str
+        Names of all markers of the subject.
+    positions : np.ndarray
+        Positions after repair (rows, markers, 3), mm, NaN = missing, or not a marker of that recording.
+    recordings : tuple of str
+        Names of the recordings.
+    recording : np.ndarray
+        Index of the recording of each row (rows,), ascending.
+    frames : np.ndarray
+        Index of the frame in its recording of each row (rows,), ascending within a recording.
+    """
+
+    markers: tuple[str, ...]
+    positions: np.ndarray
+    recordings: tuple[str, ...]
+    recording: np.ndarray
+    frames: np.ndarray
+
+    def others(self, recording: str, markers: Sequence[str]) -> Pool | None:
+        """Show the poses of the other recordings to one recording.
+
+        Parameters
+        ----------
+        recording : str
+            Name of the recording; its own poses are left out.
+        markers : sequence of str
+            Its markers.
+
+        Returns
+        -------
+        Pool or None
+            The poses with these markers; None where no other recording shows any of them.
+        """
+        place = {name: column for column, name in enumerate(self.markers)}
+        columns = [place.get(name, -1) for name in markers]
+        known = np.array(columns) >= 0
+        positions = np.where(known[:, None], self.positions[:, columns], np.nan)
+        kept = np.array([name != recording for name in self.recordings], bool)[self.recording]
+        kept &= ~np.isnan(positions).all(axis=(1, 2))
+        if not kept.any():
+            return None
+        numbers, recordings = np.unique(self.recording[kept], return_inverse=True)
+        return Pool(positions[kept], recordings, tuple(self.recordings[number] for number in numbers))
