@@ -191,7 +191,7 @@ def islands(load: Load) -> Iterator[Case]:
 def extremes(load: Load) -> Iterator[Case]:
     """Next to nothing seen of a marker; next to no frames; nothing moves."""
     whole = load("85_12")
-    lifted = {"min_seen_share": 0.0, "max_gap_s": None, "max_error_mm": None}
+    lifted = {"min_seen_share": 0.0, "max_gap_s": None, "max_error_mm": None, "max_error95_mm": None}
     gone = [(9, 200, whole.frames - 200)]
     yield Case("gap of 91 %", whole, gone)
     yield Case("gap of 91 %, lifted", whole, gone, lifted)

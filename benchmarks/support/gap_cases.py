@@ -61,7 +61,7 @@ LIFTED: dict[str, Any] = {
     "min_seen_share": 0.0,
     "border_s": 0.0,
 }
-LIFTED |= {"max_error_mm": None, "max_altered_share": 1.0}
+LIFTED |= {"max_error_mm": None, "max_error95_mm": None, "max_altered_share": 1.0}
 FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
 """Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
 

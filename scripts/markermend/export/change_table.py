@@ -13,8 +13,8 @@ from markermend.core.written import is_reported
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
-    "method", "samples", "largest_change_mm", "expected_error_mm", "decision", "alternatives", "group",
-    "reason",
+    "method", "samples", "largest_change_mm", "expected_error_mm", "expected_error95_mm", "decision", "alternatives",
+    "group", "reason",
 )  # fmt: skip
 """The columns of changes.tsv; frames are numbered as in the capture program and both are part of the change."""
 
@@ -71,6 +71,7 @@ def _row(change: Change, recording: Recording) -> dict[str, Any]:
         "samples": change.samples,
         "largest_change_mm": _figure(change.largest_change_mm),
         "expected_error_mm": _figure(change.expected_error_mm),
+        "expected_error95_mm": _figure(change.expected_error95_mm),
         "decision": "; ".join(change.decisions),
         "alternatives": "; ".join(f"{other.method} {other.expected_error_mm:.1f} mm" for other in alternatives),
         "group": change.group or "",

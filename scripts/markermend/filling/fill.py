@@ -12,6 +12,7 @@ from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
 from markermend.core.recording import FILLED, Restored
 from markermend.filling.ensemble import Ensemble
+from markermend.filling.error_limits import ErrorLimits
 from markermend.filling.fill_ensembles import Ensembles, make_ensembles
 from markermend.filling.fill_plan import FillPlan, plan_filling
 from markermend.filling.gap_filler import FilledGaps, GapFiller
@@ -91,14 +92,14 @@ def fill_scene(
     ensembles.default.train([(scene, marker) for marker in sorted({gap.marker for gap in plan.ordinary})])
     growing = GrowingScene(scene)
 
-    def filler(ensemble: Ensemble, max_error_mm: float | None) -> GapFiller:
-        return GapFiller(ensemble, max_error_mm=max_error_mm, reuse=options.reuse_filled)
+    def filler(ensemble: Ensemble, limits: ErrorLimits) -> GapFiller:
+        return GapFiller(ensemble, limits=limits, reuse=options.reuse_filled)
 
-    batches = [filler(ensembles.default, options.max_error_mm).fill(growing, plan.ordinary)]
+    batches = [filler(ensembles.default, ErrorLimits.of(options)).fill(growing, plan.ordinary)]
     for method, gaps in plan.confirmed.items():
         # A person's gaps change no other, nor each other where their methods differ.
         ensemble = ensembles.single.get(method, ensembles.default)
-        batches.append(filler(ensemble, None).fill(growing.copy(), gaps))
+        batches.append(filler(ensemble, ErrorLimits()).fill(growing.copy(), gaps))
     recording = _write(restored, batches, samples(options.smoothing_s, restored.rate, odd=True))
     return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 

@@ -9,9 +9,10 @@ from itertools import groupby
 
 import numpy as np
 
-from markermend.core.reasons import Cause, Limit, Reason
+from markermend.core.reasons import Cause, Reason
 from markermend.filling.coverage_radii import coverage_radii
 from markermend.filling.ensemble import Ensemble, Filling
+from markermend.filling.error_limits import ErrorLimits
 from markermend.filling.gap import Gap, GapKind
 from markermend.filling.growing_scene import GrowingScene
 from markermend.filling.member_weights import MemberWeights
@@ -47,14 +48,14 @@ class GapFiller:
     ----------
     ensemble : Ensemble
         The predictors.
-    max_error_mm : float or None
-        Gaps whose expected error (68 %) exceeds it stay open, mm; None = any error is accepted.
+    limits : ErrorLimits
+        Gaps whose expected errors exceed them stay open.
     reuse : bool
         Whether filled samples are inputs for the gaps of other markers.
     """
 
-    def __init__(self, ensemble: Ensemble, *, max_error_mm: float | None, reuse: bool) -> None:
-        self._ensemble, self._max_error_mm, self._reuse = ensemble, max_error_mm, reuse
+    def __init__(self, ensemble: Ensemble, *, limits: ErrorLimits, reuse: bool) -> None:
+        self._ensemble, self._limits, self._reuse = ensemble, limits, reuse
         self._radius_options = ensemble.options.radius
         self._weights: dict[GapKind, MemberWeights] = {}
 
@@ -106,21 +107,18 @@ class GapFiller:
         The radii are not calibrated before the last gap is filled: the prior one decides here.
         """
         from_neighbours = not set(filling.weights) <= set(KINDS)
-        return self._reuse and from_neighbours and self._excess(filling, self._radius_options.inner) is None
+        prior = self._radius_options.inner, self._radius_options.outer
+        return self._reuse and from_neighbours and self._excess(filling, prior) is None
 
-    def _excess(self, filling: Filling, radius: float) -> Reason | None:
-        """Why a filling is too uncertain, given the radius of the 68 % ball; None where it is not."""
-        largest, allowed = radius * float(filling.deviation.max()), self._max_error_mm
-        if allowed is None or largest <= allowed:
-            return None
-        limit = Limit("fill.max_error_mm", allowed, largest)
-        return Reason(Cause.UNCERTAIN, f"expected error {largest:.3g} mm ({limit.text})", limit)
+    def _excess(self, filling: Filling, radii: tuple[float, float]) -> Reason | None:
+        """Why a filling is too uncertain, given the radii of its balls; None where it is not."""
+        return self._limits.reason_against(float(filling.deviation.max()), radii)
 
     def _calibrate(self, filled: dict[Gap, Filling], refused: dict[Gap, Reason]) -> FilledGaps:
-        """Estimate the radii from all pseudo-gaps and refuse the gaps whose error exceeds the limit."""
+        """Estimate the radii from all pseudo-gaps and refuse the gaps whose error exceeds a limit."""
         errors = [part for weights in self._weights.values() for part in weights.standardized_errors]
         radii = coverage_radii(errors, self._radius_options)
-        too_uncertain = {gap: why for gap, own in filled.items() if (why := self._excess(own, radii[0])) is not None}
+        too_uncertain = {gap: why for gap, own in filled.items() if (why := self._excess(own, radii)) is not None}
         accepted = {gap: filling for gap, filling in filled.items() if gap not in too_uncertain}
         return FilledGaps(accepted, refused | too_uncertain, radii)
 

@@ -202,6 +202,11 @@ class FillOptions:
 
     Change it when your purpose can bear a larger error, or only a smaller one."""
 
+    max_error95_mm: Annotated[Millimetres | None, Laboratory] = 100
+    """Gaps in which the true position may be farther away than this with a probability of 5 % stay open; `null` for any.
+
+    Change it when your purpose can bear rare large errors, or not."""
+
     max_altered_share: Annotated[Share, Laboratory] = 0.25
     """Nothing is filled if more than this share of the samples would be altered (0 to 1).
 

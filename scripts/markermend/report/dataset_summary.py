@@ -11,8 +11,8 @@ from markermend.planning.run_summary import STATUSES
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
     "missing_share_before", "missing_share_after", "changed_samples", "changed_share", "repaired", "blanked",
-    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm", "unjudged",
-    "warnings", "attention", "page",
+    "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm",
+    "expected_error95_max_mm", "unjudged", "warnings", "attention", "page",
 )  # fmt: skip
 """The columns of summary.tsv."""
 

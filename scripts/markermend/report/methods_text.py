@@ -55,6 +55,7 @@ LIMITS = {
     "max_gap_s": "of at most {:g} s",
     "max_repair_s": "in stretches of at most {:g} s",
     "max_error_mm": "with an expected error of at most {:g} mm",
+    "max_error95_mm": "with an error of at most {:g} mm at a probability of 0.95",
 }
 """Options that limit a stage."""
 
@@ -142,7 +143,7 @@ def limits(options: Mapping[str, Any]) -> str:
     phrases = [
         phrase.format(options[key]) for key, phrase in LIMITS.items() if isinstance(options.get(key), int | float)
     ]
-    return f" {' and '.join(phrases)}" if phrases else ""
+    return f" {enumeration(phrases)}" if phrases else ""
 
 
 def enumeration(words: Sequence[str]) -> str:

@@ -20,7 +20,8 @@ CHANGES = [
     Change(
         "A", 5, 9, ("step",), Outcome.REPAIRED, 3.0004, "xz", None, "offset",
         (Alternative("offset", 0.5), Alternative("local_ridge", 2.345)),
-        samples=4, largest_change_mm=20.785, expected_error_mm=0.5, decisions=("accept (hop)", "method offset"),
+        samples=4, largest_change_mm=20.785, expected_error_mm=0.5,
+        expected_error95_mm=1.25, decisions=("accept (hop)", "method offset"),
     ),
     Change("A", 12, 14, ("swap",), Outcome.EXCHANGED, 9.0, "xyz", "B", "swap", samples=2, largest_change_mm=80.0),
     Change("B", 20, 25, ("gap",), Outcome.FILLED, method="linear", samples=5, expected_error_mm=1.5),
@@ -46,6 +47,7 @@ def test_figures_are_blank_where_there_are_none():
     step, swap, fill, blanked = rows(CHANGES)
     assert (step["recording"], step["start_s"], step["stop_s"], step["score"]) == ("walk", "0.05", "0.09", "3.0")
     assert (step["largest_change_mm"], step["expected_error_mm"], step["samples"]) == ("20.785", "0.5", "4")
+    assert (step["expected_error95_mm"], swap["expected_error95_mm"]) == ("1.25", "")
     assert step["alternatives"] == "local_ridge 2.3 mm; offset 0.5 mm"
     assert step["decision"] == "accept (hop); method offset"
     assert (fill["score"], fill["largest_change_mm"], fill["alternatives"]) == ("", "", "")

@@ -86,6 +86,7 @@ def test_a_complete_recording_comes_back_as_it_was(person):
     [
         ((7, 100, 350), {}, Cause.TOO_LONG, "fill.max_gap_s"),
         ((7, 200, 220), {"max_error_mm": 0.01}, Cause.UNCERTAIN, "fill.max_error_mm"),
+        ((7, 200, 220), {"max_error95_mm": 0.01}, Cause.UNCERTAIN, "fill.max_error95_mm"),
         ((7, 200, 220), {"max_altered_share": 0.0001}, Cause.TOO_MUCH, "fill.max_altered_share"),
     ],
 )
@@ -203,6 +204,7 @@ class TestDecisions:
         [
             {"max_gap_s": 0.1},
             {"max_error_mm": 0.001},
+            {"max_error95_mm": 0.001},
             {"max_altered_share": 0.00001},
             {"min_seen_share": 0.99},
             {"border_s": 2.5},

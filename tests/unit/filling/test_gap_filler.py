@@ -7,6 +7,7 @@ import pytest
 
 from markermend.core.reasons import Cause
 from markermend.filling.ensemble import Ensemble
+from markermend.filling.error_limits import ErrorLimits
 from markermend.filling.gap import Gap
 from markermend.filling.gap_filler import GapFiller
 from markermend.filling.growing_scene import GrowingScene
@@ -14,6 +15,7 @@ from markermend.prediction.interface import Prediction
 from support.fillings import ensemble_options, rigid_body, scene
 
 FIRST, SECOND, OTHER = Gap(1, 100, 110), Gap(1, 150, 160), Gap(4, 100, 110)
+NO_LIMITS = ErrorLimits()
 
 
 @dataclass
@@ -31,7 +33,7 @@ class Recorder:
         return Prediction(np.zeros((n, 3)), np.full(n, self.errors.get(marker, 1.0)))
 
 
-def filled(errors=None, *, name="recorder", max_error_mm=None, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0):
+def filled(errors=None, *, name="recorder", limits=NO_LIMITS, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0):
     member = Recorder(errors or {}, name)
     # Without pseudo-gaps the prior radii stand.
     ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
@@ -39,7 +41,7 @@ def filled(errors=None, *, name="recorder", max_error_mm=None, reuse=True, gaps=
     for gap in gaps:
         positions[gap.samples] = np.nan
     growing = GrowingScene(scene(positions))
-    return GapFiller(ensemble, max_error_mm=max_error_mm, reuse=reuse).fill(growing, gaps), member, growing
+    return GapFiller(ensemble, limits=limits, reuse=reuse).fill(growing, gaps), member, growing
 
 
 def test_gaps_of_a_marker_see_none_of_them_filled_and_those_of_others():
@@ -51,7 +53,14 @@ def test_gaps_of_a_marker_see_none_of_them_filled_and_those_of_others():
 
 
 @pytest.mark.parametrize(
-    "changed", [{"reuse": False}, {"name": "spline"}, {"max_error_mm": 1.0, "errors": {1: 2.0}}], ids=str
+    "changed",
+    [
+        {"reuse": False},
+        {"name": "spline"},
+        {"limits": ErrorLimits(1.0), "errors": {1: 2.0}},
+        {"limits": ErrorLimits(None, 4.0), "errors": {1: 2.0}},
+    ],
+    ids=str,
 )
 def test_fillings_that_are_no_inputs(changed):
     _, member, growing = filled(**changed)
@@ -60,7 +69,7 @@ def test_fillings_that_are_no_inputs(changed):
 
 
 def test_too_uncertain_fillings_are_refused_with_the_limit():
-    result, _, _ = filled({1: 2.0, 4: 0.5}, max_error_mm=1.0)
+    result, _, _ = filled({1: 2.0, 4: 0.5}, limits=ErrorLimits(1.0))
     assert list(result.accepted) == [OTHER] and list(result.refused) == [FIRST, SECOND]
     reason = result.refused[FIRST]
     assert (reason.cause, reason.limit.setting, reason.limit.value) == (Cause.UNCERTAIN, "fill.max_error_mm", 1.0)
@@ -81,6 +90,6 @@ def test_an_input_may_turn_out_too_uncertain_once_the_radii_are_calibrated():
     prior = ensemble_options().radius.inner
     assert result.radii[0] > prior
     limit = deviation * (prior + result.radii[0]) / 2
-    result, _, growing = filled(trials=2, gaps=(FIRST,), max_error_mm=limit)
+    result, _, growing = filled(trials=2, gaps=(FIRST,), limits=ErrorLimits(limit))
     assert list(result.refused) == [FIRST] and not result.accepted
     assert growing.current().present[FIRST.samples].all()

@@ -50,7 +50,12 @@ def test_the_text_of_tits2018(name):
     assert (distances.spacing_lower_quantile, distances.spacing_upper_quantile) == (0.05, 0.95)
     assert predictors.linear_regression.centring == "available"
     assert (predictors.reference_triangle.ridge, predictors.reference_triangle.kernel_width_sigmas) == (0, 0.3)
-    assert fill.max_gap_s is None and fill.max_error_mm is None and fill.max_altered_share == 1
+    assert (
+        fill.max_gap_s is None
+        and fill.max_error_mm is None
+        and fill.max_error95_mm is None
+        and fill.max_altered_share == 1
+    )
 
 
 def test_the_program_of_tits2018():

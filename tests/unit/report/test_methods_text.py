@@ -43,7 +43,7 @@ def test_the_weights_of_a_real_fill_file_are_stated(weights, tmp_path):
     text = paragraph({"fill": options}, "dynamic", "1.0")["text"]
     assert WEIGHTS[weights] in text
     assert not any(other in text for key, other in WEIGHTS.items() if key != weights)
-    assert "of at most 2 s and with an expected error of at most 50 mm" in text
+    assert "of at most 2 s, with an expected error of at most 50 mm and with an error of at most" in text
     assert ", ".join(name.replace("_", " ") for name in FillOptions().members) in text
     assert "person" not in text
 

@@ -22,7 +22,7 @@ from markermend.prediction.neural_network.predictor import KINDS
 from markermend.prediction.registry import members
 from markermend.prediction.scene import Scene
 
-UNLIMITED = FillOptions(max_gap_s=None, max_error_mm=None, max_altered_share=1, fill_ends=True)
+UNLIMITED = FillOptions(max_gap_s=None, max_error_mm=None, max_error95_mm=None, max_altered_share=1, fill_ends=True)
 """The default options of filling, but that every gap is filled."""
 
 COLUMNS_PER_INPUT = 6

@@ -31,7 +31,14 @@ RUN_COLUMNS = (
 """Columns of the table of runs: one row for each gap and method; `start` is a frame of the whole recording."""
 
 LIFTED: Mapping[str, Any] = {
-    "fill": {"max_gap_s": None, "fill_ends": True, "min_seen_share": 0, "max_error_mm": None, "max_altered_share": 1},
+    "fill": {
+        "max_gap_s": None,
+        "fill_ends": True,
+        "min_seen_share": 0,
+        "max_error_mm": None,
+        "max_error95_mm": None,
+        "max_altered_share": 1,
+    },
     "advanced": {"fill": {"border_s": 0}},
 }
 """Options by which filling refuses no gap."""
