@@ -28,6 +28,7 @@ from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.originals import find_originals
+from markermend.core.poses import Poses
 from markermend.core.recording import ORIGINS, Recording, Restored
 from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 from markermend.core.written import is_reported, written_changes
@@ -41,6 +42,7 @@ from markermend.detection.steps import detect_steps
 from markermend.detection.tails import detect_tails
 from markermend.export import write_back
 from markermend.export.change_table import change_table
+from markermend.filling import pose_sample
 from markermend.filling.fill import fill_gaps
 from markermend.formats.ingest import ingest_file
 from markermend.mesh import inference, user_mesh
@@ -57,6 +59,7 @@ from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
+from markermend.options.poses import PosesOptions
 from markermend.options.reader import BadOptions
 from markermend.options.repair import RepairOptions
 from markermend.options.values import text
@@ -100,7 +103,7 @@ class Options:
     ----------
     general : GeneralOptions
         Which classes of artifacts to look for.
-    ingest, mesh, labels, frames, frozen, tails, peaks, noise, steps, slow, repair, fill
+    ingest, mesh, labels, frames, frozen, tails, peaks, noise, steps, slow, repair, poses, fill
         The options of the stage of that name (config/README.md).
 
     Examples
@@ -121,6 +124,7 @@ class Options:
     steps: StepsOptions
     slow: SlowOptions
     repair: RepairOptions
+    poses: PosesOptions
     fill: FillOptions
 
     @classmethod
@@ -361,12 +365,49 @@ def repair(
     )
 
 
+def sample_poses(repaired: Sequence[TreatedRecording], mesh: Mesh, options: Options | None = None) -> Poses:
+    """Sample the poses of a subject, from which the filling of each of its recordings learns.
+
+    Parameters
+    ----------
+    repaired : sequence of TreatedRecording
+        All recordings of the subject after repair; their order does not matter.
+    mesh : Mesh
+        The body mesh that was inferred from them.
+    options : Options, optional
+        The options; their section `poses` is used.
+
+    Returns
+    -------
+    Poses
+        Poses of every recording that is not static.
+
+    Raises
+    ------
+    ValueError
+        Where two recordings have one name.
+
+    Examples
+    --------
+    >>> poses = sample_poses([repair(own, mesh, detect(own, mesh)) for own in recordings], mesh)  # doctest: +SKIP
+    """
+    own = (options or Options.read()).poses
+    moving = [one.recording for one in repaired if one.recording.facts.get("kind") != "static"]
+    frames = {one.facts["recording"]: one.frames for one in moving}
+    shares = pose_sample.share_out(frames, [mesh.recordings], max_poses=own.max_poses)
+    sampled = [one for one in moving if one.facts["recording"] in shares]
+    return pose_sample.join(
+        [pose_sample.sample_poses(one, shares[one.facts["recording"]], options=own) for one in sampled]
+    )
+
+
 def fill(
     repaired: TreatedRecording,
     mesh: Mesh,
     options: Options | None = None,
     *,
     decisions: Sequence[Mapping[str, Any]] = (),
+    poses: Poses | None = None,
 ) -> TreatedRecording:
     """Fill the gaps of a repaired recording.
 
@@ -380,6 +421,8 @@ def fill(
         The options; their section `fill` is used.
     decisions : sequence of mapping, optional
         What a person decided, line by line: the columns of the table of decisions with a value.
+    poses : Poses, optional
+        Poses of the subject, from which the predictors learn, too; the recording's own are not counted twice.
 
     Returns
     -------
@@ -398,6 +441,7 @@ def fill(
         options=(options or Options.read()).fill,
         decisions=read_decisions(decisions, recording, options),
         repairs=repaired.changes,
+        poses=poses,
     )
 
 
@@ -407,6 +451,7 @@ def clean(
     options: Options | None = None,
     *,
     decisions: Sequence[Mapping[str, Any]] = (),
+    poses: Poses | None = None,
 ) -> Cleaned:
     """Detect, repair and fill.
 
@@ -420,6 +465,8 @@ def clean(
         The options.
     decisions : sequence of mapping, optional
         What a person decided, line by line: the columns of the table of decisions with a value.
+    poses : Poses, optional
+        Poses of the subject, from which the predictors learn, too; the recording's own are not counted twice.
 
     Returns
     -------
@@ -433,11 +480,70 @@ def clean(
     """
     options = options or Options.read()
     mesh = infer_mesh([recording], options=options) if mesh is None else mesh
-    own_mesh = mesh_of(recording, mesh)
-    findings, warnings = _detect(recording, own_mesh, options)
-    filled = fill(repair(recording, mesh, findings, options, decisions=decisions), mesh, options, decisions=decisions)
-    unjudged = _unjudged(recording, own_mesh, findings, options)
-    return Cleaned(recording, filled.recording, mesh, findings, filled.changes, unjudged, warnings)
+    return _fill(_repair(recording, mesh, options, decisions), mesh, options, decisions, poses)
+
+
+def clean_subject(
+    recordings: Sequence[Recording],
+    mesh: Mesh | None = None,
+    options: Options | None = None,
+    *,
+    decisions: Mapping[str, Sequence[Mapping[str, Any]]] | None = None,
+) -> list[Cleaned]:
+    """Clean all recordings of a subject: filling learns from all of them.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        The recordings as read, with different names and like sets of markers; they are not modified.
+    mesh : Mesh, optional
+        The body mesh of the subject; by default it is inferred from these recordings.
+    options : Options, optional
+        The options; with `fill.pool` off, each recording is filled from itself alone.
+    decisions : mapping of str to sequence of mapping, optional
+        What a person decided, by the names of the recordings: see `clean`.
+
+    Returns
+    -------
+    list of Cleaned
+        The recordings in their order, before and after, and what was done.
+
+    Examples
+    --------
+    >>> cleaned = clean_subject([read(path) for path in sorted(Path("S01").glob("*.c3d"))])  # doctest: +SKIP
+    """
+    options = options or Options.read()
+    mesh = infer_mesh(recordings, options=options) if mesh is None else mesh
+    decided = [(decisions or {}).get(recording.facts["recording"], ()) for recording in recordings]
+    repaired = [_repair(recording, mesh, options, own) for recording, own in zip(recordings, decided, strict=True)]
+    poses = sample_poses([own.treated for own in repaired], mesh, options)
+    return [_fill(one, mesh, options, own, poses) for one, own in zip(repaired, decided, strict=True)]
+
+
+@dataclass(frozen=True)
+class _Repaired:
+    """A recording as read and after repair, what each detector found, and their warnings."""
+
+    measured: Recording
+    treated: TreatedRecording
+    findings: Mapping[str, list[Event]]
+    warnings: Sequence[str]
+
+
+def _repair(recording: Recording, mesh: Mesh, options: Options, decisions: Sequence[Mapping[str, Any]]) -> _Repaired:
+    """Detect and repair."""
+    findings, warnings = _detect(recording, mesh_of(recording, mesh), options)
+    return _Repaired(recording, repair(recording, mesh, findings, options, decisions=decisions), findings, warnings)
+
+
+def _fill(
+    repaired: _Repaired, mesh: Mesh, options: Options, decisions: Sequence[Mapping[str, Any]], poses: Poses | None
+) -> Cleaned:
+    """Fill, and put together all that is known."""
+    measured, findings = repaired.measured, repaired.findings
+    filled = fill(repaired.treated, mesh, options, decisions=decisions, poses=poses)
+    unjudged = _unjudged(measured, mesh_of(measured, mesh), findings, options)
+    return Cleaned(measured, filled.recording, mesh, findings, filled.changes, unjudged, repaired.warnings)
 
 
 def _unjudged(recording: Recording, mesh: Mesh, findings: Mapping[str, Any], options: Options) -> dict[str, str]:

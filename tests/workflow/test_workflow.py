@@ -16,7 +16,7 @@ from markermend.options.flags import stage_options
 from support.workflow_runs import PROJECT, Project, write_recording
 
 STAGES = (
-    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export", "qc", "report",
+    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "poses", "fill", "export", "qc", "report",
 )  # fmt: skip
 
 
@@ -47,9 +47,9 @@ def test_a_folder_of_every_format_is_planned_whole(project):
         (project.recordings / name).parent.mkdir(parents=True, exist_ok=True)
         (project.recordings / name).touch()
     plan = project.plan()
-    every = dict.fromkeys((*STAGES[2 : STAGES.index("export")], "qc", "ingest"), 4)
+    every = dict.fromkeys((*STAGES[2 : STAGES.index("poses")], "fill", "qc", "ingest"), 4)
     exports = dict.fromkeys(["export_c3d", "export_trc", "export_csv", "export_tsv"], 1)
-    assert plan.jobs == {**every, **exports, "mesh": 2, "report": 1, "all": 1}
+    assert plan.jobs == {**every, **exports, "mesh": 2, "poses": 2, "report": 1, "all": 1}
     assert "OMP_NUM_THREADS" not in plan.text
 
 

@@ -22,7 +22,7 @@ rule qc:
     benchmark:
         f"{files.logs}/qc.tsv"
     group:
-        "recording"
+        plan.filling_group
     conda:
         "../../envs/base.yaml"
     threads: 1

@@ -1,7 +1,7 @@
-"""Repair what was found, fill the gaps, write the result back into the recording's own format.
+"""Repair what was found, sample the poses of each subject, fill the gaps, write the result back into the recording's own format.
 
 Reads: 01_markers.parquet, mesh.json, the events, a person's decisions, the original file.
-Writes: 06_repaired.parquet, 07_filled.parquet, each with a file of changes, cleaned.* with changes.tsv, originals.parquet
+Writes: 06_repaired.parquet, 07_filled.parquet, each with a file of changes, poses.parquet for each subject, cleaned.* with changes.tsv, originals.parquet
 and certificate.json.
 """
 
@@ -39,11 +39,42 @@ rule repair:
         " {params.options} {params.decisions:q} 2> {log:q}"
 
 
+rule poses:
+    input:
+        repaired=plan.subject_repaired,
+        mesh=files.mesh,
+    output:
+        poses=files.poses,
+    log:
+        f"{files.subject}/logs/poses.log",
+    benchmark:
+        f"{files.subject}/logs/poses.tsv"
+    group:
+        "poses"
+    conda:
+        "../../envs/base.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=20,
+    params:
+        *plan.code("poses"),
+        options=plan.stage_options("poses"),
+        failures=plan.failed("poses"),
+        list=files.repaired_list,
+    message:
+        "Sample the poses of {wildcards.subject}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/poses.py --repaired @{params.list:q} --mesh {input.mesh:q}"
+        " --poses {output.poses:q} {params.options} 2> {log:q}"
+
+
 rule fill:
     input:
         repaired=files.repaired,
         repairs=files.repairs,
         mesh=files.mesh,
+        poses=plan.poses,
     output:
         filled=files.filled,
         changes=files.changes,
@@ -52,7 +83,7 @@ rule fill:
     benchmark:
         f"{files.logs}/fill.tsv"
     group:
-        "recording"
+        plan.filling_group
     conda:
         "../../envs/torch.yaml" if plan.trains_networks else "../../envs/base.yaml"
     threads: 1
@@ -68,7 +99,7 @@ rule fill:
         "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --repairs {input.repairs:q}"
-        " --mesh {input.mesh:q} --filled {output.filled:q} --changes {output.changes:q}"
+        " --mesh {input.mesh:q} --poses {input.poses:q} --filled {output.filled:q} --changes {output.changes:q}"
         " {params.options} {params.decisions:q} 2> {log:q}"
 
 
@@ -95,7 +126,7 @@ for suffix in FORMATS:
         wildcard_constraints:
             subject=plan.data.subjects_of(suffix),
         group:
-            "recording"
+            plan.filling_group
         conda:
             "../../envs/base.yaml"
         threads: 1

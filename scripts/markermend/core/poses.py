@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -58,7 +58,7 @@ class Poses:
     recording: np.ndarray
     frames: np.ndarray
 
-    def others(self, recording: str, markers: Sequence[str]) -> Pool | None:
+    def others(self, recording: str, markers: Sequence[str], *, among: Collection[str] | None = None) -> Pool | None:
         """Show the poses of the other recordings to one recording.
 
         Parameters
@@ -67,6 +67,8 @@ class Poses:
             Name of the recording; its own poses are left out.
         markers : sequence of str
             Its markers.
+        among : collection of str, optional
+            Names of the recordings that share its mesh; poses of no others are shown. By default of all.
 
         Returns
         -------
@@ -77,7 +79,8 @@ class Poses:
         columns = [place.get(name, -1) for name in markers]
         known = np.array(columns) >= 0
         positions = np.where(known[:, None], self.positions[:, columns], np.nan)
-        kept = np.array([name != recording for name in self.recordings], bool)[self.recording]
+        shown = set(self.recordings if among is None else among) - {recording}
+        kept = np.array([name in shown for name in self.recordings], bool)[self.recording]
         kept &= ~np.isnan(positions).all(axis=(1, 2))
         if not kept.any():
             return None

@@ -10,6 +10,7 @@ import numpy as np
 from markermend.core.changes import GAP, Change, MemberWeight, Outcome, TreatedRecording, largest
 from markermend.core.decisions import Decision
 from markermend.core.mesh import Mesh
+from markermend.core.poses import Poses
 from markermend.core.recording import FILLED, Restored
 from markermend.filling.ensemble import Ensemble
 from markermend.filling.error_limits import ErrorLimits
@@ -30,6 +31,7 @@ def fill_gaps(
     options: FillOptions,
     decisions: Sequence[Decision] = (),
     repairs: Sequence[Change] = (),
+    poses: Poses | None = None,
 ) -> TreatedRecording:
     """Fill the gaps of a recording with the ensemble that the options describe.
 
@@ -45,14 +47,20 @@ def fill_gaps(
         What a person decided about the recording; no limit holds against a decision.
     repairs : sequence of Change
         What repair did to the recording.
+    poses : Poses, optional
+        Poses of the subject: the predictors learn from those of the other recordings that share the mesh, too.
 
     Returns
     -------
     TreatedRecording
         The recording after filling; what repair did, then the outcome of every gap, by marker and frame. Only missing
-        samples are written, a gap completely or not at all; static recordings are left as they are.
+        samples are written, a gap completely or not at all; static recordings are left as they are. The fact `learned_from`
+        names the other recordings from which the predictors that filled it learned.
     """
     scene = Scene.of(restored, mesh)
+    if poses is not None and options.pool:
+        name = restored.facts.get("recording", "")
+        scene = replace(scene, pool=poses.others(name, restored.markers, among=mesh.recordings))
     return fill_scene(restored, scene, make_ensembles(options, decisions), options, decisions, repairs)
 
 
@@ -101,6 +109,8 @@ def fill_scene(
         ensemble = ensembles.single.get(method, ensembles.default)
         batches.append(filler(ensemble, ErrorLimits()).fill(growing.copy(), gaps))
     recording = _write(restored, batches, samples(options.smoothing_s, restored.rate, odd=True))
+    if scene.pool is not None and any(batch.accepted for batch in batches):
+        recording = replace(recording, facts={**recording.facts, "learned_from": list(scene.pool.names)})
     return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 
 

@@ -23,6 +23,7 @@ from markermend.options.filling import FillOptions
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.options.mesh import MeshOptions
+from markermend.options.poses import PosesOptions
 from markermend.options.prediction.predictors import PredictorOptions
 from markermend.options.reader import Reader, inside
 from markermend.options.renamed import RENAMED, renamed
@@ -50,6 +51,7 @@ SECTIONS: dict[str, type] = {
     "steps": StepsOptions,
     "slow": SlowOptions,
     "repair": RepairOptions,
+    "poses": PosesOptions,
     "fill": FillOptions,
     "export": NoOptions,
     "qc": QcOptions,

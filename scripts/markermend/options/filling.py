@@ -225,6 +225,11 @@ class FillOptions:
 
     Change it when you repeat a paper, or filling takes too long (fewer)."""
 
+    pool: Annotated[bool, Laboratory] = True
+    """Whether the predictors learn from the subject's other recordings, too.
+
+    Change it when each recording must be filled from what it shows by itself."""
+
     border_s: Seconds = 0.02
     """Time for which a marker must be seen without a break on either side of a gap."""
 

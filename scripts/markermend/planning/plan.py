@@ -120,10 +120,36 @@ class Plan:
 
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
         """The ingested trajectories of each recording of the subject; see `DataSet.entry`."""
-        subject = wildcards.subject
-        return [
-            self.files.markers.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]
-        ]
+        return self._of_subject(self.files.markers, wildcards.subject)
+
+    def subject_repaired(self, wildcards: Wildcards) -> list[str]:
+        """The repaired trajectories of each recording of the subject; see `DataSet.entry`."""
+        return self._of_subject(self.files.repaired, wildcards.subject)
+
+    def poses(self, wildcards: Wildcards) -> list[str]:
+        """The poses of the subject, where its recordings are filled from each other; see `DataSet.entry`."""
+        pools = self.options["fill"].pool and len(self.data.subjects[wildcards.subject]) > 1
+        return [self.files.poses.format(subject=wildcards.subject)] if pools else []
+
+    def filling_group(self, wildcards: Wildcards) -> str:
+        """The group of the jobs from filling on, which wait for the subject's other recordings where these are pooled.
+
+        Parameters
+        ----------
+        wildcards : Wildcards
+            The names of the recording's folders.
+
+        Returns
+        -------
+        str
+            A group other than that of the stages before, where a job of the whole subject lies in between: else the one
+            job on a cluster would wait for the other, which waits for it.
+        """
+        return "filling" if self.poses(wildcards) else "recording"
+
+    def _of_subject(self, pattern: str, subject: str) -> list[str]:
+        """A file of each recording of a subject."""
+        return [pattern.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]]
 
     def code(self, stage: str, *extra: str) -> list[str]:
         """Hash the code of a stage: an edit of a module reruns the stages that use it.
@@ -183,11 +209,15 @@ class Plan:
         return of_stage
 
     def write_lists(self) -> None:
-        """Write the lists of files that meshes and the report are made of: a command line has no room for thousands."""
+        """Write the lists of files that meshes, poses and the report are made of: a command line has no room for thousands."""
         write_text(Path(self.files.quality_list), "".join(f"{path}\n" for path in self.quality_files))
-        for subject, names in self.data.subjects.items():
-            lines = [self.files.markers.format(subject=subject, recording=name) + "\n" for name in names]
-            write_text(Path(self.files.markers_list.format(subject=subject)), "".join(lines))
+        for subject in self.data.subjects:
+            for listed, pattern in (
+                (self.files.markers_list, self.files.markers),
+                (self.files.repaired_list, self.files.repaired),
+            ):
+                lines = [f"{path}\n" for path in self._of_subject(pattern, subject)]
+                write_text(Path(listed.format(subject=subject)), "".join(lines))
 
     def close(self) -> None:
         """Write the facts of the run, and print its summary."""

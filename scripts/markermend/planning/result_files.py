@@ -63,6 +63,11 @@ class ResultFiles:
         return f"{self.recording}/06_changes.parquet"
 
     @property
+    def poses(self) -> str:
+        """A sample of the poses of a subject, from all of its recordings."""
+        return f"{self.subject}/poses.parquet"
+
+    @property
     def filled(self) -> str:
         """Trajectories after repair and filling."""
         return f"{self.recording}/07_filled.parquet"
@@ -111,6 +116,11 @@ class ResultFiles:
     def markers_list(self) -> str:
         """The list of files that a subject's meshes are inferred from."""
         return f"{self.subject}/logs/recordings.txt"
+
+    @property
+    def repaired_list(self) -> str:
+        """The list of files that a subject's poses are sampled from."""
+        return f"{self.subject}/logs/repaired.txt"
 
     @property
     def quality_list(self) -> str:

@@ -14,7 +14,7 @@ LONGEST = 255
 RESERVED_SUBJECTS = frozenset({"report", "papers"})
 """Names beside the subjects' folders that are ours."""
 
-RESERVED_RECORDINGS = frozenset({"mesh.json", "logs", "failures.tsv"})
+RESERVED_RECORDINGS = frozenset({"mesh.json", "poses.parquet", "logs", "failures.tsv"})
 """Names beside the recordings' folders of a subject that are ours."""
 
 

@@ -62,6 +62,27 @@ def read(path: Path, name: str) -> Mesh:
     return for_recording(stage_files.read_json(path), name)
 
 
+def read_groups(path: Path) -> list[tuple[str, ...]]:
+    """Read which recordings share a mesh.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    list of tuple of str
+        Names of the recordings of each mesh.
+
+    Raises
+    ------
+    SetAside
+        Where the mesh stage set the subject aside.
+    """
+    return [tuple(entry["recordings"]) for entry in stage_files.read_json(path)["meshes"]]
+
+
 def write(path: Path, meshes: Sequence[Mesh], facts: dict[str, Any]) -> None:
     """Write meshes in the order of their recordings.
 

@@ -42,3 +42,13 @@ def weighted_average(positions, errors, typical, weights, least):
             variance += used[k, n] * (own**2 + apart) if used[k, n] > 0 else 0.0
         deviation[n] = np.sqrt(variance)
     return mean, deviation, used.mean(axis=1)
+
+
+def share_out(frames, total):
+    """Deal poses out one by one, to the recording with the fewest so far that has frames left; the last by length and name wins ties."""
+    shares = dict.fromkeys(sorted(frames), 0)
+    for _ in range(total):
+        open_ones = [name for name in shares if shares[name] < frames[name]]
+        if open_ones:
+            shares[min(open_ones, key=lambda name: (shares[name], -frames[name], [-ord(c) for c in name]))] += 1
+    return shares

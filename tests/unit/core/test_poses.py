@@ -35,3 +35,10 @@ def test_there_is_no_pool_without_other_recordings_or_joint_markers() -> None:
     assert poses.others("walk", ["unknown"]) is None
     alone = Poses(poses.markers, poses.positions[:3], ("walk",), poses.recording[:3], poses.frames[:3])
     assert alone.others("walk", ["A", "B"]) is None
+
+
+def test_poses_of_recordings_with_another_mesh_are_not_shown() -> None:
+    pool = make_poses().others("walk", ["A"], among=["walk", "static"])
+    assert pool is not None
+    assert pool.names == ("static",)
+    assert make_poses().others("walk", ["A"], among=["walk"]) is None

@@ -31,6 +31,20 @@ def test_a_mesh_is_made_of_all_recordings_of_its_subject(plan, tmp_path):
     assert markers == [f"{tmp_path}/out/S%201/{name}/01_markers.parquet" for name in ("run", "walk")]
 
 
+def test_a_subject_has_poses_where_its_recordings_are_filled_from_each_other(plan, config, tmp_path):
+    assert plan.poses(job()) == [f"{tmp_path}/out/S%201/poses.parquet"]
+    repaired = plan.subject_repaired(SimpleNamespace(subject="S%201"))
+    assert repaired == [f"{tmp_path}/out/S%201/{name}/06_repaired.parquet" for name in ("run", "walk")]
+    assert plan.poses(job("S2", "%7Bx%7D")) == []
+    config["fill"]["pool"] = False
+    assert make_plan(config, PROJECT, deployed=False).poses(job()) == []
+
+
+def test_a_group_of_jobs_does_not_wait_for_one_that_waits_for_it(plan):
+    assert plan.filling_group(job()) == "filling"
+    assert plan.filling_group(job("S2", "%7Bx%7D")) == "recording"
+
+
 def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
     assert plan.detectors == list(DETECTORS)
     assert plan.events() == [plan.files.events[stage] for stage in DETECTORS]
@@ -40,7 +54,7 @@ def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
     assert some.events(before="slow") == [plan.files.events["peaks"]]
 
 
-@pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "fill", "export", "qc", "report"])
+@pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "poses", "fill", "export", "qc", "report"])
 def test_every_stage_gets_its_options_as_flags(plan, stage):
     names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]
     assert names == [option.name.replace("_", "-") for option in stage_options(SECTIONS[stage])]
