@@ -54,6 +54,43 @@ def test_cleaning_is_its_stages_one_after_the_other(recording, cleaned):
     assert np.array_equal(filled.recording.positions, cleaned.recording.positions, equal_nan=True)
 
 
+@pytest.fixture(scope="module")
+def subject(tmp_path_factory):
+    """Three recordings of one subject: two that move, and a static one."""
+    folder = tmp_path_factory.mktemp("S02")
+    for name in ("walk", "jump", "static"):
+        write_recording(folder / f"{name}.c3d", seed=4)
+    kinds = {"static": "static"}
+    return [api.read(path, kind=kinds.get(path.stem, "auto")) for path in sorted(folder.glob("*.c3d"))]
+
+
+def test_a_subject_is_cleaned_as_its_recordings_one_after_the_other_with_their_poses(subject):
+    together = api.clean_subject(subject)
+    mesh = api.infer_mesh(subject)
+    poses = api.sample_poses([api.repair(own, mesh, api.detect(own, mesh)) for own in subject[::-1]], mesh)
+    assert poses.recordings == ("jump", "walk")
+    assert [own.recording.facts.get("learned_from") for own in together] == [["walk"], None, ["jump"]]
+    for own, cleaned in zip(subject, together, strict=True):
+        by_itself = api.clean(own, mesh, poses=poses)
+        assert np.array_equal(by_itself.recording.positions, cleaned.recording.positions, equal_nan=True)
+        assert by_itself.changes == cleaned.changes and cleaned.measured is own
+
+
+def test_without_pooling_recordings_are_filled_from_themselves(subject):
+    options = api.Options.read({"fill": {"pool": False}})
+    alone = api.clean(subject[0], api.infer_mesh(subject))
+    together = api.clean_subject(subject, options=options)[0]
+    assert np.array_equal(alone.recording.positions, together.recording.positions, equal_nan=True)
+    assert "learned_from" not in together.recording.facts
+
+
+def test_decisions_on_a_subject_are_told_apart_by_recording(subject):
+    decisions = {"walk": [{"marker": "M1", "decision": "reject", "value": "gap"}]}
+    cleaned = api.clean_subject(subject, decisions=decisions)
+    m = subject[0].markers.index("M1")
+    assert [own.recording.missing[40:50, m].any() for own in cleaned] == [False, True, True]
+
+
 def test_the_input_is_not_modified_and_the_gap_and_the_peak_are_gone(path, recording, cleaned):
     assert np.array_equal(recording.positions, api.read(path).positions, equal_nan=True)
     assert isinstance(cleaned.recording, Restored) and not cleaned.recording.missing.any()

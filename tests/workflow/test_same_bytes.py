@@ -15,11 +15,9 @@ def same(project: Project, folder: Path) -> dict[str, list[bool]]:
     for subject in sorted(project.recordings.iterdir()):
         paths = sorted(subject.iterdir())
         recordings = [api.read(path) for path in paths]
-        mesh = api.infer_mesh(recordings)
-        for path, recording in zip(paths, recordings, strict=True):
+        for path, cleaned in zip(paths, api.clean_subject(recordings), strict=True):
             there = project.results / subject.name / path.stem
             names = [f"cleaned{path.suffix.lower()}", "changes.tsv"]
-            cleaned = api.clean(recording, mesh)
             api.write(cleaned, path, folder / names[0], changes=folder / names[1])
             equal[f"{subject.name}/{path.stem}"] = [
                 (folder / name).read_bytes() == (there / name).read_bytes() for name in names

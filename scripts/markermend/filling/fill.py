@@ -55,12 +55,14 @@ def fill_gaps(
     TreatedRecording
         The recording after filling; what repair did, then the outcome of every gap, by marker and frame. Only missing
         samples are written, a gap completely or not at all; static recordings are left as they are. The fact `learned_from`
-        names the other recordings from which the predictors that filled it learned.
+        names the other recordings from which the predictors learned, if there are any.
     """
     scene = Scene.of(restored, mesh)
-    if poses is not None and options.pool:
+    if poses is not None and options.pool and restored.facts.get("kind") != "static":
         name = restored.facts.get("recording", "")
         scene = replace(scene, pool=poses.others(name, restored.markers, among=mesh.recordings))
+    if scene.pool is not None:
+        restored = replace(restored, facts={**restored.facts, "learned_from": list(scene.pool.names)})
     return fill_scene(restored, scene, make_ensembles(options, decisions), options, decisions, repairs)
 
 
@@ -109,8 +111,6 @@ def fill_scene(
         ensemble = ensembles.single.get(method, ensembles.default)
         batches.append(filler(ensemble, ErrorLimits()).fill(growing.copy(), gaps))
     recording = _write(restored, batches, samples(options.smoothing_s, restored.rate, odd=True))
-    if scene.pool is not None and any(batch.accepted for batch in batches):
-        recording = replace(recording, facts={**recording.facts, "learned_from": list(scene.pool.names)})
     return TreatedRecording(recording, (*repairs, *_changes(recording, plan, batches)))
 
 

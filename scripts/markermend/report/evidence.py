@@ -93,6 +93,11 @@ class Evidence:
         """The outcomes of a person's decisions."""
         return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
 
+    @property
+    def learned_from(self) -> list[str]:
+        """The names of the subject's other recordings from which filling learned."""
+        return list(self.after.facts.get("learned_from", ()))
+
     @cached_property
     def unjudged(self) -> dict[str, str]:
         """The markers that no detector could judge by their neighbours, and why; none where no detector was to do so."""

@@ -93,7 +93,7 @@ class Citations:
         return f"[{self.keys.index(key) + 1}]"
 
 
-def paragraph(stages: Stages, kind: str | None, version: str) -> dict[str, Any]:
+def paragraph(stages: Stages, kind: str | None, version: str, *, pooled: bool = False) -> dict[str, Any]:
     """Write what was done to a recording.
 
     Parameters
@@ -104,6 +104,8 @@ def paragraph(stages: Stages, kind: str | None, version: str) -> dict[str, Any]:
         Kind of the recording; those of kind `static` are only checked.
     version : str
         Version of the program.
+    pooled : bool
+        Whether filling learned from the subject's other recordings, too.
 
     Returns
     -------
@@ -119,7 +121,7 @@ def paragraph(stages: Stages, kind: str | None, version: str) -> dict[str, Any]:
         sentences.append("Static recordings were only checked: nothing in them was repaired or filled.")
     else:
         sentences += [*_mesh(stages, citations), *_artifacts(stages, citations), *_unmeasured(stages)]
-        sentences += [*_filling(stages, citations), *_decisions(stages)]
+        sentences += [*_filling(stages, citations, pooled), *_decisions(stages)]
         sentences.append(
             "Changed samples, and no others, were overwritten in a copy of each file, which was then compared with the "
             "original byte by byte."
@@ -241,7 +243,7 @@ def _adopts(stages: Stages) -> bool:
     return bool(stages.get("labels", {}).get("adopt_unlabelled"))
 
 
-def _filling(stages: Stages, citations: Citations) -> Iterator[str]:
+def _filling(stages: Stages, citations: Citations, pooled: bool) -> Iterator[str]:
     """How gaps were filled."""
     if "fill" not in stages:
         return
@@ -252,6 +254,11 @@ def _filling(stages: Stages, citations: Citations) -> Iterator[str]:
         f"Gaps{limits(options)} were filled with the weighted mean of several predictors{named} "
         f"{citations.cite('averaging')}."
     )
+    if pooled:
+        yield (
+            "The predictors learned from the recording itself and from a sample of the poses in the subject's other recordings, which "
+            "shared its mesh."
+        )
     if (weights := options.get("ensemble", {}).get("weights")) in WEIGHTS:
         yield WEIGHTS[weights]
     yield from _constraints(options)

@@ -49,8 +49,14 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         unjudged=list(seen.unjudged),
     )
     summary = report_summary.with_attention(summary, weights)
-    methods = paragraph(seen.stages, summary["kind"], __version__)
-    return {**summary, "motion_lacks": list(seen.mesh.lacks), "decisions": len(seen.decided), "methods": methods}
+    methods = paragraph(seen.stages, summary["kind"], __version__, pooled=bool(seen.learned_from))
+    return {
+        **summary,
+        "motion_lacks": list(seen.mesh.lacks),
+        "decisions": len(seen.decided),
+        "learned_from": seen.learned_from,
+        "methods": methods,
+    }
 
 
 def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import pytest
 
 from markermend.core.changes import Change, Outcome
 from markermend.core.decisions import EVER, Decision
+from markermend.core.poses import Poses
 from markermend.core.reasons import Cause
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS
 from markermend.filling.fill import fill_gaps
@@ -331,3 +332,36 @@ def test_what_was_filled_may_be_smoothed_with_the_samples_beside_it(person):
     whole, smooth = (fill(restored(gapped, markers=names), near, smoothing_s=window).positions for window in (0, 0.07))
     assert np.allclose(smooth[200:240, MARKER], symmetric_smoothing(whole[:, MARKER], 7)[200:240])
     assert np.array_equal(smooth[~np.isnan(gapped)], gapped[~np.isnan(gapped)])
+
+
+def poses_of(person, *names):
+    """Ten poses of each recording."""
+    positions, markers, _ = person
+    numbers = np.repeat(np.arange(len(names)), 10)
+    rows = np.tile(np.arange(0, 500, 50), len(names))
+    return Poses(tuple(markers), positions[rows], names, numbers, rows)
+
+
+@pytest.mark.parametrize(
+    ("kind", "pool", "learned_from"),
+    [("dynamic", True, ["jump"]), ("dynamic", False, None), ("static", True, None)],
+)
+def test_what_filling_learns_from_is_stated(torso, kind, pool, learned_from):
+    recording = gapped(torso, (3, 100, 120), recording="walk", kind=kind)
+    mesh = infer_mesh(
+        [bodies.recording(torso[1], torso[0], name=name) for name in ("walk", "jump")], options=MeshOptions()
+    )
+    options = fill_options(members=QUICK, pool=pool)
+    filled = fill_gaps(recording, mesh, options=options, poses=poses_of(torso, "another mesh", "jump", "walk"))
+    assert filled.recording.facts.get("learned_from") == learned_from
+    assert "learned_from" not in recording.facts
+
+
+def test_own_poses_and_those_of_another_mesh_alter_nothing(torso):
+    recording = gapped(torso, (3, 100, 120), recording="walk", kind="dynamic")
+    mesh = infer_mesh([bodies.recording(torso[1], torso[0], name="walk")], options=MeshOptions())
+    options = fill_options(members=QUICK)
+    alone = fill_gaps(recording, mesh, options=options)
+    other = fill_gaps(recording, mesh, options=options, poses=poses_of(torso, "another mesh", "walk"))
+    assert np.array_equal(alone.recording.positions, other.recording.positions, equal_nan=True)
+    assert other.changes == alone.changes and other.recording.facts == alone.recording.facts

@@ -37,6 +37,13 @@ def fill_file(folder, **averaging):
     return stage_files.read_facts(folder / "07.parquet")["options"]
 
 
+def test_recordings_that_predictors_learned_from_are_stated_only_where_there_are_any():
+    sentence = "a sample of the poses in the subject's other recordings"
+    assert sentence in paragraph({"fill": {}}, "dynamic", "1.0", pooled=True)["text"]
+    assert sentence not in paragraph({"fill": {}}, "dynamic", "1.0")["text"]
+    assert sentence not in paragraph({"fill": {}}, "static", "1.0", pooled=True)["text"]
+
+
 @pytest.mark.parametrize("weights", WEIGHTS)
 def test_the_weights_of_a_real_fill_file_are_stated(weights, tmp_path):
     options = fill_file(tmp_path, weights=weights)

@@ -55,6 +55,24 @@ def test_the_page_says_which_drifts_would_have_been_found(made, contaminated, tm
     assert "would have been found" not in Page(made.page).text
 
 
+def test_the_page_names_the_recordings_that_filling_learned_from(made, contaminated, tmp_path):
+    before, after = (
+        stage_files.read_recording(made.folder / f"{name}.parquet") for name in ("01_markers", "07_filled")
+    )
+    facts = {**after.facts, "learned_from": ["Run <2>", "Sit"]}
+    after = Treated(**{**vars(after), "facts": facts}, changes=change_file.read(made.folder / "07_changes.parquet"))
+    other = report_files.write(tmp_path, before, after, contaminated.events)
+    qc.main(other.qc())
+    text = " ".join(Page(other.page).text.split())
+    assert (
+        "learned from poses in 2 other recordings of the subject, too: Run <2>, Sit. Nothing in these was changed"
+        in text
+    )
+    assert "the subject's other recordings" in other.summary["methods"]["text"]
+    assert other.summary["learned_from"] == ["Run <2>", "Sit"] and made.summary["learned_from"] == []
+    assert "learned from poses" not in Page(made.page).text
+
+
 def test_the_number_of_plots_is_capped_and_the_tables_are_not(made):
     qc.main(made.qc(plots=3))
     page = Page(made.page)
