@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from markermend.core.cache import Cache, Result
+
+CACHE_SIZE = 60
+"""Results that a pool caches for the predictors of one marker after the other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +37,28 @@ class Pool:
         """Whether each marker is seen, bool (rows, markers)."""
         present: np.ndarray = ~np.isnan(self.positions).any(axis=2)
         return present
+
+    @cached_property
+    def _cache(self) -> Cache:
+        """Results of predictors on this pool."""
+        return Cache(CACHE_SIZE)
+
+    def cached(self, key: Hashable, compute: Callable[[], Result]) -> Result:
+        """Compute a result once for all scenes that share the pool.
+
+        Parameters
+        ----------
+        key : Hashable
+            Identifies the result: it must hold everything that the result depends on besides the pool.
+        compute : Callable[[], Result]
+            Computes the result.
+
+        Returns
+        -------
+        Result
+            The result, computed now or before.
+        """
+        return self._cache.get(key, compute)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
+from markermend.core.cache import Cache, Result
 from markermend.core.mesh import Mesh
 from markermend.core.poses import Pool
 from markermend.core.recording import Recording
@@ -16,8 +16,6 @@ from markermend.core.shape import Shape
 
 CACHE_SIZE = 60
 """Results that a scene caches for its predictors: enough for the members and missing neighbours of one marker."""
-
-Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -106,9 +104,9 @@ class Scene:
         return present
 
     @cached_property
-    def _cache(self) -> dict[Hashable, object]:
-        """Results of predictors on this scene, oldest first."""
-        return {}
+    def _cache(self) -> Cache:
+        """Results of predictors on this scene."""
+        return Cache(CACHE_SIZE)
 
     def cached(self, key: Hashable, compute: Callable[[], Result]) -> Result:
         """Compute a result once for all gaps that share the scene.
@@ -125,11 +123,7 @@ class Scene:
         Result
             The result, computed now or before.
         """
-        if key not in self._cache:
-            while len(self._cache) >= CACHE_SIZE:
-                del self._cache[next(iter(self._cache))]
-            self._cache[key] = compute()
-        return self._cache[key]  # type: ignore[return-value]
+        return self._cache.get(key, compute)
 
     def without(self, marker: int, start: int, stop: int) -> Scene:
         """Hide a marker during a gap.

@@ -60,6 +60,15 @@ class LocalRidgeOptions:
     """Limit of the leverage of a pose, in units of its mean over the training; the expected error grows with it where poses
     are unlike those of the training."""
 
+    pool_weights: Annotated[tuple[NotNegative, ...], NotEmpty] = (0, 0.1, 0.3, 1, 3)
+    """Weights of the subject's other recordings that are tried, in units of the weight of the recording itself."""
+
+    pool_validation_blocks: Annotated[int, AtLeast(2)] = 6
+    """Stretches of the recording that are left out in turn to choose among them."""
+
+    min_pooled_rows: Count = 5
+    """Poses of another recording that show the marker and its inputs, at least, to learn from that recording."""
+
 
 @dataclass(frozen=True)
 class GaussianProcessOptions:

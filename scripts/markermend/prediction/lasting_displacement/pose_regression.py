@@ -10,7 +10,8 @@ from markermend.numerics.robust import MAD_TO_STD
 from markermend.options.detection.displacement import DisplacementOptions
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.inputs import InputSelection
-from markermend.prediction.local_ridge.model import TrainingSet, with_intercept
+from markermend.prediction.local_ridge.model import TrainingSet
+from markermend.prediction.local_ridge.ridge import with_intercept
 from markermend.prediction.scene import Scene
 
 

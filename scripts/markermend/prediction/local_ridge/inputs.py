@@ -11,7 +11,9 @@ import numpy as np
 from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
-from markermend.prediction.local_ridge.model import TrainingSet, robust_weights
+from markermend.prediction.local_ridge.model import TrainingSet
+from markermend.prediction.local_ridge.pooled_rows import PooledRows, pooled_rows
+from markermend.prediction.local_ridge.ridge import robust_weights
 from markermend.prediction.marker_selection import pseudo_random_subset
 from markermend.prediction.scene import Scene
 
@@ -170,10 +172,29 @@ class InputSelection:
         joint = np.flatnonzero(anchors.observed & scene.present[:, inputs].all(axis=1))
         # Kriging needs pairs of frames at every lag: evenly spaced frames have only multiples of one.
         training = pseudo_random_subset(joint, options.max_training_frames)
-        frames = align(scene.positions[np.ix_(training, anchors.markers)], anchors.shape)
+        pooled = self._pooled(scene, marker, anchors.markers, inputs)
+        shape = anchors.shape if pooled is None else pooled.turned(anchors.shape)
+        frames = align(scene.positions[np.ix_(training, anchors.markers)], shape)
         points = scene.positions[np.ix_(training, np.append(inputs, marker))]
         local = frames.local(points).reshape(len(training), -1)
         centre = np.median(local, axis=0)
         local = local - centre
         weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.outlier_sigmas)
-        return TrainingSet(anchors.markers, inputs, anchors.shape, centre, local, weights, training)
+        return TrainingSet(anchors.markers, inputs, shape, centre, local, weights, training, pooled)
+
+    def _pooled(self, scene: Scene, marker: int, anchors: np.ndarray, inputs: np.ndarray) -> PooledRows | None:
+        """Training rows from the subject's other recordings; the pool caches them for all scenes of the recording."""
+        pool, options = scene.pool, self.options
+        if pool is None:
+            return None
+        rows = partial(
+            pooled_rows,
+            pool,
+            anchors,
+            np.append(inputs, marker),
+            min_rows=options.min_pooled_rows,
+            ridge=options.ridge_mm2,
+            sigmas=options.outlier_sigmas,
+        )
+        limits = options.min_pooled_rows, options.ridge_mm2, options.outlier_sigmas
+        return pool.cached(("local rows", marker, anchors.tobytes(), inputs.tobytes(), limits), rows)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from markermend.prediction.local_ridge.model import with_intercept
+from markermend.prediction.local_ridge.ridge import with_intercept
 
 GROWTHS = np.concatenate([[0.0], np.geomspace(0.01, 100, 25)])
 """Growths of the error's variance with the leverage that are tried."""

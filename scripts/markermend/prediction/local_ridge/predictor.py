@@ -18,7 +18,8 @@ from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.interface import LocalRegression, Prediction
 from markermend.prediction.local_ridge.inputs import Assignment, InputSelection
 from markermend.prediction.local_ridge.leverage import LeverageScale, fit_leverage_scale
-from markermend.prediction.local_ridge.model import LocalInputs, Regression, RidgeRegression, TrainingSet
+from markermend.prediction.local_ridge.model import LocalInputs, Regression, TrainingSet
+from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from markermend.prediction.scene import Scene
 
 MAX_BLOCKS = 12
@@ -68,6 +69,7 @@ class LocalRidge:
     def __init__(self, options: LocalRidgeOptions) -> None:
         self.options = options
         self._selection = InputSelection(options)
+        self._pooling = Pooling(options.pool_weights, options.pool_validation_blocks)
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """Predict a marker; the error is the kriging standard deviation of left-out residuals. See `Predictor.predict`."""
@@ -121,7 +123,7 @@ class LocalRidge:
 
     def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
         """The regression on the used inputs (mask)."""
-        return RidgeRegression.fit(data, used, self.options.ridge_mm2)
+        return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
 
     def _krige(self, scene: Scene, fit: _Fit, length: int) -> tuple[np.ndarray, np.ndarray, LeverageScale]:
         """Expected residual (n, 3) in local axes, mm, its standard deviation (n,) in a typical pose, and its scale.

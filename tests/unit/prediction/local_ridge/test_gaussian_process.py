@@ -5,7 +5,7 @@ import pytest
 
 from markermend.options.prediction.local_ridge import GaussianProcessOptions
 from markermend.prediction.local_ridge.gaussian_process import train
-from markermend.prediction.local_ridge.model import ridge_coefficients
+from markermend.prediction.local_ridge.ridge import ridge_coefficients
 from support.fillings import predictor, scene
 
 OPTIONS = GaussianProcessOptions(

@@ -1,0 +1,123 @@
+"""Training rows from the subject's other recordings, in the local frame of anchors of one recording.
+
+Markers are attached anew between sessions, so that each recording has an offset of its own in every local coordinate: rows
+are taken about the mean of their recording.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from markermend.core.poses import Pool
+from markermend.numerics.rigid_alignment import align, mean_shape
+from markermend.prediction.local_ridge.ridge import robust_weights
+from markermend.prediction.marker_selection import evenly_spaced
+
+SHAPE_ROWS = 200
+"""Rows from which the mean shape of the anchors is estimated; more change it little."""
+
+
+@dataclass(frozen=True, eq=False)
+class PooledRows:
+    """Training rows from other recordings, in the local frame of anchors.
+
+    Attributes
+    ----------
+    template : np.ndarray
+        Mean shape of the anchors in these recordings (a, 3), mm, centred.
+    local : np.ndarray
+        Local coordinates (m, 3 k + 3) of the inputs and, last, of the marker itself, mm, about the weighted mean of their
+        recording.
+    weights : np.ndarray
+        Weights of the rows (m,), between 0 and 1.
+    recording : np.ndarray
+        Number of the recording of each row (m,), ascending.
+    """
+
+    template: np.ndarray
+    local: np.ndarray
+    weights: np.ndarray
+    recording: np.ndarray
+
+    @cached_property
+    def products(self) -> np.ndarray:
+        """Weighted mean products (3 k + 3, 3 k + 3) of the local coordinates, mm^2."""
+        products: np.ndarray = (self.local * self.weights[:, None]).T @ self.local / self.weights.sum()
+        return products
+
+    def turned(self, shape: np.ndarray) -> np.ndarray:
+        """Turn a shape of the anchors so that its local frame is that of these rows.
+
+        Parameters
+        ----------
+        shape : np.ndarray
+            Mean shape of the anchors in another recording (a, 3), mm, centred.
+
+        Returns
+        -------
+        np.ndarray
+            The same shape, turned onto the template.
+        """
+        turned: np.ndarray = shape @ align(shape[None], self.template).axes[0]
+        return turned
+
+
+def pooled_rows(
+    pool: Pool, anchors: np.ndarray, markers: np.ndarray, *, min_rows: int, ridge: float, sigmas: float
+) -> PooledRows | None:
+    """Express the poses of other recordings in a local frame.
+
+    Parameters
+    ----------
+    pool : Pool
+        The poses.
+    anchors : np.ndarray
+        Indices of the markers that carry the frame (a,).
+    markers : np.ndarray
+        Indices of the inputs and, last, of the marker itself (k + 1,).
+    min_rows : int
+        Recordings that show all these markers in fewer rows are left out.
+    ridge, sigmas : float
+        Penalty, mm^2, and limit of the robust weights: see `robust_weights`.
+
+    Returns
+    -------
+    PooledRows or None
+        The rows; None where no recording shows the markers.
+    """
+    joint = pool.present[:, anchors].all(axis=1) & pool.present[:, markers].all(axis=1)
+    count = np.bincount(pool.recording[joint], minlength=len(pool.names))
+    rows = np.flatnonzero(joint & (count >= min_rows)[pool.recording])
+    if len(rows) == 0:
+        return None
+    carrying, recording = pool.positions[np.ix_(rows, anchors)], pool.recording[rows]
+    template = mean_shape(evenly_spaced(carrying, SHAPE_ROWS))
+    local = align(carrying, template).local(pool.positions[np.ix_(rows, markers)]).reshape(len(rows), -1)
+    local = about_mean(local, np.ones(len(rows)), recording)
+    weights = robust_weights(local, ridge=ridge, sigmas=sigmas)
+    return PooledRows(template, about_mean(local, weights, recording), weights, recording)
+
+
+def about_mean(rows: np.ndarray, weights: np.ndarray, recording: np.ndarray) -> np.ndarray:
+    """Subtract from rows the weighted mean of their recording.
+
+    Parameters
+    ----------
+    rows : np.ndarray
+        Rows (m, columns).
+    weights : np.ndarray
+        Weights of the rows (m,), positive.
+    recording : np.ndarray
+        Number of the recording of each row (m,), ascending.
+
+    Returns
+    -------
+    np.ndarray
+        The differences (m, columns).
+    """
+    starts = np.flatnonzero(np.diff(recording, prepend=-1))
+    means = np.add.reduceat(rows * weights[:, None], starts) / np.add.reduceat(weights, starts)[:, None]
+    return rows - np.repeat(means, np.diff(np.append(starts, len(rows))), axis=0)

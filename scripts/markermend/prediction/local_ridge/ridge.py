@@ -1,0 +1,88 @@
+"""Weighted ridge regression with an unpenalised intercept: coefficients, and weights that keep artifacts out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from markermend.numerics.robust import MAD_TO_STD
+
+REWEIGHTINGS = 2
+"""Rounds of the robust weights."""
+
+
+def ridge_coefficients(design: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
+    """Solve a weighted ridge regression with an unpenalised intercept.
+
+    Parameters
+    ----------
+    design : np.ndarray
+        Inputs (n, columns).
+    target : np.ndarray
+        Targets (n, targets).
+    weights : np.ndarray
+        Weights of the rows (n,).
+    ridge : float
+        Penalty per unit of weight, squared unit of the inputs.
+
+    Returns
+    -------
+    np.ndarray
+        Intercept and coefficients (1 + columns, targets).
+
+    References
+    ----------
+    Hoerl & Kennard (1970), Technometrics 12(1).
+    """
+    full = with_intercept(design)
+    weighted = full * weights[:, None]
+    return solve(weighted.T @ full, weighted.T @ target, weights.sum(), ridge)
+
+
+def with_intercept(inputs: np.ndarray) -> np.ndarray:
+    """Put a column of ones before inputs.
+
+    Parameters
+    ----------
+    inputs : np.ndarray
+        Inputs (n, columns).
+
+    Returns
+    -------
+    np.ndarray
+        Design (n, 1 + columns).
+    """
+    return np.concatenate([np.ones((len(inputs), 1)), inputs], axis=1)
+
+
+def solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, ridge: float) -> np.ndarray:
+    """Coefficients from weighted sums (..., columns, columns) and (..., columns, targets) of total weight (...)."""
+    penalty = np.full(gram.shape[-1], float(ridge))
+    penalty[0] = 0.0  # the intercept
+    return np.linalg.solve(gram + np.eye(len(penalty)) * penalty * np.asarray(total)[..., None, None], cross)
+
+
+def robust_weights(local: np.ndarray, *, ridge: float, sigmas: float) -> np.ndarray:
+    """Compute weights that keep artifacts out of the training, by iteratively reweighted least squares.
+
+    Parameters
+    ----------
+    local : np.ndarray
+        Local coordinates (n, 3 k + 3), mm: of the inputs and, last, of the marker itself.
+    ridge : float
+        Penalty of the regression, mm^2.
+    sigmas : float
+        Residuals beyond this many robust standard deviations lose weight.
+
+    Returns
+    -------
+    np.ndarray
+        Weights (n,): 1 within the limit, beyond it the squared ratio of limit and residual.
+    """
+    weights = np.ones(len(local))
+    design, target = local[:, :-3], local[:, -3:]
+    full = with_intercept(design)
+    for _ in range(REWEIGHTINGS):
+        residual = np.linalg.norm(target - full @ ridge_coefficients(design, target, weights, ridge), axis=1)
+        sigma = MAD_TO_STD * np.median(residual) + 1e-9
+        weights = np.minimum(1.0, (sigmas * sigma / np.maximum(residual, 1e-9)) ** 2)
+    return weights

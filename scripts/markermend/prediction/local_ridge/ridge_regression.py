@@ -1,0 +1,169 @@
+"""The ridge regression of a marker on its neighbours, which also learns from the subject's other recordings.
+
+Own and pooled rows add up in the weighted sums of products from which the coefficients follow. How much the pooled rows
+weigh is chosen by the residuals of stretches of the own recording that are left out in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from markermend.prediction.local_ridge.model import TrainingSet
+from markermend.prediction.local_ridge.ridge import solve, with_intercept
+
+
+@dataclass(frozen=True)
+class Pooling:
+    """How a regression learns from other recordings.
+
+    Attributes
+    ----------
+    weights : sequence of float
+        Weights of all pooled rows together that are tried, in units of the weight of all training frames.
+    blocks : int
+        Stretches of the own recording that are left out in turn to choose among them.
+    """
+
+    weights: Sequence[float]
+    blocks: int
+
+
+@dataclass(frozen=True, eq=False)
+class RidgeRegression:
+    """A weighted ridge regression with an unpenalised intercept.
+
+    Attributes
+    ----------
+    data : TrainingSet
+        The training data.
+    used : np.ndarray
+        Which of the inputs are used, bool (k,).
+    ridge : float
+        Penalty, mm^2: the variance of the noise on an input.
+    pool_weight : float
+        Weight of all pooled rows together, in units of the weight of all training frames.
+    coefficients : np.ndarray
+        Intercept and coefficients (1 + 3 u, 3).
+    """
+
+    data: TrainingSet
+    used: np.ndarray
+    ridge: float
+    pool_weight: float
+    coefficients: np.ndarray
+
+    @classmethod
+    def fit(cls, data: TrainingSet, used: np.ndarray, ridge: float, pooling: Pooling | None = None) -> RidgeRegression:
+        """Train the regression.
+
+        Parameters
+        ----------
+        data : TrainingSet
+            The training data.
+        used : np.ndarray
+            Which of the inputs are used, bool (k,).
+        ridge : float
+            Penalty, mm^2.
+        pooling : Pooling, optional
+            How it learns from the pooled rows of the training data; not at all by default.
+
+        Returns
+        -------
+        RidgeRegression
+            The regression.
+        """
+        pooled = None if pooling is None else _pooled_products(data, used)
+        if pooling is None or pooled is None:
+            own = _Products.by_block(data, used, np.zeros(len(data.local), int))
+            return cls(data, used, ridge, 0.0, own.sum().coefficients(ridge))
+        own = _Products.by_block(data, used, _stretches(data.training, pooling.blocks))
+        rest = own.others()
+        errors = [own.square_error(rest.coefficients(ridge, pooled, weight)) for weight in pooling.weights]
+        weight = pooling.weights[int(np.argmin(errors))]
+        return cls(data, used, ridge, weight, own.sum().coefficients(ridge, pooled, weight))
+
+    def predict(self, inputs: np.ndarray) -> np.ndarray:
+        """Predict the local position of the marker. See `Regression.predict`."""
+        local: np.ndarray = with_intercept(inputs) @ self.coefficients + self.data.centre[-3:]
+        return local
+
+    def left_out(self, block: np.ndarray) -> np.ndarray:
+        """Compute residuals left out by blocks, from sums over all blocks less those over one. See `Regression.left_out`."""
+        target, starts = self.data.target, _starts(block)
+        if len(starts) < 2:
+            return np.full(target.shape, np.nan)
+        rest = _Products.by_block(self.data, self.used, block).others()
+        beta = rest.coefficients(self.ridge, _pooled_products(self.data, self.used), self.pool_weight)
+        full = with_intercept(self.data.design(self.used))
+        parts = zip(np.split(full, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
+        return np.concatenate([own - inputs @ coefficients for inputs, own, coefficients in parts])
+
+
+@dataclass(frozen=True, eq=False)
+class _Products:
+    """Weighted sums of products: of inputs with intercept (..., c, c), of these and the target (..., c, 3), and of the target's
+    square (...); and the sum of the weights (...)."""
+
+    gram: np.ndarray
+    cross: np.ndarray
+    square: np.ndarray
+    total: np.ndarray
+
+    @classmethod
+    def by_block(cls, data: TrainingSet, used: np.ndarray, block: np.ndarray) -> _Products:
+        """The sums over each block of the training frames."""
+        cuts = _starts(block)[1:]
+        full, weights = np.split(with_intercept(data.design(used)), cuts), np.split(data.weights, cuts)
+        target = np.split(data.target, cuts)
+        weighted = [(rows * own[:, None]).T for rows, own in zip(full, weights, strict=True)]
+        return cls(
+            np.stack([left @ rows for left, rows in zip(weighted, full, strict=True)]),
+            np.stack([left @ rows for left, rows in zip(weighted, target, strict=True)]),
+            np.array([(own[:, None] * rows**2).sum() for own, rows in zip(weights, target, strict=True)]),
+            np.array([own.sum() for own in weights]),
+        )
+
+    def sum(self) -> _Products:
+        """The sums over all blocks."""
+        return _Products(*(each.sum(axis=0) for each in vars(self).values()))
+
+    def others(self) -> _Products:
+        """For each block the sums over all others."""
+        return _Products(*(each.sum(axis=0) - each for each in vars(self).values()))
+
+    def coefficients(self, ridge: float, pooled: _Products | None = None, weight: float = 0.0) -> np.ndarray:
+        """Coefficients (..., c, 3) with pooled rows of a weight in units of that of these."""
+        gram, cross, total = self.gram, self.cross, self.total
+        if pooled is not None and weight > 0:
+            scale = (weight * total / pooled.total)[..., None, None]
+            gram, cross, total = gram + scale * pooled.gram, cross + scale * pooled.cross, (1 + weight) * total
+        return solve(gram, cross, total, ridge)
+
+    def square_error(self, coefficients: np.ndarray) -> float:
+        """Weighted sum of the squared errors of coefficients (..., c, 3)."""
+        explained = (coefficients * (2 * self.cross - self.gram @ coefficients)).sum(axis=(-2, -1))
+        return float((self.square - explained).sum())
+
+
+def _pooled_products(data: TrainingSet, used: np.ndarray) -> _Products | None:
+    """Mean products of the pooled rows, which have no intercept."""
+    if data.pooled is None:
+        return None
+    products = np.pad(data.pooled.products, ((1, 0), (1, 0)))
+    columns = np.concatenate([[0], 1 + np.flatnonzero(np.repeat(used, 3))])
+    target = products[:, -3:]
+    return _Products(products[np.ix_(columns, columns)], target[columns], np.trace(target[-3:]), np.ones(()))
+
+
+def _starts(block: np.ndarray) -> np.ndarray:
+    """First place of each block, given the ascending numbers of the blocks (n,)."""
+    return np.flatnonzero(np.diff(block, prepend=block[0] - 1))
+
+
+def _stretches(frames: np.ndarray, count: int) -> np.ndarray:
+    """Number of the equal stretch of the recording in which each frame (n,) lies, ascending."""
+    numbers: np.ndarray = (frames - frames[0]) * count // (frames[-1] + 1 - frames[0])
+    return numbers
