@@ -22,6 +22,7 @@ STAGE.reads("mesh", "functional body mesh of the subject")
 STAGE.reads("poses", "poses of the subject", many=True, optional=True)
 STAGE.writes("filled", "trajectories after filling")
 STAGE.writes("changes", "what repair and filling did to each stretch, or why nothing was done")
+STAGE.keeps_outputs()
 
 
 def work(call: Any) -> str:

@@ -81,6 +81,7 @@ def fill(recording: Recording, **options: Any) -> Run:
             *script,
             *shlex.split(write_flags(own)),
             "--decisions=[]",
+            "--code=",
             "--poses",
         ]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

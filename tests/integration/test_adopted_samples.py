@@ -76,7 +76,7 @@ def run(source, folder, config):
         ]
     )
     fill.main(
-        ["--repaired", at["06"], "--repairs", at["06_changes"], "--mesh", body, "--poses", "--filled", at["07"],
+        ["--repaired", at["06"], "--repairs", at["06_changes"], "--mesh", body, "--poses", "--code", "", "--filled", at["07"],
          "--changes", at["07_changes"], *options("fill"), *decided]
     )  # fmt: skip
     written = ["--changes", str(own / "changes.tsv"), "--certificate", str(own / "certificate.json")]

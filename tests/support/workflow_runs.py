@@ -16,13 +16,25 @@ from support.paths import PROJECT
 FOLDERS = ("workflow", "scripts", "config", "profiles", "envs")
 
 
-def write_recording(path: Path, *, seed: int, markers: int = 6, frames: int = 120) -> None:
-    """Write a small C3D file: a rigid cluster of markers that turns and wanders, with one gap and one peak."""
+def write_recording(
+    path: Path,
+    *,
+    seed: int,
+    markers: int = 6,
+    frames: int = 120,
+    rate: float = 100.0,
+    body: int | None = None,
+    prefix: str = "M",
+) -> None:
+    """Write a small C3D file: a rigid cluster of markers that turns and wanders, with one gap and one peak.
+
+    Recordings of one `body` show the same cluster.
+    """
     rng = np.random.default_rng(seed)
-    time = np.arange(frames) / 100
+    time = np.arange(frames) / rate
     angle = 1.5 * np.sin(2 * time + seed)
     turn = np.moveaxis(np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]), 2, 0)
-    cluster = rng.uniform(-200, 200, (markers, 3))
+    cluster = (rng if body is None else np.random.default_rng(body)).uniform(-200, 200, (markers, 3))
     positions = np.repeat(cluster[None], frames, axis=0)
     positions[..., :2] = np.einsum("fij,mj->fmi", turn, cluster[:, :2])
     positions += 300 * np.stack([np.sin(time), np.cos(1.3 * time), 0.2 * np.sin(3 * time)], axis=1)[:, None]
@@ -31,7 +43,7 @@ def write_recording(path: Path, *, seed: int, markers: int = 6, frames: int = 12
     positions[40:50, 1] = np.nan
     positions[80, 2] += 60
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_new(path, Content(labels=[f"M{number}" for number in range(markers)], positions=positions, rate=100.0))
+    write_new(path, Content(labels=[f"{prefix}{number}" for number in range(markers)], positions=positions, rate=rate))
 
 
 @dataclass(frozen=True)

@@ -117,7 +117,7 @@ def test_an_added_recording_reruns_what_its_subject_shares_and_the_report(finish
     write_recording(finished.recordings / "S02/new.c3d", seed=9)
     plan = finished.plan()
     (finished.recordings / "S02/new.c3d").unlink()
-    assert plan.jobs == {"ingest": 1, "mesh": 1, **dict.fromkeys(CHAIN[2:-1], 2), "report": 1, "all": 1}
+    assert plan.jobs == {"ingest": 1, "mesh": 1, **dict.fromkeys(CHAIN[2:-1], 2), "poses": 1, "report": 1, "all": 1}
     assert "S01" not in plan.text.partition("Building DAG")[2].replace("S01/a/08", "")
 
 

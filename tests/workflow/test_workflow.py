@@ -33,7 +33,7 @@ def test_a_command_has_the_options_of_its_section(name):
     files = {*stage_of(name).inputs, *stage_of(name).outputs}
     own = {option.name for option in stage_options(SECTIONS[name])}
     assert own <= required - files
-    given = {"ingest": {"recording", "subject", "kind", "rate"}, "repair": {"decisions"}, "fill": {"decisions"}}
+    given = {"ingest": {"recording", "subject", "kind", "rate"}, "repair": {"decisions"}, "fill": {"decisions", "code"}}
     assert required - files - own == given.get(name, set())
 
 

@@ -76,8 +76,9 @@ rule fill:
         mesh=files.mesh,
         poses=plan.poses,
     output:
-        filled=files.filled,
-        changes=files.changes,
+        # Not removed before the job, which keeps them where its inputs are written again with the same bytes.
+        filled=update(files.filled),
+        changes=update(files.changes),
     log:
         f"{files.logs}/fill.log",
     benchmark:
@@ -92,6 +93,7 @@ rule fill:
         runtime=60,
     params:
         *plan.code("fill"),
+        code=plan.code_hash("fill"),
         options=plan.stage_options("fill"),
         decisions=plan.data.decisions_flag,
         failures=plan.failed("fill"),
@@ -100,7 +102,7 @@ rule fill:
     shell:
         "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --repairs {input.repairs:q}"
         " --mesh {input.mesh:q} --poses {input.poses:q} --filled {output.filled:q} --changes {output.changes:q}"
-        " {params.options} {params.decisions:q} 2> {log:q}"
+        " --code {params.code} {params.options} {params.decisions:q} 2> {log:q}"
 
 
 for suffix in FORMATS:

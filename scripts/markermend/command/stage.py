@@ -20,6 +20,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
+from markermend.command.kept_outputs import KeptOutputs
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.description import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
@@ -67,6 +68,7 @@ class Stage:
         group = self.parser.add_argument_group("options (defaults: config/config.yaml)")
         self.inputs: list[str] = []
         self.outputs: list[str] = []
+        self._keeps_outputs = False
         self._classes = {cls: stage_options(cls) for cls in (options, given)}
         for option in (option for options in self._classes.values() for option in options):
             group.add_argument(
@@ -111,6 +113,12 @@ class Stage:
         nargs = "*" if many else None
         self._writes.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
+    def keeps_outputs(self) -> None:
+        """Declare that the outputs are kept where they were made from the same inputs, with the same options and code."""
+        self._keeps_outputs = True
+        text = "hash of the code: where it, the inputs and the options are those of the last time, the outputs are kept"
+        self.parser.add_argument("--code", required=True, metavar="TEXT", help=text)
+
     def run(
         self,
         work: Callable[[Any], str | None],
@@ -141,7 +149,7 @@ class Stage:
 
         def prepare_and_work() -> str | None:
             call.facts = self._facts(arguments, made)
-            return work(call)
+            return self._work_or_keep(work, call, arguments) if self._keeps_outputs else work(call)
 
         result, failure = self._attempt(prepare_and_work, call, arguments)
         if failure is not None:
@@ -151,6 +159,17 @@ class Stage:
                 for name in self.outputs:
                     stage_files.set_aside(getattr(call, name), failure.stage, failure.reason)
         log.info("%s: %s (%.2f s)", self.name, result or "done", time.perf_counter() - started)
+
+    def _work_or_keep(self, work: Callable[[Any], str | None], call: Any, arguments: dict[str, Any]) -> str | None:
+        """Work, unless the outputs are those that the work would give."""
+        outputs = KeptOutputs(
+            self.name, [getattr(call, name) for name in self.outputs], {**call.facts, "code": arguments["code"]}
+        )
+        if outputs.are_current():
+            return "the outputs are kept: inputs, options and code are those that they were made from"
+        result = work(call)
+        outputs.record()
+        return result
 
     def _facts(self, arguments: dict[str, Any], options: Sequence[Any]) -> dict[str, Any]:
         """What the outputs store: the stage, its options, and the checksums of its inputs."""

@@ -105,6 +105,8 @@ class Poses:
         place = {name: column for column, name in enumerate(self.markers)}
         columns = [place.get(name, -1) for name in markers]
         known = np.array(columns) >= 0
+        if not known.any():
+            return None
         positions = np.where(known[:, None], self.positions[:, columns], np.nan)
         shown = set(self.recordings if among is None else among) - {recording}
         kept = np.array([name in shown for name in self.recordings], bool)[self.recording]

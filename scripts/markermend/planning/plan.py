@@ -6,6 +6,7 @@ Writes: lists of files beside the results, and the facts of the run.
 
 from __future__ import annotations
 
+import hashlib
 import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -167,6 +168,21 @@ class Plan:
             The script and its modules by content, one entry each.
         """
         return code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
+
+    def code_hash(self, stage: str) -> str:
+        """Hash the code of a stage as a whole.
+
+        Parameters
+        ----------
+        stage : str
+            Name of its script.
+
+        Returns
+        -------
+        str
+            The first 16 hex digits of the sha256 of what `Plan.code` gives.
+        """
+        return hashlib.sha256("\n".join(self.code(stage)).encode()).hexdigest()[:16]
 
     def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
         """Write the options of a stage as flags.

@@ -122,6 +122,25 @@ def fails_with(error):
     return work
 
 
+def test_a_stage_that_keeps_its_outputs_works_again_only_on_something_else(stage, argv, tmp_path):
+    stage.keeps_outputs()
+    calls = []
+
+    def work(call):
+        calls.append(call)
+        call.blurred.write_text("{}")
+
+    def run(*code):
+        stage.run(work, [*argv, *code])
+        return len(calls)
+
+    assert [run("--code=1"), run("--code=1"), run("--code=2")] == [1, 1, 2]
+    (tmp_path / "in.json").write_text("[]\n")
+    assert [run("--code=2"), run("--code=2")] == [3, 3]
+    stage.run(fails_with(BadRecording("no frames")), [*argv, "--code=3"])
+    assert run("--code=2") == 4
+
+
 def test_a_bad_recording_is_set_aside_and_not_tried_again(stage, argv, tmp_path):
     stage.run(fails_with(BadRecording("no frames")), argv)
     with pytest.raises(SetAside, match="no frames") as note:

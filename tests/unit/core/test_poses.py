@@ -33,6 +33,8 @@ def test_markers_that_no_other_recording_has_are_missing() -> None:
 def test_there_is_no_pool_without_other_recordings_or_joint_markers() -> None:
     poses = make_poses()
     assert poses.others("walk", ["unknown"]) is None
+    nothing = np.empty(0, int)
+    assert Poses((), np.empty((0, 0, 3)), (), nothing, nothing).others("walk", ["A"]) is None
     alone = Poses(poses.markers, poses.positions[:3], ("walk",), poses.recording[:3], poses.frames[:3])
     assert alone.others("walk", ["A", "B"]) is None
 

@@ -31,7 +31,7 @@ def fill_file(folder, **averaging):
     options = [*shlex.split(write_flags(fill_options(averaging))), "--decisions=[]"]
     change_file.write(folder / "06_changes.parquet", [], {"stage": "repair"})
     files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
-    files += ["--mesh", folder / "mesh.json", "--poses", "--filled", folder / "07.parquet"]
+    files += ["--mesh", folder / "mesh.json", "--poses", "--code", "", "--filled", folder / "07.parquet"]
     files += ["--changes", folder / "07_changes.parquet"]
     fill.main([*map(str, files), *options])
     return stage_files.read_facts(folder / "07.parquet")["options"]

@@ -215,7 +215,7 @@ def stage(folder, names):
     """Run the fill stage; the changes that it wrote, and whether torch was imported."""
     options = shlex.split(write_flags(fill_options(members=names)))
     files = ["--repaired", folder / "06.parquet", "--repairs", folder / "06_changes.parquet"]
-    files += ["--mesh", folder / "mesh.json", "--poses", "--filled", folder / "07.parquet"]
+    files += ["--mesh", folder / "mesh.json", "--poses", "--code", "", "--filled", folder / "07.parquet"]
     files += ["--changes", folder / "07_changes.parquet"]
     command = [sys.executable, "-c", FILL, *map(str, files), *options, "--decisions=[]"]
     done = subprocess.run(command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)

@@ -1,0 +1,47 @@
+"""Outputs are kept only where they are there as recorded, made from the same, with the same versions of packages."""
+
+import pytest
+
+from markermend.command import kept_outputs
+from markermend.command.kept_outputs import KeptOutputs
+
+MADE_FROM = {"stage": "blur", "options": {"window_s": 1.0}, "inputs": {"markers": "ab"}, "code": "c"}
+
+
+@pytest.fixture
+def outputs(tmp_path):
+    paths = [tmp_path / "a", tmp_path / "b"]
+    for path in paths:
+        path.write_text(path.name)
+    KeptOutputs("blur", paths, MADE_FROM).record()
+    return paths
+
+
+def test_outputs_made_from_the_same_are_current_wherever_they_lie(outputs, tmp_path):
+    assert KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    moved = tmp_path.rename(tmp_path.with_name(f"{tmp_path.name} moved"))
+    assert KeptOutputs("blur", [moved / path.name for path in outputs], MADE_FROM).are_current()
+    assert str(tmp_path) not in (moved / "logs/blur.json").read_text()
+
+
+@pytest.mark.parametrize("key", MADE_FROM)
+def test_outputs_made_from_anything_else_are_not(outputs, key):
+    assert not KeptOutputs("blur", outputs, {**MADE_FROM, key: {"other": 1}}).are_current()
+
+
+def test_outputs_made_by_other_versions_are_not(outputs, monkeypatch):
+    monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "0")
+    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
+
+
+@pytest.mark.parametrize("harm", ["missing", "edited", "no record", "broken record"])
+def test_outputs_that_are_not_as_recorded_are_not_current(outputs, harm, tmp_path):
+    if harm == "missing":
+        outputs[1].unlink()
+    elif harm == "edited":
+        outputs[1].write_text("edited")
+    elif harm == "no record":
+        (tmp_path / "logs/blur.json").unlink()
+    else:
+        (tmp_path / "logs/blur.json").write_text("{")
+    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
