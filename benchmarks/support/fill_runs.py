@@ -7,7 +7,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -69,28 +69,26 @@ def fill(recording: Recording, **options: Any) -> Run:
         stage_files.write_recording(files["repaired"], restored(recording), {})
         change_file.write(files["repairs"], [], {})
         mesh_file.write(files["mesh"], [api.infer_mesh([recording])], {})
-        script: list[str | Path] = [
-            sys.executable,
-            PROJECT / "scripts/fill.py",
-            *(f"--{name}={path}" for name, path in files.items()),
-        ]
-        command: list[str | Path] = [
-            sys.executable,
-            "-c",
-            WATCH,
-            *script,
-            *shlex.split(write_flags(own)),
-            "--decisions=[]",
-            "--code=",
-            "--poses",
-        ]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
-            raise RuntimeError(done.stderr[-2000:])
-        seconds, megabytes = map(float, done.stdout.split())
+        flags = [f"--{name}={path}" for name, path in files.items()]
+        seconds, megabytes = stage("fill", [*flags, "--decisions=[]", "--code=", "--poses"], own)
         filled = stage_files.read_recording(files["filled"])
         assert isinstance(filled, Restored)
         return Run(filled, change_file.read(files["changes"]), seconds, megabytes)
+
+
+def stage(name: str, flags: Sequence[str | Path], options: Any) -> tuple[float, float]:
+    """Run the script of a stage in a process of its own; gives seconds of a core, start included, and MB at most."""
+    script: list[str | Path] = [
+        sys.executable,
+        PROJECT / f"scripts/{name}.py",
+        *flags,
+        *shlex.split(write_flags(options)),
+    ]
+    done = subprocess.run([sys.executable, "-c", WATCH, *script], capture_output=True, text=True, check=False)
+    if done.returncode or "Warning" in done.stderr or "set aside" in done.stderr:
+        raise RuntimeError(done.stderr[-2000:])
+    seconds, megabytes = map(float, done.stdout.split())
+    return seconds, megabytes
 
 
 def restored(recording: Recording) -> Restored:

@@ -394,7 +394,7 @@ def sample_poses(repaired: Sequence[TreatedRecording], mesh: Mesh, options: Opti
     own = (options or Options.read()).poses
     moving = [one.recording for one in repaired if one.recording.facts.get("kind") != "static"]
     frames = {one.facts["recording"]: one.frames for one in moving}
-    shares = pose_sample.share_out(frames, [mesh.recordings], max_poses=own.max_poses)
+    shares = pose_sample.share_out(frames, [mesh.recordings], options=own)
     sampled = [one for one in moving if one.facts["recording"] in shares]
     return pose_sample.join(
         [pose_sample.sample_poses(one, shares[one.facts["recording"]], options=own) for one in sampled]

@@ -202,10 +202,13 @@ def test_the_example_of_the_readme_runs(path, tmp_path, monkeypatch, capsys):
     (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     assert len(example.strip().splitlines()) <= 10
     (tmp_path / "walk.c3d").write_bytes(path.read_bytes())
+    write_recording(tmp_path / "turn.c3d", seed=2, body=1)
     monkeypatch.chdir(tmp_path)
     exec(compile(example, "README.md", "exec"), {})
-    assert capsys.readouterr().out.startswith("11 samples changed")
-    assert {file.name for file in tmp_path.iterdir()} == {"walk.c3d", "walk_cleaned.c3d", "walk_changes.tsv"}
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["walk", "turn"] and lines[0] == "walk 11 samples changed"
+    ends = (".c3d", "_cleaned.c3d", "_changes.tsv")
+    assert {file.name for file in tmp_path.iterdir()} == {f"{name}{end}" for name in ("walk", "turn") for end in ends}
 
 
 def test_the_detectors_warnings_are_among_those_of_the_result(recording):

@@ -40,9 +40,7 @@ def sample_subject(
             continue
         if facts["kind"] != "static":
             moving[facts["recording"]] = path, facts
-    shares = share_out(
-        {name: facts["frames"] for name, (_, facts) in moving.items()}, groups, max_poses=options.max_poses
-    )
+    shares = share_out({name: facts["frames"] for name, (_, facts) in moving.items()}, groups, options=options)
     samples, sources = [], {}
     for name, count in shares.items():
         path, facts = moving[name]

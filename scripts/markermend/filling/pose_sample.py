@@ -34,7 +34,7 @@ class PoseSample:
     positions: np.ndarray
 
 
-def share_out(frames: Mapping[str, int], groups: Iterable[Collection[str]], *, max_poses: int) -> dict[str, int]:
+def share_out(frames: Mapping[str, int], groups: Iterable[Collection[str]], *, options: PosesOptions) -> dict[str, int]:
     """Share the poses of a subject out among its recordings.
 
     Parameters
@@ -43,8 +43,8 @@ def share_out(frames: Mapping[str, int], groups: Iterable[Collection[str]], *, m
         Number of frames of each recording that is to have a share, by name.
     groups : iterable of collection of str
         Names of the recordings that share a mesh, and so may learn from each other.
-    max_poses : int
-        Number of poses of the subject, at most.
+    options : PosesOptions
+        Number of poses of the subject, at most, and of a recording, at least.
 
     Returns
     -------
@@ -52,9 +52,11 @@ def share_out(frames: Mapping[str, int], groups: Iterable[Collection[str]], *, m
         Number of poses of each recording, by name: all frames of short recordings, and equal numbers of the others.
         Recordings without others in their group have none.
     """
-    joint = [own for group in groups if len(own := sorted(set(group) & set(frames))) > 1]
-    ascending = sorted((frames[name], name) for own in joint for name in own)
-    shares, left = {}, max_poses
+    joint = [name for group in groups if len(own := sorted(set(group) & set(frames))) > 1 for name in own]
+    most = max(1, options.max_poses // options.min_recording_poses)
+    chosen = joint if len(joint) <= most else [joint[number * len(joint) // most] for number in range(most)]
+    ascending = sorted((frames[name], name) for name in chosen)
+    shares, left = {}, options.max_poses
     for place, (length, name) in enumerate(ascending):
         shares[name] = min(length, left // (len(ascending) - place))
         left -= shares[name]

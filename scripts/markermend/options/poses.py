@@ -16,5 +16,8 @@ class PosesOptions:
 
     Change it when filling takes too long (lower)."""
 
+    min_recording_poses: Count = 10
+    """Poses of each recording, at least: where a subject has too many recordings for that, evenly spaced ones are taken."""
+
     min_seen_share: Share = 0.5
     """Share of the markers that must be seen in a pose (0 to 1)."""

@@ -11,6 +11,10 @@ from support.naive.filling import share_out as naive_share_out
 OPTIONS = PosesOptions()
 
 
+def limited(max_poses: int, min_recording_poses: int = 1) -> PosesOptions:
+    return PosesOptions(max_poses=max_poses, min_recording_poses=min_recording_poses)
+
+
 def restored(positions: np.ndarray, name: str = "walk", markers: str = "ABCD") -> Restored:
     """A recording as repair hands it on: nothing repaired."""
     missing = np.isnan(positions).any(axis=2)
@@ -24,24 +28,31 @@ def moving(frames: int, seed: int = 0, markers: int = 4) -> np.ndarray:
     return np.random.default_rng(seed).normal(0, 100, (frames, markers, 3))
 
 
-@pytest.mark.parametrize("total", [0, 1, 5, 100, 1000])
+@pytest.mark.parametrize("total", [3, 5, 100, 1000])
 @pytest.mark.parametrize("frames", [{"a": 7, "b": 300, "c": 50}, {"a": 10, "b": 10}, {"a": 5, "b": 0}])
 def test_shares_are_those_of_dealing_out_one_by_one(frames, total):
-    shares = share_out(frames, [list(frames)], max_poses=total)
+    shares = share_out(frames, [list(frames)], options=limited(total))
     assert shares == naive_share_out(frames, total)
 
 
 def test_shares_do_not_depend_on_the_order_and_are_at_most_the_limit():
     frames = {f"r{number}": 40 + number % 7 for number in range(30)}
-    shares = share_out(frames, [list(frames)], max_poses=1000)
-    assert shares == share_out(dict(reversed(frames.items())), [sorted(frames, reverse=True)], max_poses=1000)
+    shares = share_out(frames, [list(frames)], options=limited(1000))
+    assert shares == share_out(dict(reversed(frames.items())), [sorted(frames, reverse=True)], options=limited(1000))
     assert sum(shares.values()) == 1000 and max(shares.values()) - min(shares.values()) <= 1
 
 
 def test_recordings_that_no_other_shares_a_mesh_with_have_no_share():
     frames = {"a": 100, "b": 100, "c": 100}
-    assert share_out(frames, [("a", "b"), ("c", "static")], max_poses=60) == {"a": 30, "b": 30}
-    assert share_out({"a": 100}, [("a",)], max_poses=60) == {}
+    assert share_out(frames, [("a", "b"), ("c", "static")], options=limited(60)) == {"a": 30, "b": 30}
+    assert share_out({"a": 100}, [("a",)], options=limited(60)) == {}
+
+
+def test_of_too_many_recordings_evenly_spaced_ones_have_a_share():
+    frames = {f"r{number:02}": 40 for number in range(30)}
+    shares = share_out(frames, [list(frames)], options=limited(100, min_recording_poses=10))
+    assert list(shares) == [f"r{number:02}" for number in range(0, 30, 3)]
+    assert set(shares.values()) == {10}
 
 
 def test_each_stretch_gives_the_frame_in_which_most_markers_are_seen():
