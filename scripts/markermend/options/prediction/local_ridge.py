@@ -44,6 +44,9 @@ class LocalRidgeOptions:
     min_training_frames: Count = 60
     """Frames on which marker and neighbours must be seen for a model."""
 
+    min_own_frames: Count = 12
+    """Frames on which they must be seen in the recording itself where the subject's other recordings show them often enough."""
+
     outlier_sigmas: Positive = 6
     """Training residuals beyond this many robust standard deviations lose weight."""
 

@@ -109,7 +109,7 @@ class InputSelection:
     def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
         """Neighbours to use for these frames: in the mesh's order, but those that are often missing come last."""
         ranked: np.ndarray = np.asarray(scene.neighbours[marker], int)
-        ranked = ranked[scene.present[:, ranked].sum(axis=0) >= self.options.min_training_frames]
+        ranked = ranked[[self._enough(scene, scene.present[:, other], [marker, other]) for other in ranked.tolist()]]
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
         share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
@@ -136,7 +136,7 @@ class InputSelection:
                 if wider is not None:
                     chosen, anchors = [*chosen, extra], wider
         others = [c for c in np.flatnonzero(present.any(axis=0)) if c not in chosen]
-        inputs = self._inputs(scene, anchors, candidates[others])
+        inputs = self._inputs(scene, marker, anchors, candidates[others])
         key = self, marker, anchors.markers.tobytes(), inputs.tobytes()
         return scene.cached(key, partial(self._transform, scene, marker, anchors, inputs))
 
@@ -146,25 +146,35 @@ class InputSelection:
         def compute() -> _Anchors | None:
             observed = scene.present[:, marker] & scene.present[:, markers].all(axis=1)
             joint = np.flatnonzero(observed)
-            if len(joint) < self.options.min_training_frames:
+            if not self._enough(scene, observed, [marker, *markers.tolist()]):
                 return None
             sample = joint[np.unique(np.linspace(0, len(joint) - 1, SHAPE_FRAMES).astype(int))]
             return _Anchors(markers, observed, mean_shape(scene.positions[np.ix_(sample, markers)]))
 
         return scene.cached((self, "anchors", marker, markers.tobytes()), compute)
 
-    def _inputs(self, scene: Scene, anchors: _Anchors, others: np.ndarray) -> np.ndarray:
+    def _inputs(self, scene: Scene, marker: int, anchors: _Anchors, others: np.ndarray) -> np.ndarray:
         """The anchors, and of the other candidates the first that leave enough joint training frames."""
-        inputs, observed = list(anchors.markers), anchors.observed
-        required = max(self.options.min_training_frames, int(MIN_JOINT_SHARE * observed.sum()))
-        for candidate in others:
+        inputs, observed = anchors.markers.tolist(), anchors.observed
+        required = int(MIN_JOINT_SHARE * observed.sum())
+        for candidate in others.tolist():
             if len(inputs) >= self.options.inputs:
                 break
             joint = observed & scene.present[:, candidate]
-            if joint.sum() >= required:
+            if joint.sum() >= required and self._enough(scene, joint, [marker, *inputs, candidate]):
                 inputs.append(candidate)
                 observed = joint
         return np.array(inputs)
+
+    def _enough(self, scene: Scene, observed: np.ndarray, markers: list[int]) -> bool:
+        """Whether frames (mask) that show markers are enough to learn from: fewer are where other recordings show them, too."""
+        count, options = int(np.count_nonzero(observed)), self.options
+        if count >= options.min_training_frames:
+            return True
+        if scene.pool is None or count < options.min_own_frames:
+            return False
+        pooled = scene.pool.present[:, markers].all(axis=1)
+        return int(np.count_nonzero(pooled)) >= options.min_training_frames
 
     def _transform(self, scene: Scene, marker: int, anchors: _Anchors, inputs: np.ndarray) -> TrainingSet:
         """Local coordinates at the training frames, about their medians, with robust weights."""

@@ -7,8 +7,9 @@ follows the body and not an artifact: the detectors work on its residual.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -22,6 +23,7 @@ from markermend.prediction.local_ridge.model import LocalInputs, Regression, Tra
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from markermend.prediction.scene import Scene
 
+EXP = os.environ.get("LEV")
 MAX_BLOCKS = 12
 """Parts of a recording that are left out of the training in turn, at most; they are about as long as the gap."""
 
@@ -123,7 +125,10 @@ class LocalRidge:
 
     def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
         """The regression on the used inputs (mask)."""
-        return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
+        pooling = self._pooling
+        if len(data.training) < self.options.min_training_frames:
+            pooling = replace(pooling, weights=[weight for weight in pooling.weights if weight > 0] or [1.0])
+        return RidgeRegression.fit(data, used, self.options.ridge_mm2, pooling)
 
     def _krige(self, scene: Scene, fit: _Fit, length: int) -> tuple[np.ndarray, np.ndarray, LeverageScale]:
         """Expected residual (n, 3) in local axes, mm, its standard deviation (n,) in a typical pose, and its scale.

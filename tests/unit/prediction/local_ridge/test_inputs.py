@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from markermend.core.poses import Pool
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.inputs import InputSelection
 from support.fillings import rigid_body, scene
@@ -62,3 +63,19 @@ def test_a_neighbour_that_is_often_missing_comes_last():
 def test_two_neighbours_or_too_few_frames_give_nothing():
     assert assign(rigid_body(frames=200, markers=3))[1] == []
     assert assign(rigid_body(frames=OPTIONS.min_training_frames - 1, markers=6))[1] == []
+
+
+def test_other_recordings_make_up_for_too_few_frames():
+    """The marker is seen in 20 frames of this recording: too few, unless another one shows it with the same neighbours."""
+    body, elsewhere = rigid_body(frames=120, markers=8), rigid_body(frames=80, markers=8, seed=1)
+    body[20:, 0] = np.nan
+    seen, alone = assign(body, frames=np.arange(20, 60))
+    assert not alone
+
+    def pooled(positions):
+        pool = Pool(positions, np.zeros(len(positions), int), ("other",))
+        return list(InputSelection(OPTIONS).assignments(replace(seen, pool=pool), 0, np.arange(20, 60)))
+
+    (found,) = pooled(elsewhere)
+    assert found.data.training.tolist() == list(range(20)) and len(found.data.pooled.local) == 80
+    assert not pooled(elsewhere[:50])

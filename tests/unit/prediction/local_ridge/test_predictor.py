@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from markermend.core.poses import Pool
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from support.fillings import predictor, rigid_body, scene
 
@@ -72,3 +73,24 @@ def test_markers_on_a_line_do_not_break_it():
     options = predictor("local_ridge").options
     found = LocalRidge(replace(options, min_anchor_extent_mm=0.0)).predict(scene(line), 2, 100, 140).positions
     assert np.abs(found - line[99:141, 2]).max() < 1
+
+
+def test_a_short_recording_is_predicted_from_the_poses_of_a_long_one(ridge, walker):
+    """In a second the person shows few poses; alone, the marker cannot be predicted."""
+    positions = walker.recording.positions
+    short, rest = positions[600:700], np.delete(positions, np.s_[550:750], axis=0)[::2]
+    pool = Pool(rest, np.zeros(len(rest), int), ("rest",))
+    alone = ridge.predict(scene(short), 7, 20, 80)
+    assert np.isnan(alone.positions).all()
+    found = ridge.predict(replace(scene(short), pool=pool), 7, 20, 80)
+    assert np.linalg.norm(found.positions - short[19:81, 7], axis=1).mean() < 5
+
+
+def test_a_pool_of_unlike_poses_is_not_learned_from(ridge, walker):
+    """Neighbours that move at random say nothing: the weight of these rows is 0."""
+    positions = walker.recording.positions[:1000]
+    noise = positions[::4] + np.random.default_rng(1).normal(0, 50, positions[::4].shape)
+    seen = scene(positions)
+    pooled = replace(seen, pool=Pool(noise, np.zeros(len(noise), int), ("noise",)))
+    alone, found = (ridge.predict(each, 7, 400, 460).positions for each in (seen, pooled))
+    assert np.allclose(found, alone, atol=0.1)
