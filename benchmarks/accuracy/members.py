@@ -26,7 +26,7 @@ from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
 from benchmarks.support.gap_cases import Case, fill_case, score
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
-from markermend.prediction.registry import REGISTRY
+from markermend.prediction.registry import known_members
 
 CONDITIONS = ("g1_L1", "g3_L0.5", "g3_L2", "g6_L1", "sp2_10", "sp2_50", "sp2_200")
 SLOW = ("replicated_network", "bolero", *NETWORKS)
@@ -71,7 +71,7 @@ def main() -> None:
     cases = json.loads(path.read_text(encoding="utf-8"))
     cases = [case for case in cases if case["cond"] in arguments.conditions and case["it"] < arguments.iterations]
     default = list(OPTIONS["fill"].members)
-    known = [*REGISTRY, *OPTIONS["predictors"].local_ridge_variants]
+    known = [*known_members(OPTIONS["predictors"])]
     wanted = arguments.members or [name for name in known if name not in SLOW]
     with ProcessPoolExecutor(arguments.jobs) as pool:
         usual, seconds = try_members(pool, str(arguments.data), cases, default)

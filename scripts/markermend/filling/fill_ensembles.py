@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from markermend.core.decisions import Decision
 from markermend.filling.ensemble import Ensemble
 from markermend.options.filling import EnsembleOptions, FillOptions
-from markermend.prediction.registry import REGISTRY, members
+from markermend.prediction.registry import known_members, members
 
 
 @dataclass(frozen=True)
@@ -48,11 +48,11 @@ def make_ensembles(options: FillOptions, decisions: Collection[Decision] = ()) -
         Where a member is unknown or named twice.
     """
     wanted = {decision.value for decision in decisions if decision.verb == "method"}
-    known = {*REGISTRY, *options.predictors.local_ridge_variants}
+    known = known_members(options.predictors)
     alone = replace(options.ensemble, max_gap_s_of_member={})
     return Ensembles(
         default=_make(options.members, options, options.ensemble),
-        single={name: _make([name], options, alone) for name in sorted(wanted & known)},
+        single={name: _make([name], options, alone) for name in sorted(wanted & known.keys())},
     )
 
 

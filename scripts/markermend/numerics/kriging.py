@@ -126,8 +126,30 @@ def kernels(lag_s: np.ndarray, scales_s: np.ndarray) -> np.ndarray:
     Rasmussen & Williams (2006), Gaussian Processes for Machine Learning, eq 4.17.
     """
     scaled = np.abs(lag_s)[..., None] / scales_s
-    order3, order5 = np.sqrt(3) * scaled, np.sqrt(5) * scaled
-    return np.concatenate([(1 + order3) * np.exp(-order3), (1 + order5 + order5**2 / 3) * np.exp(-order5)], axis=-1)
+    order5 = np.sqrt(5) * scaled
+    return np.concatenate([matern_3_2(scaled), (1 + order5 + order5**2 / 3) * np.exp(-order5)], axis=-1)
+
+
+def matern_3_2(distance: np.ndarray) -> np.ndarray:
+    """Evaluate the Matern kernel of order 3/2 and unit variance.
+
+    Parameters
+    ----------
+    distance : np.ndarray
+        Distances of any shape, in correlation lengths, not negative.
+
+    Returns
+    -------
+    np.ndarray
+        Covariance of the same shape.
+
+    References
+    ----------
+    Rasmussen & Williams (2006), Gaussian Processes for Machine Learning, eq 4.17.
+    """
+    scaled = np.sqrt(3) * distance
+    covariance: np.ndarray = (1 + scaled) * np.exp(-scaled)
+    return covariance
 
 
 def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, max_lag_s: float) -> Covariance:

@@ -374,10 +374,9 @@ RENAMED: dict[str, tuple[str, dict[str, str]]] = {
     "fill.local_gp": (
         "predictors.local_gp",
         {
-            "points": "max_training_frames",
-            "lengths": "length_scales",
-            "amplitudes": "variance_ratios",
-            "blocks": "validation_blocks",
+            "points": "inducing_points",
+            "lengths": "length_scale",
+            "amplitudes": "penalty",
         },
     ),
     "fill.networks": (

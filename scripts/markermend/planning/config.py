@@ -14,7 +14,7 @@ from markermend.options.reader import BadOptions
 from markermend.planning.recordings import BadDataSet
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.neural_network.predictor import cannot_train
-from markermend.prediction.registry import REGISTRY
+from markermend.prediction.registry import known_members
 from markermend.repair.methods import METHODS
 
 OWN_METHODS = {"exchange": "labels", "move_back": "frames"}
@@ -77,7 +77,7 @@ def check(config: Mapping[str, Any], *, deployed: bool) -> dict[str, Any]:
     except BadOptions as problems:
         raise BadDataSet(f"{REFUSED}\n{problems}") from problems
     fill, predictors, repair = options["fill"], options["predictors"], options["repair"]
-    known = [*REGISTRY, *predictors.local_ridge_variants]
+    known = [*known_members(predictors)]
     found = unknown("fill.members", fill.members, known)
     found += unknown("advanced.fill.ensemble.fallback_members", fill.ensemble.fallback_members, known)
     for kind, methods in repair.methods.items():
@@ -127,7 +127,7 @@ def methods(options: Mapping[str, Any]) -> list[str]:
     list of str
         Methods of repair and predictors; networks only where they are members, since they need torch.
     """
-    names = dict.fromkeys([*METHODS, *REGISTRY, *options["predictors"].local_ridge_variants])
+    names = dict.fromkeys([*METHODS, *known_members(options["predictors"])])
     return [name for name in names if name not in NETWORKS or name in options["fill"].members]
 
 

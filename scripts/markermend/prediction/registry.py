@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from markermend.options.prediction.predictors import PredictorOptions
 from markermend.prediction.global_regression import GlobalRegression
@@ -49,6 +50,40 @@ REGISTRY: dict[str, Callable[[PredictorOptions], Predictor]] = {
 """How to make each predictor from the options."""
 
 
+def known_members(options: PredictorOptions) -> dict[str, Callable[[PredictorOptions], Predictor]]:
+    """List the predictors and the variants of local_ridge and local_gp.
+
+    Parameters
+    ----------
+    options : PredictorOptions
+        The options that name the variants.
+
+    Returns
+    -------
+    dict of str to Callable
+        How to make each from the options, by name. Each variant local_ridge_NAME has a local_gp_NAME of the same frame and
+        inputs.
+    """
+    known = dict(REGISTRY)
+    for name, changes in options.local_ridge_variants.items():
+        known[name] = _variant("local_ridge", name, changes)
+        process = name.replace("local_ridge", "local_gp", 1)
+        if process not in known:
+            known[process] = _variant("local_gp", process, changes)
+    return known
+
+
+def _variant(kind: str, name: str, changes: Mapping[str, Any]) -> Callable[[PredictorOptions], Predictor]:
+    """Make local_ridge or local_gp with some options of local_ridge changed."""
+
+    def make(options: PredictorOptions) -> Predictor:
+        made = REGISTRY[kind](replace(options, local_ridge=replace(options.local_ridge, **changes)))
+        made.name = name
+        return made
+
+    return make
+
+
 def members(
     names: Sequence[str], options: PredictorOptions, *, max_training_frames: int | None = None
 ) -> list[Predictor]:
@@ -57,7 +92,7 @@ def members(
     Parameters
     ----------
     names : sequence of str
-        Names of predictors and of variants of local_ridge.
+        Names of predictors and of variants of local_ridge and local_gp.
     options : PredictorOptions
         Their options.
     max_training_frames : int, optional
@@ -81,18 +116,10 @@ def members(
             local_ridge=replace(ridge, max_training_frames=min(ridge.max_training_frames, max_training_frames)),
             neural_networks=replace(networks, epochs=networks.pseudo_gap_epochs),
         )
-    variants = options.local_ridge_variants
-    unknown = [name for name in names if name not in REGISTRY and name not in variants]
+    known = known_members(options)
+    unknown = [name for name in names if name not in known]
     if unknown:
-        raise ValueError(f"unknown member {', '.join(unknown)}: known are {', '.join([*REGISTRY, *variants])}")
+        raise ValueError(f"unknown member {', '.join(unknown)}: known are {', '.join(known)}")
     if len(set(names)) < len(names):
         raise ValueError(f"a member is named twice: {', '.join(names)}")
-    made: list[Predictor] = []
-    for name in names:
-        if name in variants:
-            variant = LocalRidge(replace(options.local_ridge, **variants[name]))
-            variant.name = name
-            made.append(variant)
-        else:
-            made.append(REGISTRY[name](options))
-    return made
+    return [known[name](options) for name in names]

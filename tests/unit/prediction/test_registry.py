@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from markermend.prediction.interpolation import KINDS
+from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
 from markermend.prediction.registry import REGISTRY, members
 from support.fillings import predictor, predictor_options, rigid_body, scene
 
@@ -130,3 +131,10 @@ def test_sharing_what_is_learned_changes_nothing(walker):
             assert np.array_equal(found.positions, alone.positions, equal_nan=True)
             assert np.array_equal(found.error, alone.error, equal_nan=True)
             assert np.isfinite(found.positions).all()
+
+
+def test_each_variant_of_the_ridge_has_a_gaussian_process():
+    made = members(["local_gp_wide", "local_gp"], predictor_options())
+    assert [member.name for member in made] == ["local_gp_wide", "local_gp"]
+    assert [type(member) for member in made] == [LocalGaussian, LocalGaussian]
+    assert [member.options.anchors for member in made] == [6, 3]

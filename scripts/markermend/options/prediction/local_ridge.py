@@ -14,6 +14,7 @@ from markermend.options.declaration import (
     NotNegative,
     Positive,
     PositiveSeconds,
+    Share,
     Unit,
 )
 
@@ -77,14 +78,19 @@ class LocalRidgeOptions:
 class GaussianProcessOptions:
     """Gaussian process in the local frame, beyond the options of local_ridge: local_gp."""
 
-    max_training_frames: Annotated[int, AtLeast(2)] = 500
-    """Training frames, at most."""
+    inducing_points: Count = 100
+    """Poses whose kernel functions the process uses, at most.
 
-    length_scales: Annotated[tuple[Positive, ...], NotEmpty] = (0.5, 1, 2)
-    """Length scales of the radial kernel that are tried, in units of the typical distance of two poses."""
+    Change it when motion is varied (higher, at the cost of time)."""
 
-    variance_ratios: Annotated[tuple[NotNegative, ...], NotEmpty] = (3, 30)
-    """Variances of the radial part that are tried, in units of the noise."""
+    max_candidates: Count = 300
+    """Poses among which these are chosen, at most."""
 
-    validation_blocks: Annotated[int, AtLeast(2)] = 6
-    """Stretches that are left out in turn to choose among them."""
+    min_variance: Share = 0.01
+    """No pose is added where the process is known this well at all others: variance left, as a share of that of the process."""
+
+    length_scale: Positive = 1
+    """Length scale of the kernel, in units of the typical distance of two poses."""
+
+    penalty: Positive = 0.0005
+    """Ratio of the variances of noise and process, per unit of weight."""

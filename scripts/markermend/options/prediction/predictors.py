@@ -21,7 +21,7 @@ from markermend.options.prediction.state_space import BoleroOptions, KalmanSmoot
 class PredictorOptions:
     """Make the predictors, which detection, repair and filling share.
 
-    `fill.members` may name all of them and the variants of local_ridge; `repair.methods` may name local_ridge, linear, spline,
+    `fill.members` may name all of them and the variants of local_ridge and local_gp; `repair.methods` may name local_ridge, linear, spline,
     pchip, makima, polynomial and replicated_network, and the preset `paper` of slow changes the two last.
     """
 
@@ -34,7 +34,8 @@ class PredictorOptions:
             "local_ridge_fine": {"anchors": 4, "inputs": 8, "ridge_mm2": 1.0},
         }
     )
-    """Members that are local_ridge with other options: their names, and the options in which they differ."""
+    """Members that are local_ridge with other options: their names, and the options in which they differ. Each local_ridge_NAME has
+    a local_gp_NAME with the same frame and inputs."""
 
     interpolation: InterpolationOptions = field(default_factory=InterpolationOptions)
     """The predictors linear, spline, pchip and makima."""
@@ -65,7 +66,7 @@ class PredictorOptions:
     """Linear dynamical system with soft bone lengths (Li et al. 2009, 2010)."""
 
     local_gp: GaussianProcessOptions = field(default_factory=GaussianProcessOptions)
-    """Gaussian process in the local frame, beyond the options of local_ridge."""
+    """Gaussian process in the local frame, beyond the options of local_ridge and its variants."""
 
     neural_networks: NeuralNetworkOptions = field(default_factory=NeuralNetworkOptions)
     """The predictors network_linear, network_tanh, network_lstm, network_gru and network_bilstm (Skurowski & Pawlyta 2021),

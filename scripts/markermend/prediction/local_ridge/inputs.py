@@ -61,17 +61,17 @@ class _Anchors:
     shape: np.ndarray
 
 
+@dataclass(frozen=True)
 class InputSelection:
-    """Chooses the training data that a local ridge needs for some frames; a scene caches them.
+    """Chooses the training data that a local ridge needs for some frames; a scene caches them for all of equal options.
 
-    Parameters
+    Attributes
     ----------
     options : LocalRidgeOptions
         How many anchors, inputs and frames to use.
     """
 
-    def __init__(self, options: LocalRidgeOptions) -> None:
-        self.options = options
+    options: LocalRidgeOptions
 
     def assignments(self, scene: Scene, marker: int, frames: np.ndarray) -> Iterator[Assignment]:
         """Assign training data to the frames in which a marker is to be predicted.

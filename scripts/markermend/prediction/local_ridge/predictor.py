@@ -79,7 +79,7 @@ class LocalRidge:
         prediction, first = Prediction.empty(start, stop), start - 1
         for assignment in self._selection.assignments(hidden, marker, hidden.bordered(start, stop)):
             data, used, rows = assignment.data, assignment.used, assignment.rows
-            regression = hidden.cached((data, used.tobytes()), partial(self._fit, data, used))
+            regression = hidden.cached((self, data, used.tobytes()), partial(self._fit, data, used))
             fit = _Fit(marker, assignment, regression)
             inputs = fit.inputs_at(hidden, rows)
             mean, deviation, scale = self._krige(hidden, fit, stop - start)
@@ -137,7 +137,7 @@ class LocalRidge:
         """
         data, used, rows = fit.assignment.data, fit.assignment.used, fit.assignment.rows
         blocks = int(np.clip(len(scene.positions) // max(length, 1), 2, MAX_BLOCKS))
-        key = data, used.tobytes(), blocks
+        key = self, data, used.tobytes(), blocks
         covariance, scale = scene.cached(key, partial(self._covariance, scene, fit, blocks))
         lags = np.geomspace(1, max(2.0, self.options.border_s * scene.rate), BORDER_LAGS)
         reach = np.unique(np.round(lags).astype(int))

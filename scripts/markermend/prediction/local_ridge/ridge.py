@@ -35,7 +35,7 @@ def ridge_coefficients(design: np.ndarray, target: np.ndarray, weights: np.ndarr
     """
     full = with_intercept(design)
     weighted = full * weights[:, None]
-    return solve(weighted.T @ full, weighted.T @ target, weights.sum(), ridge)
+    return solve(weighted.T @ full, weighted.T @ target, weights.sum(), penalties(design.shape[1], ridge))
 
 
 def with_intercept(inputs: np.ndarray) -> np.ndarray:
@@ -54,11 +54,44 @@ def with_intercept(inputs: np.ndarray) -> np.ndarray:
     return np.concatenate([np.ones((len(inputs), 1)), inputs], axis=1)
 
 
-def solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, ridge: float) -> np.ndarray:
-    """Coefficients from weighted sums (..., columns, columns) and (..., columns, targets) of total weight (...)."""
-    penalty = np.full(gram.shape[-1], float(ridge))
-    penalty[0] = 0.0  # the intercept
-    return np.linalg.solve(gram + np.eye(len(penalty)) * penalty * np.asarray(total)[..., None, None], cross)
+def penalties(columns: int, ridge: float) -> np.ndarray:
+    """Give the penalties of the coefficients of inputs; that of the intercept is 0.
+
+    Parameters
+    ----------
+    columns : int
+        Number of inputs.
+    ridge : float
+        Penalty of each per unit of weight.
+
+    Returns
+    -------
+    np.ndarray
+        Penalties (1 + columns,).
+    """
+    penalty = np.full(1 + columns, float(ridge))
+    penalty[0] = 0.0
+    return penalty
+
+
+def solve(gram: np.ndarray, cross: np.ndarray, total: np.ndarray, penalty: np.ndarray) -> np.ndarray:
+    """Solve for the coefficients of a ridge regression.
+
+    Parameters
+    ----------
+    gram, cross : np.ndarray
+        Weighted sums of products of the columns (..., c, c), and of these with the targets (..., c, targets).
+    total : np.ndarray
+        Sums of the weights (...).
+    penalty : np.ndarray
+        Penalties (c,) per unit of weight.
+
+    Returns
+    -------
+    np.ndarray
+        Coefficients (..., c, targets).
+    """
+    return np.linalg.solve(gram + np.diag(penalty) * np.asarray(total)[..., None, None], cross)
 
 
 def robust_weights(local: np.ndarray, *, ridge: float, sigmas: float) -> np.ndarray:

@@ -8,11 +8,43 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.ridge import solve, with_intercept
+from markermend.prediction.local_ridge.pooled_rows import about_mean
+from markermend.prediction.local_ridge.ridge import penalties, solve, with_intercept
+
+
+class Features(Protocol):
+    """Functions of the inputs that a regression uses beside the inputs themselves.
+
+    Attributes
+    ----------
+    penalty : float
+        Penalty of their coefficients per unit of weight, mm^2.
+    """
+
+    @property
+    def penalty(self) -> float:
+        """See the attributes."""
+        ...
+
+    def values(self, inputs: np.ndarray) -> np.ndarray:
+        """Evaluate the features.
+
+        Parameters
+        ----------
+        inputs : np.ndarray
+            Local coordinates (n, 3 u) of the used inputs, mm, about their typical values.
+
+        Returns
+        -------
+        np.ndarray
+            Values (n, features).
+        """
+        ...
 
 
 @dataclass(frozen=True)
@@ -41,22 +73,35 @@ class RidgeRegression:
         The training data.
     used : np.ndarray
         Which of the inputs are used, bool (k,).
-    ridge : float
-        Penalty, mm^2: the variance of the noise on an input.
+    features : Features | None
+        Functions of the inputs that it uses besides; None for none.
+    columns : np.ndarray
+        Intercept, inputs and features of the training frames (n, c).
+    penalty : np.ndarray
+        Penalties of the columns (c,), mm^2.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
     coefficients : np.ndarray
-        Intercept and coefficients (1 + 3 u, 3).
+        Coefficients of the columns (c, 3).
     """
 
     data: TrainingSet
     used: np.ndarray
-    ridge: float
+    features: Features | None
+    columns: np.ndarray
+    penalty: np.ndarray
     pool_weight: float
     coefficients: np.ndarray
 
     @classmethod
-    def fit(cls, data: TrainingSet, used: np.ndarray, ridge: float, pooling: Pooling | None = None) -> RidgeRegression:
+    def fit(
+        cls,
+        data: TrainingSet,
+        used: np.ndarray,
+        ridge: float,
+        pooling: Pooling | None = None,
+        features: Features | None = None,
+    ) -> RidgeRegression:
         """Train the regression.
 
         Parameters
@@ -66,28 +111,33 @@ class RidgeRegression:
         used : np.ndarray
             Which of the inputs are used, bool (k,).
         ridge : float
-            Penalty, mm^2.
+            Penalty of the inputs, mm^2: the variance of the noise on an input.
         pooling : Pooling, optional
             How it learns from the pooled rows of the training data; not at all by default.
+        features : Features, optional
+            Functions of the inputs that it uses besides.
 
         Returns
         -------
         RidgeRegression
             The regression.
         """
-        pooled = None if pooling is None else _pooled_products(data, used)
+        columns, penalty = _columns(data.design(used), features), penalties(3 * int(used.sum()), ridge)
+        if features is not None:
+            penalty = np.append(penalty, np.full(columns.shape[1] - len(penalty), features.penalty))
+        pooled = None if pooling is None else _pooled_products(data, used, features)
         if pooling is None or pooled is None:
-            own = _Products.by_block(data, used, np.zeros(len(data.local), int))
-            return cls(data, used, ridge, 0.0, own.sum().coefficients(ridge))
-        own = _Products.by_block(data, used, _stretches(data.training, pooling.blocks))
+            own = _Products.by_block(data, columns, np.zeros(len(columns), int))
+            return cls(data, used, features, columns, penalty, 0.0, own.sum().coefficients(penalty))
+        own = _Products.by_block(data, columns, _stretches(data.training, pooling.blocks))
         rest = own.others()
-        errors = [own.square_error(rest.coefficients(ridge, pooled, weight)) for weight in pooling.weights]
+        errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in pooling.weights]
         weight = pooling.weights[int(np.argmin(errors))]
-        return cls(data, used, ridge, weight, own.sum().coefficients(ridge, pooled, weight))
+        return cls(data, used, features, columns, penalty, weight, own.sum().coefficients(penalty, pooled, weight))
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Predict the local position of the marker. See `Regression.predict`."""
-        local: np.ndarray = with_intercept(inputs) @ self.coefficients + self.data.centre[-3:]
+        local: np.ndarray = _columns(inputs, self.features) @ self.coefficients + self.data.centre[-3:]
         return local
 
     def left_out(self, block: np.ndarray) -> np.ndarray:
@@ -95,16 +145,16 @@ class RidgeRegression:
         target, starts = self.data.target, _starts(block)
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
-        rest = _Products.by_block(self.data, self.used, block).others()
-        beta = rest.coefficients(self.ridge, _pooled_products(self.data, self.used), self.pool_weight)
-        full = with_intercept(self.data.design(self.used))
-        parts = zip(np.split(full, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
-        return np.concatenate([own - inputs @ coefficients for inputs, own, coefficients in parts])
+        rest = _Products.by_block(self.data, self.columns, block).others()
+        pooled = _pooled_products(self.data, self.used, self.features)
+        beta = rest.coefficients(self.penalty, pooled, self.pool_weight)
+        parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
+        return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
 
 
 @dataclass(frozen=True, eq=False)
 class _Products:
-    """Weighted sums of products: of inputs with intercept (..., c, c), of these and the target (..., c, 3), and of the target's
+    """Weighted sums of products: of the columns (..., c, c), of these and the target (..., c, 3), and of the target's
     square (...); and the sum of the weights (...)."""
 
     gram: np.ndarray
@@ -113,10 +163,10 @@ class _Products:
     total: np.ndarray
 
     @classmethod
-    def by_block(cls, data: TrainingSet, used: np.ndarray, block: np.ndarray) -> _Products:
+    def by_block(cls, data: TrainingSet, columns: np.ndarray, block: np.ndarray) -> _Products:
         """The sums over each block of the training frames."""
         cuts = _starts(block)[1:]
-        full, weights = np.split(with_intercept(data.design(used)), cuts), np.split(data.weights, cuts)
+        full, weights = np.split(columns, cuts), np.split(data.weights, cuts)
         target = np.split(data.target, cuts)
         weighted = [(rows * own[:, None]).T for rows, own in zip(full, weights, strict=True)]
         return cls(
@@ -134,13 +184,13 @@ class _Products:
         """For each block the sums over all others."""
         return _Products(*(each.sum(axis=0) - each for each in vars(self).values()))
 
-    def coefficients(self, ridge: float, pooled: _Products | None = None, weight: float = 0.0) -> np.ndarray:
+    def coefficients(self, penalty: np.ndarray, pooled: _Products | None = None, weight: float = 0.0) -> np.ndarray:
         """Coefficients (..., c, 3) with pooled rows of a weight in units of that of these."""
         gram, cross, total = self.gram, self.cross, self.total
         if pooled is not None and weight > 0:
             scale = (weight * total / pooled.total)[..., None, None]
             gram, cross, total = gram + scale * pooled.gram, cross + scale * pooled.cross, (1 + weight) * total
-        return solve(gram, cross, total, ridge)
+        return solve(gram, cross, total, penalty)
 
     def square_error(self, coefficients: np.ndarray) -> float:
         """Weighted sum of the squared errors of coefficients (..., c, 3)."""
@@ -148,14 +198,28 @@ class _Products:
         return float((self.square - explained).sum())
 
 
-def _pooled_products(data: TrainingSet, used: np.ndarray) -> _Products | None:
+def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
+    """Intercept, inputs and features (n, c)."""
+    columns = with_intercept(inputs)
+    return columns if features is None else np.concatenate([columns, features.values(inputs)], axis=1)
+
+
+def _pooled_products(data: TrainingSet, used: np.ndarray, features: Features | None) -> _Products | None:
     """Mean products of the pooled rows, which have no intercept."""
-    if data.pooled is None:
+    pooled = data.pooled
+    if pooled is None:
         return None
-    products = np.pad(data.pooled.products, ((1, 0), (1, 0)))
-    columns = np.concatenate([[0], 1 + np.flatnonzero(np.repeat(used, 3))])
-    target = products[:, -3:]
-    return _Products(products[np.ix_(columns, columns)], target[columns], np.trace(target[-3:]), np.ones(()))
+    chosen, products = np.flatnonzero(np.repeat(used, 3)), pooled.products
+    target = np.arange(len(products) - 3, len(products))
+    if features is None:
+        products = products[np.ix_([*chosen, *target], [*chosen, *target])]
+    else:
+        inputs = pooled.local[:, chosen]
+        extra = about_mean(features.values(inputs), pooled.weights, pooled.recording)
+        rows = np.concatenate([inputs, extra, pooled.local[:, target]], axis=1)
+        products = (rows * pooled.weights[:, None]).T @ rows / pooled.weights.sum()
+    products = np.pad(products, ((1, 0), (1, 0)))
+    return _Products(products[:-3, :-3], products[:-3, -3:], np.trace(products[-3:, -3:]), np.ones(()))
 
 
 def _starts(block: np.ndarray) -> np.ndarray:
