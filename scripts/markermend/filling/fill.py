@@ -21,6 +21,7 @@ from markermend.filling.growing_scene import GrowingScene
 from markermend.numerics.intervals import samples
 from markermend.numerics.symmetric_smoothing import smooth_symmetrically
 from markermend.options.filling import FillOptions
+from markermend.prediction.registry import learn_from_pool
 from markermend.prediction.scene import Scene
 
 
@@ -58,7 +59,8 @@ def fill_gaps(
         names the other recordings from which the predictors learned, if there are any.
     """
     scene = Scene.of(restored, mesh)
-    if poses is not None and options.pool and restored.facts.get("kind") != "static":
+    pools = options.pool and learn_from_pool(options.members, options.predictors)
+    if poses is not None and pools and restored.facts.get("kind") != "static":
         name = restored.facts.get("recording", "")
         scene = replace(scene, pool=poses.others(name, restored.markers, among=mesh.recordings))
     if scene.pool is not None:

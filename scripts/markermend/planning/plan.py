@@ -26,6 +26,7 @@ from markermend.planning.data_set import DataSet, Wildcards, find_data_set
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
+from markermend.prediction.registry import learn_from_pool
 from markermend.storage.atomic import write_json, write_text
 
 LIBRARY = Path(markermend.__file__).parent
@@ -129,7 +130,9 @@ class Plan:
 
     def poses(self, wildcards: Wildcards) -> list[str]:
         """The poses of the subject, where its recordings are filled from each other; see `DataSet.entry`."""
-        pools = self.options["fill"].pool and len(self.data.subjects[wildcards.subject]) > 1
+        fill = self.options["fill"]
+        pools = fill.pool and learn_from_pool(fill.members, fill.predictors)
+        pools = pools and len(self.data.subjects[wildcards.subject]) > 1
         return [self.files.poses.format(subject=wildcards.subject)] if pools else []
 
     def filling_group(self, wildcards: Wildcards) -> str:

@@ -49,6 +49,27 @@ REGISTRY: dict[str, Callable[[PredictorOptions], Predictor]] = {
 }
 """How to make each predictor from the options."""
 
+POOLING = frozenset({"local_ridge"})
+"""The predictors that learn from the subject's other recordings, too; so do the variants of local_ridge."""
+
+
+def learn_from_pool(names: Sequence[str], options: PredictorOptions) -> bool:
+    """Say whether any of the named predictors learns from the subject's other recordings.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of predictors and of variants of local_ridge.
+    options : PredictorOptions
+        Their options.
+
+    Returns
+    -------
+    bool
+        Whether a pool of poses would alter what they predict.
+    """
+    return any(name in POOLING or name in options.local_ridge_variants for name in names)
+
 
 def known_members(options: PredictorOptions) -> dict[str, Callable[[PredictorOptions], Predictor]]:
     """List the predictors and the variants of local_ridge and local_gp.

@@ -256,8 +256,8 @@ def _filling(stages: Stages, citations: Citations, pooled: bool) -> Iterator[str
     )
     if pooled:
         yield (
-            "The predictors learned from the recording itself and from a sample of the poses in the subject's other recordings, which "
-            "shared its mesh."
+            "Predictors that can learn from several recordings also learned from a sample of the poses in the subject's other recordings "
+            "that shared its mesh."
         )
     if (weights := options.get("ensemble", {}).get("weights")) in WEIGHTS:
         yield WEIGHTS[weights]

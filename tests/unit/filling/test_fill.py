@@ -343,15 +343,21 @@ def poses_of(person, *names):
 
 
 @pytest.mark.parametrize(
-    ("kind", "pool", "learned_from"),
-    [("dynamic", True, ["jump"]), ("dynamic", False, None), ("static", True, None)],
+    ("kind", "pool", "members", "learned_from"),
+    [
+        ("dynamic", True, QUICK, ["jump"]),
+        ("dynamic", True, ["local_ridge_wide"], ["jump"]),
+        ("dynamic", True, ["spline"], None),
+        ("dynamic", False, QUICK, None),
+        ("static", True, QUICK, None),
+    ],
 )
-def test_what_filling_learns_from_is_stated(torso, kind, pool, learned_from):
+def test_what_filling_learns_from_is_stated(torso, kind, pool, members, learned_from):
     recording = gapped(torso, (3, 100, 120), recording="walk", kind=kind)
     mesh = infer_mesh(
         [bodies.recording(torso[1], torso[0], name=name) for name in ("walk", "jump")], options=MeshOptions()
     )
-    options = fill_options(members=QUICK, pool=pool)
+    options = fill_options(members=members, pool=pool)
     filled = fill_gaps(recording, mesh, options=options, poses=poses_of(torso, "another mesh", "jump", "walk"))
     assert filled.recording.facts.get("learned_from") == learned_from
     assert "learned_from" not in recording.facts

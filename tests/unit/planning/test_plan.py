@@ -36,8 +36,9 @@ def test_a_subject_has_poses_where_its_recordings_are_filled_from_each_other(pla
     repaired = plan.subject_repaired(SimpleNamespace(subject="S%201"))
     assert repaired == [f"{tmp_path}/out/S%201/{name}/06_repaired.parquet" for name in ("run", "walk")]
     assert plan.poses(job("S2", "%7Bx%7D")) == []
-    config["fill"]["pool"] = False
-    assert make_plan(config, PROJECT, deployed=False).poses(job()) == []
+    for change in ({"pool": False}, {"members": ["spline", "local_grnn"]}):
+        other = {**config, "fill": {**config["fill"], **change}}
+        assert make_plan(other, PROJECT, deployed=False).poses(job()) == []
 
 
 def test_a_group_of_jobs_does_not_wait_for_one_that_waits_for_it(plan):
