@@ -109,4 +109,14 @@ def test_a_stage_script_is_short_and_declares_no_option_by_hand(path):
 
 
 def test_there_is_a_script_for_every_stage():
-    assert {path.stem for path in STAGES} == {"ingest", "mesh", *DETECTORS, "repair", "fill", "export", "qc", "report"}
+    assert {path.stem for path in STAGES} == {
+        "ingest",
+        "mesh",
+        *DETECTORS,
+        "repair",
+        "poses",
+        "fill",
+        "export",
+        "qc",
+        "report",
+    }
