@@ -8,6 +8,7 @@ import pytest
 
 from markermend import api
 from markermend.core.recording import FILLED, MISSING, Recording
+from markermend.filling.fill import fill_gaps
 from markermend.formats import files
 from markermend.formats.ingest import ingest
 from markermend.options.ingest import IngestOptions
@@ -17,6 +18,11 @@ from support import bodies, fillings
 from support.c3d_files import write
 from support.fillings import restored, rigid_body
 from support.treated import Treated, treated
+
+TOO_BRIEF = (
+    "not seen on both sides for long enough (advanced.fill.border_s: 0.02), nor rigid with 3 seen markers; without the short "
+    "pieces: at the recording's start"
+)
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -240,7 +246,7 @@ def test_metres_and_millimetres_are_filled_equally(chain, tmp_path):
 def test_few_frames(chain, frames, gap):
     done = fill(first(chain, frames=frames), [gap])
     if frames < 50:
-        left_open(done, "not seen on both sides for long enough (advanced.fill.border_s: 0.02)")
+        left_open(done, TOO_BRIEF)
     else:
         filled_well(done, gaps=1, error=3)
 
@@ -256,11 +262,40 @@ def test_what_never_moves(chain):
 @pytest.mark.parametrize("between", [1, 2])
 def test_islands_of_a_sample_or_two(chain, between):
     gaps = [(9, start, start + 24) for start in range(600, 600 + 5 * (24 + between), 24 + between)]
-    done = fill(chain, gaps)
+    filled_well(fill(chain, gaps), gaps=5, error=2)
     if between == 1:
-        left_open(done, "not seen on both sides for long enough (advanced.fill.border_s: 0.02)")
-        done = fill(chain, gaps, border_s=0.0)
-    filled_well(done, gaps=5, error=2)
+        long = [(9, start, start + 59) for start in range(600, 900, 60)]
+        assert set(fill(chain, long).left) == {chain.markers[9]}
+
+
+def test_a_ghost_between_gaps_does_not_bend_their_filling(chain):
+    gaps = [(9, 600, 624), (9, 625, 640)]
+    ghost = replace(chain, positions=chain.positions.copy())
+    ghost.positions[624, 9] += [25.0, 0.0, 0.0]
+    bent, checked = (fill(ghost, gaps, checked_piece_s=seconds, border_s=0.0) for seconds in (0.0, 0.05))
+    assert bent.distance.max() > 10 and checked.distance.max() < 3
+
+
+@pytest.mark.parametrize("piece", [1, 3])
+def test_a_marker_of_a_rigid_plate_that_flickers(piece):
+    """Two plates of four markers; one marker is seen in short pieces at entry and for 3 s, once 25 mm away."""
+    names, positions, _ = bodies.subject(4, tree=(None, 0), frames=1000)
+    plates = bodies.recording(names, positions + np.random.default_rng(1).normal(0, 0.2, positions.shape))
+    hidden = np.r_[0:100, 400:700]
+    hidden = hidden[hidden % 10 < 10 - piece]
+    plates.positions[409, 1] += [25.0, 0.0, 0.0]
+    seen = plates.positions.copy()
+    seen[hidden, 1] = np.nan
+    gapped = restored(seen, markers=names)
+    options = fillings.fill_options(max_altered_share=1.0)
+    mesh = api.infer_mesh([gapped])
+    done = treated(fill_gaps(gapped, mesh, options=options))
+    [left] = done.gaps_left
+    assert (left.start, left.reason.text) == (0, "at the recording's start")
+    filled = hidden[hidden >= left.stop]
+    distance = np.linalg.norm((done.positions - plates.positions)[filled, 1], axis=1)
+    assert distance.mean() < 0.8 and distance.max() < 4
+    assert (distance <= done.error95[filled, 1]).mean() > 0.85
 
 
 def test_a_marker_that_is_hardly_there(chain):

@@ -55,6 +55,25 @@ class Shape:
         order = np.argsort(deviation, kind="stable")
         return order[: min(count, int(np.count_nonzero(~np.isnan(deviation))))]
 
+    def rigid_mates(self, marker: int, *, max_spread_mm: float) -> np.ndarray:
+        """List the markers with which a marker forms a rigid body.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+        max_spread_mm : float
+            Largest spread of the distances between them, mm.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices.
+        """
+        near = self.spread[marker] <= max_spread_mm
+        near[marker] = False
+        return np.flatnonzero(near)
+
     def unsteady(self, *, mates: int, max_spread_mm: float) -> np.ndarray:
         """Find the markers that keep their distances to too few others, such as a ball in flight.
 

@@ -12,7 +12,9 @@ import numpy as np
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import Restored
 from markermend.core.rulings import Ruling
+from markermend.core.shape import Shape
 from markermend.filling.gap import Gap
+from markermend.filling.short_pieces import stretch_of
 from markermend.options.filling import FillOptions
 
 
@@ -28,11 +30,14 @@ class Eligibility:
         The limits.
     blanked : frozenset of str
         The markers of which repair took samples away.
+    shape : Shape or None
+        The usual distances of the markers; None where they are unknown.
     """
 
     restored: Restored
     options: FillOptions
     blanked: frozenset[str] = frozenset()
+    shape: Shape | None = None
 
     @cached_property
     def missing(self) -> np.ndarray:
@@ -94,15 +99,57 @@ class Eligibility:
         limit = Limit("fill.max_gap_s", longest, seconds)
         return Reason(Cause.TOO_LONG, f"gap of {seconds:.2f} s ({limit.text})", limit)
 
+    def checked_stretch(self, gap: Gap) -> Gap | None:
+        """Find the stretch in which the short pieces beside a gap are to be checked.
+
+        Parameters
+        ----------
+        gap : Gap
+            A gap that may be filled.
+
+        Returns
+        -------
+        Gap or None
+            The gap with the pieces and the other gaps beside it; None where there are none, or where the gap could not be
+            filled without them.
+        """
+        for seconds in (self.options.checked_piece_s, self.options.border_s):
+            stretch = self._stretch(gap, seconds)
+            if stretch != gap and self._reason_against_stretch(gap, stretch) is None:
+                return stretch
+        return None
+
+    def _stretch(self, gap: Gap, seconds: float) -> Gap:
+        """A gap with the pieces shorter than some time, s, and the other gaps beside it."""
+        return stretch_of(self.missing, gap, math.ceil(seconds * self.restored.rate))
+
     def _without_border(self, gap: Gap) -> Reason | None:
-        """The marker is not seen for long enough on a side on which the recording goes on."""
-        border, missing = math.ceil(self.options.border_s * self.restored.rate), self.missing[:, gap.marker]
-        sides = missing[: gap.start][::-1], missing[gap.stop :]
-        seen = [_frames_before_gap(side) for side in sides if len(side)]
-        if not seen or min(seen) >= border:
+        """The marker is seen too briefly beside the gap, and without these pieces the gap could not be filled."""
+        against = self._reason_against_stretch(gap, self._stretch(gap, self.options.border_s))
+        if against is None:
             return None
-        limit = Limit("advanced.fill.border_s", self.options.border_s, min(seen) / self.restored.rate)
-        return Reason(Cause.BORDER, f"not seen on both sides for long enough ({limit.text})", limit)
+        sides = self.missing[: gap.start, gap.marker][::-1], self.missing[gap.stop :, gap.marker]
+        shortest = min(_frames_before_gap(side) for side in sides if len(side))
+        limit = Limit("advanced.fill.border_s", self.options.border_s, shortest / self.restored.rate)
+        text = (
+            f"not seen on both sides for long enough ({limit.text}), nor rigid with {self.options.rigid_mates} seen markers; "
+            f"without the short pieces: {against.limit.text if against.limit else against.text}"
+        )
+        return Reason(Cause.BORDER, text, limit)
+
+    def _reason_against_stretch(self, gap: Gap, stretch: Gap) -> Reason | None:
+        """Why a gap could not be filled in a stretch of which no piece is trusted; None where the marker is rigid."""
+        if stretch == gap or self._is_rigid(gap):
+            return None
+        return self._at_end(stretch) or self._too_long(stretch)
+
+    def _is_rigid(self, gap: Gap) -> bool:
+        """Whether enough markers are seen throughout a gap that form a rigid body with its marker."""
+        if self.shape is None:
+            return False
+        mates = self.shape.rigid_mates(gap.marker, max_spread_mm=self.options.max_rigid_spread_mm)
+        seen = ~self.missing[gap.start : gap.stop, mates]
+        return bool((seen.sum(axis=1) >= self.options.rigid_mates).all())
 
 
 def max_gap_s(marker: str, options: FillOptions) -> float | None:

@@ -41,6 +41,21 @@ class Filling:
     deviation: np.ndarray
     weights: dict[str, float]
 
+    def part(self, start: int, stop: int) -> Filling:
+        """Take some frames.
+
+        Parameters
+        ----------
+        start, stop : int
+            The frames [start, stop), counted from the first of the filling.
+
+        Returns
+        -------
+        Filling
+            What to write into them; the weights remain those of the whole.
+        """
+        return Filling(self.positions[start:stop], self.deviation[start:stop], self.weights)
+
 
 class Ensemble:
     """Predictors that fill gaps together.

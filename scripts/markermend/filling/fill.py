@@ -100,14 +100,16 @@ def fill_scene(
     """
     scene = replace(scene, near_jumps=_near_jumps(restored, repairs, options.ensemble.jump_margin_s))
     blanked = frozenset(change.marker for change in repairs if change.outcome is Outcome.BLANKED)
-    plan = plan_filling(restored, options, decisions=decisions, methods=ensembles.single, blanked=blanked)
+    plan = plan_filling(
+        restored, options, decisions=decisions, methods=ensembles.single, blanked=blanked, shape=scene.shape
+    )
     ensembles.default.train([(scene, marker) for marker in sorted({gap.marker for gap in plan.ordinary})])
     growing = GrowingScene(scene)
 
     def filler(ensemble: Ensemble, limits: ErrorLimits) -> GapFiller:
-        return GapFiller(ensemble, limits=limits, reuse=options.reuse_filled)
+        return GapFiller(ensemble, limits=limits, reuse=options.reuse_filled, piece_tolerance=options.piece_tolerance)
 
-    batches = [filler(ensembles.default, ErrorLimits.of(options)).fill(growing, plan.ordinary)]
+    batches = [filler(ensembles.default, ErrorLimits.of(options)).fill(growing, plan.ordinary, plan.stretches)]
     for method, gaps in plan.confirmed.items():
         # A person's gaps change no other, nor each other where their methods differ.
         ensemble = ensembles.single.get(method, ensembles.default)

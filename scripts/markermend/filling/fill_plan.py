@@ -12,6 +12,7 @@ from markermend.core.decisions import Decision
 from markermend.core.reasons import Cause, Limit, Reason
 from markermend.core.recording import MEASURED, MISSING, Restored
 from markermend.core.rulings import Ruling, rule
+from markermend.core.shape import Shape
 from markermend.filling.eligibility import Eligibility
 from markermend.filling.gap import Gap, find_gaps
 from markermend.options.filling import FillOptions
@@ -32,12 +33,15 @@ class FillPlan:
         come after the ordinary ones, so that they change no other gap.
     refused : dict of Gap to Reason
         The gaps that stay open, and why.
+    stretches : dict of Gap to Gap
+        The stretches of the ordinary gaps with short pieces beside them, which are to be checked.
     """
 
     rulings: Mapping[Gap, Ruling]
     ordinary: tuple[Gap, ...]
     confirmed: Mapping[str, tuple[Gap, ...]]
     refused: Mapping[Gap, Reason]
+    stretches: Mapping[Gap, Gap]
 
 
 def plan_filling(
@@ -47,6 +51,7 @@ def plan_filling(
     decisions: Sequence[Decision],
     methods: Collection[str],
     blanked: frozenset[str] = frozenset(),
+    shape: Shape | None = None,
 ) -> FillPlan:
     """Plan what is to be done with each gap of a recording.
 
@@ -62,13 +67,15 @@ def plan_filling(
         Methods by which a person can want a gap filled.
     blanked : frozenset of str
         The markers of which repair took samples away.
+    shape : Shape or None
+        The usual distances of the markers; None where they are unknown.
 
     Returns
     -------
     FillPlan
         The plan.
     """
-    eligibility = Eligibility(restored, options, blanked)
+    eligibility = Eligibility(restored, options, blanked, shape)
     missing = eligibility.missing
     rulings = {gap: _ruling(restored, gap, decisions, methods) for gap in find_gaps(missing)}
     reasons = {gap: eligibility.reason_to_leave(gap, ruling) for gap, ruling in rulings.items()}
@@ -86,7 +93,8 @@ def plan_filling(
         confirmed[method] = tuple(
             gap for gap in allowed if rulings[gap].confirmed and (rulings[gap].method or "") == method
         )
-    return FillPlan(rulings, tuple(ordinary), confirmed, refused)
+    stretches = {gap: stretch for gap in ordinary if (stretch := eligibility.checked_stretch(gap))}
+    return FillPlan(rulings, tuple(ordinary), confirmed, refused, stretches)
 
 
 def _ruling(restored: Restored, gap: Gap, decisions: Sequence[Decision], methods: Collection[str]) -> Ruling:

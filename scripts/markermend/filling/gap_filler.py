@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -16,10 +16,13 @@ from markermend.filling.error_limits import ErrorLimits
 from markermend.filling.gap import Gap, GapKind
 from markermend.filling.growing_scene import GrowingScene
 from markermend.filling.member_weights import MemberWeights
+from markermend.filling.short_pieces import widened, without_doubtful_pieces
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
 log = logging.getLogger("markermend")
+
+NO_STRETCHES: Mapping[Gap, Gap] = {}
 
 
 @dataclass(frozen=True)
@@ -52,14 +55,17 @@ class GapFiller:
         Gaps whose expected errors exceed them stay open.
     reuse : bool
         Whether filled samples are inputs for the gaps of other markers.
+    piece_tolerance : float
+        Largest distance of a trusted short piece from its prediction, as a multiple of the radius of the 95 % ball.
     """
 
-    def __init__(self, ensemble: Ensemble, *, limits: ErrorLimits, reuse: bool) -> None:
+    def __init__(self, ensemble: Ensemble, *, limits: ErrorLimits, reuse: bool, piece_tolerance: float) -> None:
         self._ensemble, self._limits, self._reuse = ensemble, limits, reuse
+        self._piece_tolerance = piece_tolerance
         self._radius_options = ensemble.options.radius
         self._weights: dict[GapKind, MemberWeights] = {}
 
-    def fill(self, scene: GrowingScene, gaps: Sequence[Gap]) -> FilledGaps:
+    def fill(self, scene: GrowingScene, gaps: Sequence[Gap], stretches: Mapping[Gap, Gap] = NO_STRETCHES) -> FilledGaps:
         """Fill gaps in their order.
 
         All gaps of a marker see the same scene, in which none of them is filled: the members are trained once for all
@@ -71,6 +77,8 @@ class GapFiller:
             The recording; filled gaps are added to it.
         gaps : sequence of Gap
             The gaps, those of a marker next to each other.
+        stretches : mapping of Gap to Gap, optional
+            The stretch of each gap that has short pieces beside it; pieces are used where they are trusted.
 
         Returns
         -------
@@ -81,8 +89,10 @@ class GapFiller:
         refused: dict[Gap, Reason] = {}
         for _, of_marker in groupby(gaps, key=lambda gap: gap.marker):
             current, inputs = scene.current(), []
-            for gap in of_marker:
-                filling = self._ensemble.fill(current, gap, self._member_weights(current, gap))
+            own = list(of_marker)
+            trusted = self._without_doubtful_pieces(current, [stretches[gap] for gap in own if gap in stretches])
+            for gap in own:
+                filling = self._fill(trusted, gap)
                 reason = _failure(current, gap, filling)
                 if reason is not None:
                     refused[gap] = reason
@@ -93,6 +103,18 @@ class GapFiller:
             for gap in inputs:
                 scene.add(gap, filled[gap])
         return self._calibrate(filled, refused)
+
+    def _without_doubtful_pieces(self, scene: Scene, stretches: Sequence[Gap]) -> Scene:
+        """The scene without the short pieces that contradict what is predicted for their stretches."""
+        return without_doubtful_pieces(
+            scene, stretches, self._fill, radius=self._piece_tolerance * self._radius_options.outer
+        )
+
+    def _fill(self, scene: Scene, gap: Gap) -> Filling:
+        """Fill a gap between the nearest samples that a scene shows, with the weights of its kind."""
+        wide = widened(scene, gap)
+        filling = self._ensemble.fill(scene, wide, self._member_weights(scene, wide))
+        return filling.part(gap.start - wide.start, gap.stop - wide.start)
 
     def _member_weights(self, scene: Scene, gap: Gap) -> MemberWeights:
         """Weights from pseudo-gaps, measured once for all gaps of a kind."""

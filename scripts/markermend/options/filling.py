@@ -231,7 +231,22 @@ class FillOptions:
     Change it when each recording must be filled from what it shows by itself."""
 
     border_s: Seconds = 0.02
-    """Time for which a marker must be seen without a break on either side of a gap."""
+    """Time for which a marker must be seen without a break on either side of a gap, unless the gap could be filled without the
+    shorter pieces."""
+
+    checked_piece_s: Seconds = 0.05
+    """Pieces between gaps that are shorter are used only where they are as predicted without them; 0 to use all."""
+
+    piece_tolerance: Positive = 2
+    """Largest distance of such a piece from what is predicted, as a multiple of the radius of the 95 % ball.
+
+    Change it when ghosts bend the filling (lower)."""
+
+    rigid_mates: Count = 3
+    """Markers that form a rigid body with a marker and are seen throughout a gap, so that it needs no border."""
+
+    max_rigid_spread_mm: PositiveMillimetres = 3
+    """Largest spread of the distances within a rigid body."""
 
     reuse_filled: bool = True
     """Whether filled markers are inputs for those that are filled later."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.core.shape import shape_of
+from markermend.core.shape import Shape, shape_of
 
 DISTANCES = {
     "a": {"b": (100.0, 1.0, 2.0), "c": (300.0, 20.0, 25.0), "d": (80.0, 0.5, 4.0)},
@@ -30,3 +30,9 @@ def test_steadiest_markers_come_first(count, among, expected):
 
 def test_markers_without_known_distances_are_not_listed():
     assert len(shape_of(DISTANCES, "dbx").steadiest(2, 5)) == 0
+
+
+def test_rigid_mates_keep_their_distance():
+    spread = np.array([[0, 1, 5, 2], [1, 0, 1, np.nan], [5, 1, 0, 9], [2, np.nan, 9, 0]])
+    shape = Shape(spread, spread, spread)
+    assert [shape.rigid_mates(m, max_spread_mm=2.0).tolist() for m in range(4)] == [[1, 3], [0, 2], [1], [0]]

@@ -16,6 +16,7 @@ from support.fillings import ensemble_options, rigid_body, scene
 
 FIRST, SECOND, OTHER = Gap(1, 100, 110), Gap(1, 150, 160), Gap(4, 100, 110)
 NO_LIMITS = ErrorLimits()
+STRETCH = Gap(1, 100, 121)
 
 
 @dataclass
@@ -33,15 +34,20 @@ class Recorder:
         return Prediction(np.zeros((n, 3)), np.full(n, self.errors.get(marker, 1.0)))
 
 
-def filled(errors=None, *, name="recorder", limits=NO_LIMITS, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0):
+def filled(
+    errors=None, *, name="recorder", limits=NO_LIMITS, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0, pieces=()
+):
     member = Recorder(errors or {}, name)
     # Without pseudo-gaps the prior radii stand.
     ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
     positions = rigid_body()
     for gap in gaps:
         positions[gap.samples] = np.nan
+    for frame, place in pieces:
+        positions[frame, 1] = place
     growing = GrowingScene(scene(positions))
-    return GapFiller(ensemble, limits=limits, reuse=reuse).fill(growing, gaps), member, growing
+    filler = GapFiller(ensemble, limits=limits, reuse=reuse, piece_tolerance=1.0)
+    return filler.fill(growing, gaps, dict.fromkeys(gaps, STRETCH) if pieces else {}), member, growing
 
 
 def test_gaps_of_a_marker_see_none_of_them_filled_and_those_of_others():
@@ -93,3 +99,13 @@ def test_an_input_may_turn_out_too_uncertain_once_the_radii_are_calibrated():
     result, _, growing = filled(trials=2, gaps=(FIRST,), limits=ErrorLimits(limit))
     assert list(result.refused) == [FIRST] and not result.accepted
     assert growing.current().present[FIRST.samples].all()
+
+
+@pytest.mark.parametrize(("place", "widened"), [(3.0, False), (3.5, True)])
+def test_a_short_piece_away_from_its_prediction_is_not_used(place, widened):
+    """The piece lies at frame 110 between two gaps; the member predicts the origin with a standard deviation of 1 mm."""
+    gaps = Gap(1, 100, 110), Gap(1, 111, 121)
+    result, member, _ = filled(gaps=gaps, pieces=[(110, (place, 0, 0))])
+    asked = [(start, bool(present[110, 1])) for _, start, present in member.scenes]
+    assert asked == [(100, False), *([(100, False)] * 2 if widened else [(100, True), (111, True)])]
+    assert [len(filling.positions) for filling in result.accepted.values()] == [10, 10]
