@@ -16,8 +16,10 @@ AFTER_REPAIR = ("fill", "export_c3d", "qc")
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory) -> Project:
     """A project whose workflow has run: S01 with three recordings, one at another rate, and a file that is none; S02 with one
-    recording; S03 with two that share no marker."""
+    recording; S03 with two that share no marker. Nothing is detected, for the sake of time."""
     project = Project(tmp_path_factory.mktemp("pooling"))
+    config = project.folder / "config/config.yaml"
+    config.write_text(yaml.safe_dump({**yaml.safe_load(config.read_text()), "detect": []}))
     for seed, (name, rate) in enumerate([("walk", 100.0), ("jump", 50.0), ("turn", 100.0)]):
         write_recording(project.recordings / f"S01/{name}.c3d", seed=seed, rate=rate, body=1)
     (project.recordings / "S01/bad.c3d").write_text("not a recording")
@@ -85,11 +87,21 @@ def test_on_a_cluster_no_batch_waits_for_one_that_waits_for_it(finished, tmp_pat
 
 
 def test_an_added_recording_repeats_its_subject_and_leaves_the_others(finished):
-    write_recording(finished.recordings / "S01/new.c3d", seed=9, body=1)
-    plan = finished.plan()
-    (finished.recordings / "S01/new.c3d").unlink()
-    assert (plan.jobs["ingest"], plan.jobs["mesh"], plan.jobs["poses"]) == (1, 1, 1)
-    assert plan.jobs["peaks"] == plan.jobs["fill"] == plan.jobs["qc"] == 5
+    before = finished.outputs()
+    new = finished.recordings / "S01/new.c3d"
+    write_recording(new, seed=9, body=1)
+    chain = dict.fromkeys(("repair", *AFTER_REPAIR), 5)
+    assert finished.plan().jobs == {"ingest": 1, "mesh": 1, **chain, "poses": 1, "report": 1, "all": 1}
+    finished.run()
+    assert facts_of(finished, "S01/walk")["learned_from"] == ["jump", "new", "turn"]
+    after = finished.outputs()
+    changed = {name for name in before if before[name] != after[name]}
+    assert {name.split("/")[0] for name in changed} == {"S01", "report"}
+    assert not any(name.endswith("01_markers.parquet") for name in changed)
+    new.unlink()
+    finished.run()
+    again = finished.outputs()
+    assert {name: again[name] for name in before} == before
 
 
 def test_a_decision_that_changes_no_pose_refills_its_recording_alone(finished, tmp_path):

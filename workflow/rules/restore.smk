@@ -55,7 +55,7 @@ rule poses:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
+        mem_mb=4000,
         runtime=20,
     params:
         *plan.code("poses"),
