@@ -1,8 +1,8 @@
 """Write the cleaned recording in its own format, the list of changes, and a certificate.
 
 Reads: the original file, 01_markers.parquet, 07_filled.parquet, 07_changes.parquet.
-Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV also cleaned.trc),
-changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is
+Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV, and on
+request for C3D, also cleaned.trc), changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is
 copied unchanged, and its certificate says so.
 """
 
@@ -18,9 +18,10 @@ from markermend.core.written import is_reported, written_changes
 from markermend.export import write_back
 from markermend.export.change_table import change_table
 from markermend.formats.text import trc
+from markermend.options.reporting import ExportOptions
 from markermend.storage import atomic, change_file, originals_file, stage_files
 
-STAGE = Stage("export", __doc__)
+STAGE = Stage("export", __doc__, ExportOptions)
 STAGE.reads("source", "the original file")
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("filled", "trajectories after repair and filling")

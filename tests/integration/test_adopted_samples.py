@@ -82,7 +82,7 @@ def run(source, folder, config):
     written = ["--changes", str(own / "changes.tsv"), "--certificate", str(own / "certificate.json")]
     export.main(
         ["--source", str(source), "--markers", files["01_markers.parquet"], "--filled", at["07"], "--record", at["07_changes"],
-         "--cleaned", str(own / "cleaned.c3d"), "--originals", at["originals"], *written, "--trc"]
+         "--cleaned", str(own / "cleaned.c3d"), "--originals", at["originals"], *written, "--trc", *options("export")]
     )  # fmt: skip
     qc.main(
         [*common, "--events", *found, "--repaired", at["06"], "--filled", at["07"], "--changes", at["07_changes"],

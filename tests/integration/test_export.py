@@ -16,13 +16,14 @@ from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import atomic, change_file, originals_file, stage_files
 
 
-def flags(folder):
+def flags(folder, *trc):
     names = {
         "source": "walk.c3d", "markers": "01.parquet", "filled": "07.parquet", "record": "07_changes.parquet",
         "cleaned": "cleaned.c3d", "changes": "changes.tsv", "originals": "originals.parquet",
         "certificate": "certificate.json",
     }  # fmt: skip
-    return [word for flag, name in names.items() for word in (f"--{flag}", str(folder / name))] + ["--trc"]
+    named = [word for flag, name in names.items() for word in (f"--{flag}", str(folder / name))]
+    return [*named, "--trc", *map(str, trc), "--also-trc", "true" if trc else "false"]
 
 
 @pytest.fixture
@@ -78,3 +79,12 @@ def test_a_recording_set_aside_has_no_changes(folder):
     assert (folder / "changes.tsv").read_text() == "\t".join(COLUMNS) + "\n"
     with pytest.raises(SetAside, match="no C3D file"):
         originals_file.read(folder / "originals.parquet")
+
+
+def test_trc_holds_the_cleaned_recording_with_blanks_where_a_marker_is_missing(folder):
+    export.main(flags(folder, folder / "cleaned.trc"))
+    cleaned, text = (
+        files.read(folder / f"cleaned.{end}", unlabelled=[], rate=None).recording for end in ("c3d", "trc")
+    )
+    assert text.markers == cleaned.markers and text.rate == cleaned.rate
+    assert np.allclose(text.positions, cleaned.positions, atol=1e-3, equal_nan=True)

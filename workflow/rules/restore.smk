@@ -117,7 +117,7 @@ for suffix in FORMATS:
             record=files.changes,
         output:
             cleaned=f"{files.recording}/cleaned.{suffix}",
-            trc=[f"{files.recording}/cleaned.trc"] if suffix in ("csv", "tsv") else [],
+            trc=[f"{files.recording}/cleaned.trc"] if plan.writes_trc(suffix) else [],
             changes=files.change_table,
             originals=files.originals,
             certificate=files.certificate,

@@ -28,7 +28,7 @@ from markermend.options.prediction.predictors import PredictorOptions
 from markermend.options.reader import Reader, inside
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
-from markermend.options.reporting import NoOptions, QcOptions
+from markermend.options.reporting import ExportOptions, NoOptions, QcOptions
 from markermend.options.shape import ShapeOptions
 from markermend.options.values import plain
 
@@ -53,7 +53,7 @@ SECTIONS: dict[str, type] = {
     "repair": RepairOptions,
     "poses": PosesOptions,
     "fill": FillOptions,
-    "export": NoOptions,
+    "export": ExportOptions,
     "qc": QcOptions,
     "report": NoOptions,
     "shape": ShapeOptions,

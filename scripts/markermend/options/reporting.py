@@ -1,4 +1,4 @@
-"""Options of the reports."""
+"""Options of what is written about, and of, the cleaned recordings."""
 
 from __future__ import annotations
 
@@ -55,6 +55,16 @@ class QcOptions:
 
     max_plot_frames: CountOrNone = 800
     """Frames in a plot, at most; a longer stretch shows every second, third, ... frame."""
+
+
+@dataclass(frozen=True)
+class ExportOptions:
+    """Write the cleaned recordings."""
+
+    also_trc: Annotated[bool, Laboratory] = False
+    """Whether recordings in C3D are written as TRC besides, as those in CSV and TSV always are.
+
+    Change it when OpenSim reads the results."""
 
 
 @dataclass(frozen=True)

@@ -187,6 +187,21 @@ class Plan:
         """
         return hashlib.sha256("\n".join(self.code(stage)).encode()).hexdigest()[:16]
 
+    def writes_trc(self, suffix: str) -> bool:
+        """Whether recordings of a format are written as TRC besides.
+
+        Parameters
+        ----------
+        suffix : str
+            Suffix of the format, without the dot.
+
+        Returns
+        -------
+        bool
+            True for text that OpenSim does not read, and for C3D where the options want it.
+        """
+        return suffix in ("csv", "tsv") or (suffix == "c3d" and self.options["export"].also_trc)
+
     def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
         """Write the options of a stage as flags.
 

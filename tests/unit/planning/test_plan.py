@@ -55,6 +55,13 @@ def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
     assert some.events(before="slow") == [plan.files.events["peaks"]]
 
 
+def test_trc_is_written_besides_text_and_on_request_besides_c3d(plan, config):
+    suffixes = ("c3d", "trc", "csv", "tsv")
+    assert [suffix for suffix in suffixes if plan.writes_trc(suffix)] == ["csv", "tsv"]
+    wanted = make_plan({**config, "export": {"also_trc": True}}, PROJECT, deployed=False)
+    assert [suffix for suffix in suffixes if wanted.writes_trc(suffix)] == ["c3d", "csv", "tsv"]
+
+
 @pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "poses", "fill", "export", "qc", "report"])
 def test_every_stage_gets_its_options_as_flags(plan, stage):
     names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]

@@ -1,6 +1,7 @@
 """The presets: each fits the closed schema, alone and over the shipped config, and selects what its first lines say."""
 
 import copy
+from dataclasses import replace
 
 import jsonschema
 import pytest
@@ -84,3 +85,24 @@ def test_the_pipeline_of_the_papers():
     }
     assert not own["repair"].objections
     assert own["fill"] == options("published_pma_text")["fill"]
+
+
+def test_gait_fills_short_gaps_within_a_centimetre_and_writes_trc():
+    own = options("gait")
+    assert (own["fill"].max_gap_s, own["fill"].max_error_mm, own["fill"].max_error95_mm) == (0.2, 10, 20)
+    assert own["repair"].max_error_mm == 10 and own["export"].also_trc and not own["fill"].fill_ends
+
+
+def test_animation_fills_longer_gaps_and_ends_on_request_alone():
+    fill, usual = options("animation")["fill"], read_config({})["fill"]
+    assert fill.max_gap_s > usual.max_gap_s and fill.max_error_mm > usual.max_error_mm
+    assert fill.max_error95_mm > usual.max_error95_mm and fill.min_seen_share < usual.min_seen_share
+    assert not fill.fill_ends
+    with_ends = merged(preset("animation"), {"fill": {"fill_ends": True}})
+    assert read_config(with_ends)["fill"] == replace(fill, fill_ends=True)
+
+
+def test_careful_protects_every_marker_and_looks_for_everything():
+    own = options("careful")
+    assert own["general"].protect == ("*",) == own["fill"].protect == own["repair"].protect
+    assert own["general"].detect == read_config({})["general"].detect
