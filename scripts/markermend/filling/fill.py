@@ -59,7 +59,7 @@ def fill_gaps(
         names the other recordings from which the predictors learned, if there are any.
     """
     scene = Scene.of(restored, mesh)
-    pools = options.pool and learn_from_pool(options.members, options.predictors)
+    pools = options.pool and learn_from_pool(options.members)
     if poses is not None and pools and restored.facts.get("kind") != "static":
         name = restored.facts.get("recording", "")
         scene = replace(scene, pool=poses.others(name, restored.markers, among=mesh.recordings))

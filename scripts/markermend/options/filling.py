@@ -213,15 +213,15 @@ class FillOptions:
     Change it when recordings of poor quality are refused as a whole (higher, with care)."""
 
     members: Annotated[tuple[str, ...], NotEmpty, Distinct, Laboratory] = (
-        "local_ridge",
-        "local_ridge_wide",
-        "local_ridge_fine",
+        "local_gp",
+        "local_gp_wide",
+        "local_gp_fine",
         "local_interpolation",
         "local_grnn",
         "spline",
         "linear_regression",
     )
-    """Predictors, and variants of local_ridge, that fill together.
+    """Predictors, and variants of local_ridge and local_gp, that fill together.
 
     Change it when you repeat a paper, or filling takes too long (fewer)."""
 
@@ -255,7 +255,7 @@ class FillOptions:
     """Window of a moving median, then a moving mean, over what was filled; 0 for none (0.07 in the program released with tits2018)."""
 
     pseudo_gap_training_frames: CountOrNone = 400
-    """Training frames of local_ridge and its variants on pseudo-gaps, at most."""
+    """Training frames of local_ridge, local_gp and their variants on pseudo-gaps, at most."""
 
     ensemble: EnsembleOptions = field(default_factory=EnsembleOptions)
     """Averaging of the members, and expected error."""

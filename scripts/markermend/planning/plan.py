@@ -131,7 +131,7 @@ class Plan:
     def poses(self, wildcards: Wildcards) -> list[str]:
         """The poses of the subject, where its recordings are filled from each other; see `DataSet.entry`."""
         fill = self.options["fill"]
-        pools = fill.pool and learn_from_pool(fill.members, fill.predictors)
+        pools = fill.pool and learn_from_pool(fill.members)
         pools = pools and len(self.data.subjects[wildcards.subject]) > 1
         return [self.files.poses.format(subject=wildcards.subject)] if pools else []
 

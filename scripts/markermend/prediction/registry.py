@@ -49,26 +49,24 @@ REGISTRY: dict[str, Callable[[PredictorOptions], Predictor]] = {
 }
 """How to make each predictor from the options."""
 
-POOLING = frozenset({"local_ridge"})
-"""The predictors that learn from the subject's other recordings, too; so do the variants of local_ridge."""
+POOLING = frozenset({"local_ridge", "local_gp"})
+"""The predictors that learn from the subject's other recordings, too; so do their variants."""
 
 
-def learn_from_pool(names: Sequence[str], options: PredictorOptions) -> bool:
+def learn_from_pool(names: Sequence[str]) -> bool:
     """Say whether any of the named predictors learns from the subject's other recordings.
 
     Parameters
     ----------
     names : sequence of str
-        Names of predictors and of variants of local_ridge.
-    options : PredictorOptions
-        Their options.
+        Names of predictors and of variants of local_ridge and local_gp.
 
     Returns
     -------
     bool
         Whether a pool of poses would alter what they predict.
     """
-    return any(name in POOLING or name in options.local_ridge_variants for name in names)
+    return any(name in POOLING or name not in REGISTRY for name in names)
 
 
 def known_members(options: PredictorOptions) -> dict[str, Callable[[PredictorOptions], Predictor]]:
@@ -117,7 +115,7 @@ def members(
     options : PredictorOptions
         Their options.
     max_training_frames : int, optional
-        For pseudo-gaps, with less training: training frames of local_ridge and its variants, at most; the networks
+        For pseudo-gaps, with less training: training frames of local_ridge, local_gp and their variants, at most; the networks
         have their `pseudo_gap_epochs`.
 
     Returns

@@ -5,7 +5,7 @@ import pytest
 
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
-from markermend.prediction.registry import REGISTRY, members
+from markermend.prediction.registry import REGISTRY, learn_from_pool, members
 from support.fillings import predictor, predictor_options, rigid_body, scene
 
 NAMES = sorted(REGISTRY)
@@ -138,3 +138,10 @@ def test_each_variant_of_the_ridge_has_a_gaussian_process():
     assert [member.name for member in made] == ["local_gp_wide", "local_gp"]
     assert [type(member) for member in made] == [LocalGaussian, LocalGaussian]
     assert [member.options.anchors for member in made] == [6, 3]
+
+
+def test_the_local_ridge_the_local_process_and_their_variants_learn_from_the_pool():
+    assert all(
+        learn_from_pool(["spline", name]) for name in ("local_ridge", "local_ridge_fine", "local_gp", "local_gp_wide")
+    )
+    assert not learn_from_pool(["spline", "local_grnn", "linear_regression"])

@@ -78,6 +78,9 @@ class LocalRidgeOptions:
 class GaussianProcessOptions:
     """Gaussian process in the local frame, beyond the options of local_ridge: local_gp."""
 
+    max_training_frames: Count = 1000
+    """Training frames, at most; those of local_ridge if they are fewer."""
+
     inducing_points: Count = 100
     """Poses whose kernel functions the process uses, at most.
 

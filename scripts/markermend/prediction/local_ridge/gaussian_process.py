@@ -8,7 +8,7 @@ poses (inducing points), so that the process is a ridge regression on these func
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -131,7 +131,8 @@ class LocalGaussian(LocalRidge):
     name = "local_gp"
 
     def __init__(self, options: LocalRidgeOptions, gaussian: GaussianProcessOptions) -> None:
-        super().__init__(options)
+        frames = min(options.max_training_frames, gaussian.max_training_frames)
+        super().__init__(replace(options, max_training_frames=frames))
         self.gaussian = gaussian
 
     def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:

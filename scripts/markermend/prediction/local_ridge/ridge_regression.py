@@ -122,18 +122,14 @@ class RidgeRegression:
         RidgeRegression
             The regression.
         """
-        columns, penalty = _columns(data.design(used), features), penalties(3 * int(used.sum()), ridge)
+        inputs, penalty = data.design(used), penalties(3 * int(used.sum()), ridge)
+        weight = 0.0 if pooling is None else _pool_weight(data, used, penalty, pooling)
+        columns = _columns(inputs, features)
         if features is not None:
             penalty = np.append(penalty, np.full(columns.shape[1] - len(penalty), features.penalty))
-        pooled = None if pooling is None else _pooled_products(data, used, features)
-        if pooling is None or pooled is None:
-            own = _Products.by_block(data, columns, np.zeros(len(columns), int))
-            return cls(data, used, features, columns, penalty, 0.0, own.sum().coefficients(penalty))
-        own = _Products.by_block(data, columns, _stretches(data.training, pooling.blocks))
-        rest = own.others()
-        errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in pooling.weights]
-        weight = pooling.weights[int(np.argmin(errors))]
-        return cls(data, used, features, columns, penalty, weight, own.sum().coefficients(penalty, pooled, weight))
+        own = _Products.by_block(data, columns, np.zeros(len(columns), int)).sum()
+        pooled = _pooled_products(data, used, features) if weight > 0 else None
+        return cls(data, used, features, columns, penalty, weight, own.coefficients(penalty, pooled, weight))
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Predict the local position of the marker. See `Regression.predict`."""
@@ -146,7 +142,7 @@ class RidgeRegression:
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
         rest = _Products.by_block(self.data, self.columns, block).others()
-        pooled = _pooled_products(self.data, self.used, self.features)
+        pooled = _pooled_products(self.data, self.used, self.features) if self.pool_weight > 0 else None
         beta = rest.coefficients(self.penalty, pooled, self.pool_weight)
         parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
         return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
@@ -196,6 +192,17 @@ class _Products:
         """Weighted sum of the squared errors of coefficients (..., c, 3)."""
         explained = (coefficients * (2 * self.cross - self.gram @ coefficients)).sum(axis=(-2, -1))
         return float((self.square - explained).sum())
+
+
+def _pool_weight(data: TrainingSet, used: np.ndarray, penalty: np.ndarray, pooling: Pooling) -> float:
+    """Weight of the pooled rows at which the regression on the inputs alone errs least on stretches left out."""
+    pooled = _pooled_products(data, used, None)
+    if pooled is None:
+        return 0.0
+    own = _Products.by_block(data, with_intercept(data.design(used)), _stretches(data.training, pooling.blocks))
+    rest = own.others()
+    errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in pooling.weights]
+    return pooling.weights[int(np.argmin(errors))]
 
 
 def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
