@@ -1,8 +1,8 @@
 """Whether expected errors are true: fill random gaps of all clean recordings, count truths within the stated balls.
 
 Reads: the recordings in DATA/clean.
-Writes: a table to stdout: per recording and gap length, the share of samples within `error` and `error95`, and their
-number.
+Writes: a table to stdout: per recording and gap length, and per number of gaps, the share of samples within `error` and
+`error95`; the spread of the logarithm of error / stated error, and the mean error.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.calibration --runs 8 --jobs 2
 
@@ -24,11 +24,11 @@ import numpy as np
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import fill_gapped, load
+from benchmarks.support.gap_cases import error_spread, fill_gapped, load
 from markermend import api
 
 OneRun = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Distances from the truth, error and error95 (samples,), mm."""
+"""Distances from the truth, error and error95 (samples, markers), mm."""
 
 LENGTHS_S = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 MOST_SHARE = 0.5
@@ -43,7 +43,7 @@ def neighbours(folder: str, name: str) -> list[np.ndarray]:
 
 
 def one_run(folder: str, name: str, length_s: float, markers: int, seed: Sequence[int]) -> OneRun | None:
-    """Hide a stretch of some markers and fill it; returns distances, error and error95 (samples,), mm, or None."""
+    """Hide a stretch of some markers and fill it; returns distances, error and error95 (samples, markers), mm, or None."""
     whole = load(folder, name)
     length = round(length_s * whole.rate)
     if length > MOST_SHARE * whole.frames or 2 * markers > len(whole.markers):
@@ -60,7 +60,7 @@ def one_run(folder: str, name: str, length_s: float, markers: int, seed: Sequenc
     filled = fill_gapped(whole, gaps, neighbours(folder, name), OPTIONS["fill"].members)
     place = slice(start, start + length), [marker for marker, _, _ in gaps]
     distance = np.linalg.norm(filled.positions[place] - whole.positions[place], axis=2)
-    return distance.ravel(), filled.error[place].ravel(), filled.error95[place].ravel()
+    return distance, filled.error[place], filled.error95[place]
 
 
 def cell(runs: Sequence[OneRun]) -> str:
@@ -100,33 +100,42 @@ def main() -> None:
     found: dict[tuple[str, float | str], list[OneRun]] = defaultdict(list)
     with ProcessPoolExecutor(arguments.jobs) as pool:
         columns = zip(*plan, strict=True)
-        for (name, length, _, _), outcome in zip(
+        for (name, length, markers, _), outcome in zip(
             plan, pool.map(one_run, [str(arguments.data)] * len(plan), *columns), strict=True
         ):
             if outcome is not None:
-                for key in ((name, length), (name, "all"), ("all", length), ("all", "all")):
-                    found[key].append(outcome)
+                for group in (name, f"{markers} gaps", "all"):
+                    found[group, length].append(outcome)
+                    found[group, "all"].append(outcome)
     print("% within error (standard error), within error95 (standard error); every run weighs the same")
     headings = [*arguments.lengths, "all"]
     print(f"{'recording':26}" + "".join(f"{f'{each} s' if each != 'all' else each:>18}" for each in headings))
-    for name in [*names, "all"]:
+    groups = [*names, *(f"{markers} gaps" for markers in arguments.markers), "all"]
+    for name in groups:
         row = [cell(found[name, each]) if found[name, each] else "-" for each in headings]
         print(f"{name:26}" + "".join(f"{each:>18}" for each in row))
     if arguments.tsv:
         rows = [
             {"recording": name, "gap_s": each, "within_error_percent": shares[0], "within_error95_percent": shares[1]}
-            for name in [*names, "all"]
+            for name in groups
             for each in headings
             if found[name, each]
             for shares in [inside(found[name, each]).mean(axis=0).tolist()]
         ]
         result_tables.write(arguments.tsv, rows)
-    print(f"\nmean error, mm{'':12}" + "".join(f"{mean_error(found['all', each]):18.2f}" for each in headings))
+    print(f"\nspread of errors{'':10}" + "".join(f"{spread(found['all', each]):18.2f}" for each in headings))
+    print(f"mean error, mm{'':12}" + "".join(f"{mean_error(found['all', each]):18.2f}" for each in headings))
+
+
+def spread(runs: Sequence[OneRun]) -> float:
+    """Spread of the stated errors over all gaps, each marker by itself."""
+    gaps = [(own[:, k], error[:, k]) for own, error, _ in runs for k in range(own.shape[1])]
+    return error_spread([own for own, _ in gaps], [error for _, error in gaps])
 
 
 def mean_error(runs: Sequence[OneRun]) -> float:
     """Mean distance over the samples of all runs, mm."""
-    return float(np.concatenate([distance for distance, _, _ in runs]).mean()) if runs else float("nan")
+    return float(np.concatenate([distance.ravel() for distance, _, _ in runs]).mean()) if runs else float("nan")
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ import yaml
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import FilledCase, fill_case, score
+from benchmarks.support.gap_cases import FilledCase, FilledGap, error_spread, fill_case, score
 
 Programs = dict[str, dict[str, dict[str, Any]]]
 """Errors and seconds of other programs by program and case."""
@@ -62,22 +62,32 @@ def print_errors(ours: Mapping[str, tuple[str, float]], programs: Programs, titl
 
 
 def print_calibration(cases: Iterable[FilledCase]) -> None:
-    """Share of the true positions within the stated balls, %, by recording and condition, and over all."""
-    samples: dict[tuple[str, str], list[np.ndarray]] = defaultdict(list)
+    """Share of the true positions within the stated balls, %, and spread of the stated errors, by recording and condition.
+
+    By number of gaps at once, too, and over all.
+    """
+    found: dict[tuple[str, str], list[FilledGap]] = defaultdict(list)
     for case, _, gaps in cases:
-        for offsets, error, error95, _ in gaps:
-            distance = np.linalg.norm(offsets, axis=1)
-            inside = np.stack([distance <= error, distance <= error95], axis=1)
-            for group in ((case["seq"], case["cond"]), ("every recording", case["cond"]), (case["seq"], "all")):
-                samples[group].append(inside)
-            samples["every recording", "all"].append(inside)
+        condition, whole = case["cond"], "every recording"
+        number = f"{len(gaps):2} gaps"
+        for group in (
+            (case["seq"], condition),
+            (whole, condition),
+            (whole, number),
+            (case["seq"], "all"),
+            (whole, "all"),
+        ):
+            found[group] += gaps
     print(
-        f"\ntrue positions within error and error95, %\n{'recording':16} {'condition':10} {'68':>6} {'95':>6} {'n':>8}"
+        "\ntrue positions within error and error95, %; spread: standard deviation of the logarithm of error / stated error"
     )
-    for (name, condition), shares in sorted(samples.items()):
-        joined = np.concatenate(shares)
-        low, high = 100 * joined.mean(axis=0)
-        print(f"{name:16} {condition:10} {low:6.1f} {high:6.1f} {len(joined):8}")
+    print(f"{'recording':16} {'condition':10} {'68':>6} {'95':>6} {'spread':>6} {'n':>8}")
+    for (name, condition), own in sorted(found.items()):
+        distance = np.concatenate([np.linalg.norm(gap.offsets, axis=1) for gap in own])
+        balls = [np.concatenate([gap.error for gap in own]), np.concatenate([gap.error95 for gap in own])]
+        low, high = (100 * (distance <= ball).mean() for ball in balls)
+        spread = error_spread([np.linalg.norm(gap.offsets, axis=1) for gap in own], [gap.error for gap in own])
+        print(f"{name:16} {condition:10} {low:6.1f} {high:6.1f} {spread:6.2f} {len(distance):8}")
 
 
 def print_seconds(cases: Iterable[FilledCase], programs: Programs) -> None:

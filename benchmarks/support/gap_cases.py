@@ -154,3 +154,16 @@ def score(condition: str, gaps: Sequence[FilledGap]) -> float:
     if condition.startswith("sp"):
         return float(np.sqrt((errors**2).mean()))
     return float(np.linalg.norm(errors, axis=1).mean())
+
+
+def error_spread(distances: Sequence[np.ndarray], stated: Sequence[np.ndarray]) -> float:
+    """How sharp stated errors are: the standard deviation over gaps of the logarithm of true / stated error.
+
+    Both are root mean squares over the samples of a gap, at least 0.01 mm; 0 if every gap is judged equally well.
+    """
+    ratios = [
+        np.log(max(float(np.sqrt((own**2).mean())), 0.01) / max(float(np.sqrt((error**2).mean())), 0.01))
+        for own, error in zip(distances, stated, strict=True)
+        if len(own) and np.isfinite(own).all() and np.isfinite(error).all()
+    ]
+    return float(np.std(ratios)) if ratios else float("nan")

@@ -56,20 +56,22 @@ class Averaging:
         """Whether members are weighted by the likelihood of distances."""
         return self.options.weights in ("pma", "both")
 
-    def weigh(self, errors: np.ndarray) -> MemberWeights:
+    def weigh(self, errors: np.ndarray, growth: np.ndarray) -> MemberWeights:
         """Weight the members by their errors on pseudo-gaps.
 
         Parameters
         ----------
         errors : ndarray, shape (pseudo-gaps, 2, members)
             Result of `squared_errors`.
+        growth : ndarray, shape (members,)
+            Factor by which the error of each member is larger in the gap than in the pseudo-gaps.
 
         Returns
         -------
         MemberWeights
             The weights; 1 for all where errors do not count.
         """
-        options, typical = self.options, typical_errors(errors)
+        options, typical = self.options, growth * typical_errors(errors)
         if options.weights in ("pma", "equal"):
             return MemberWeights(typical, np.ones(len(typical)))
         weights = inverse_power_weights(

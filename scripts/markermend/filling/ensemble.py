@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,7 +16,13 @@ from markermend.filling.averaging import Averaging
 from markermend.filling.candidates import Candidates, predict_candidates
 from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
-from markermend.filling.member_weights import MemberWeights, deviation_scale, squared_errors
+from markermend.filling.member_weights import (
+    Evaluation,
+    MemberWeights,
+    deviation_scale,
+    squared_errors,
+)
+from markermend.filling.motion import motion_ratio, neighbour_motion
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
 from markermend.prediction.interface import Predictor, Trainable
@@ -83,6 +89,8 @@ class Ensemble:
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
         self._averaging = Averaging(options)
+        powers = [options.motion_power_of_member.get(member.name, 0.0) for member in members]
+        self._motion_powers = np.array(powers)
 
     def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
         """Find the kind of a gap; the result of `evaluate` for one gap holds for all gaps of its kind.
@@ -115,7 +123,7 @@ class Ensemble:
         """
         _train(self.members, jobs)
 
-    def evaluate(self, scene: Scene, gap: Gap) -> MemberWeights:
+    def evaluate(self, scene: Scene, gap: Gap) -> Evaluation:
         """Measure the errors of the members on pseudo-gaps.
 
         Parameters
@@ -127,17 +135,11 @@ class Ensemble:
 
         Returns
         -------
-        MemberWeights
-            Weights of the members, and how far the stated standard deviations hold.
+        Evaluation
+            Errors of the members, and how far the stated standard deviations hold.
         """
         hidden, options = scene.without(gap.marker, gap.start, gap.stop), self.options
-        trials = pseudo_gaps(
-            hidden,
-            gap,
-            count=options.pseudo_gaps,
-            hidden_share=options.max_hidden_share,
-            neighbours=options.compared_neighbours,
-        )
+        trials = pseudo_gaps(hidden, gap, options)
         _train(self.trial_members, list({id(trial.scene): (trial.scene, gap.marker) for trial in trials}.values()))
         candidates = [self._candidates(self.trial_members, trial.scene, trial.gap) for trial in trials]
         errors = squared_errors(
@@ -152,9 +154,9 @@ class Ensemble:
         # Where pseudo-gaps are shorter than the gap, errors are taken to grow as a random walk does.
         growth = math.sqrt(gap.length / trials[0].gap.length) if trials else 1.0
         scale = growth * deviation_scale(ratios, options.stated_error_weight)
-        return replace(self._averaging.weigh(errors), deviation_scale=scale, standardized_errors=tuple(scaled))
+        return Evaluation(errors, np.array([trial.motion for trial in trials]), scale, tuple(scaled))
 
-    def fill(self, scene: Scene, gap: Gap, weights: MemberWeights) -> Filling:
+    def fill(self, scene: Scene, gap: Gap, evaluation: Evaluation) -> Filling:
         """Fill one gap.
 
         Parameters
@@ -163,7 +165,7 @@ class Ensemble:
             The recording; the samples of the gap are not used.
         gap : Gap
             The gap.
-        weights : MemberWeights
+        evaluation : Evaluation
             Result of `evaluate` for the kind of the gap.
 
         Returns
@@ -175,9 +177,10 @@ class Ensemble:
         candidates = self._candidates(self.members, hidden, gap)
         observed = hidden.positions[gap.start : gap.stop]
         distances = self._averaging.distance_model(hidden, gap.marker)
+        weights, growth = self._weigh(evaluation.errors, evaluation.motions, self._motion(scene, gap))
         average = self._averaging.average(candidates, weights, distances, observed)
         unknown = np.isnan(average.positions).any(axis=1)
-        deviation = np.where(unknown, np.nan, average.deviation * weights.deviation_scale)
+        deviation = np.where(unknown, np.nan, average.deviation * growth * evaluation.deviation_scale)
         if scene.inherited_std is not None:
             inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self.options.distances.references)
             deviation = np.hypot(deviation, inherited)
@@ -190,6 +193,20 @@ class Ensemble:
         """Predict a gap with every member."""
         return predict_candidates(members, scene, gap, options=self.options)
 
+    def _motion(self, scene: Scene, gap: Gap) -> float:
+        """How much neighbours move during a gap, mm; NaN where unknown."""
+        neighbours = self.options.motion_neighbours
+        (motion,) = neighbour_motion(scene, gap, np.array([gap.start]), length=gap.length, neighbours=neighbours)
+        return float(motion)
+
+    def _weigh(self, errors: np.ndarray, motions: np.ndarray, motion: float) -> tuple[MemberWeights, float]:
+        """Weights of the members where neighbours move so much, mm, and the factor by which their errors are larger there.
+
+        errors: (pseudo-gaps, 2, members), motions: (pseudo-gaps,), mm, of the pseudo-gaps.
+        """
+        ratio = motion_ratio(motion, motions, min_motion_mm=self.options.min_error_mm)
+        return self._averaging.weigh(errors, ratio**self._motion_powers), ratio**self.options.stated_motion_power
+
     def _cross_validate(
         self,
         distances: DistanceModel | None,
@@ -198,12 +215,12 @@ class Ensemble:
         errors: np.ndarray,
     ) -> list[np.ndarray]:
         """Errors on each pseudo-gap in stated standard deviations, with weights from the other pseudo-gaps alone."""
-        missed = []
+        missed, motions = [], np.array([trial.motion for trial in trials])
         for k, (trial, own) in enumerate(zip(trials, candidates, strict=True)):
-            others = self._averaging.weigh(np.delete(errors, k, axis=0))
+            others, growth = self._weigh(np.delete(errors, k, axis=0), np.delete(motions, k), trial.motion)
             observed = trial.scene.positions[trial.gap.start : trial.gap.stop]
             average = self._averaging.average(own, others, distances, observed)
-            missed.append(np.linalg.norm(average.positions - trial.truth, axis=1) / average.deviation)
+            missed.append(np.linalg.norm(average.positions - trial.truth, axis=1) / (growth * average.deviation))
         return missed
 
 

@@ -15,7 +15,7 @@ from markermend.filling.ensemble import Ensemble, Filling
 from markermend.filling.error_limits import ErrorLimits
 from markermend.filling.gap import Gap, GapKind
 from markermend.filling.growing_scene import GrowingScene
-from markermend.filling.member_weights import MemberWeights
+from markermend.filling.member_weights import Evaluation
 from markermend.filling.short_pieces import widened, without_doubtful_pieces
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
@@ -63,7 +63,7 @@ class GapFiller:
         self._ensemble, self._limits, self._reuse = ensemble, limits, reuse
         self._piece_tolerance = piece_tolerance
         self._radius_options = ensemble.options.radius
-        self._weights: dict[GapKind, MemberWeights] = {}
+        self._evaluations: dict[GapKind, Evaluation] = {}
 
     def fill(self, scene: GrowingScene, gaps: Sequence[Gap], stretches: Mapping[Gap, Gap] = NO_STRETCHES) -> FilledGaps:
         """Fill gaps in their order.
@@ -113,15 +113,15 @@ class GapFiller:
     def _fill(self, scene: Scene, gap: Gap) -> Filling:
         """Fill a gap between the nearest samples that a scene shows, with the weights of its kind."""
         wide = widened(scene, gap)
-        filling = self._ensemble.fill(scene, wide, self._member_weights(scene, wide))
+        filling = self._ensemble.fill(scene, wide, self._evaluation(scene, wide))
         return filling.part(gap.start - wide.start, gap.stop - wide.start)
 
-    def _member_weights(self, scene: Scene, gap: Gap) -> MemberWeights:
-        """Weights from pseudo-gaps, measured once for all gaps of a kind."""
-        kind = self._ensemble.kind(scene, gap, self._weights)
-        if kind not in self._weights:
-            self._weights[kind] = self._ensemble.evaluate(scene, gap)
-        return self._weights[kind]
+    def _evaluation(self, scene: Scene, gap: Gap) -> Evaluation:
+        """Errors on pseudo-gaps, measured once for all gaps of a kind."""
+        kind = self._ensemble.kind(scene, gap, self._evaluations)
+        if kind not in self._evaluations:
+            self._evaluations[kind] = self._ensemble.evaluate(scene, gap)
+        return self._evaluations[kind]
 
     def _is_input(self, filling: Filling) -> bool:
         """Whether a filling serves as an input: not if it was interpolated in time alone, nor if it is too uncertain.
@@ -138,7 +138,7 @@ class GapFiller:
 
     def _calibrate(self, filled: dict[Gap, Filling], refused: dict[Gap, Reason]) -> FilledGaps:
         """Estimate the radii from all pseudo-gaps and refuse the gaps whose error exceeds a limit."""
-        errors = [part for weights in self._weights.values() for part in weights.standardized_errors]
+        errors = [part for each in self._evaluations.values() for part in each.standardized_errors]
         radii = coverage_radii(errors, self._radius_options)
         too_uncertain = {gap: why for gap, own in filled.items() if (why := self._excess(own, radii)) is not None}
         accepted = {gap: filling for gap, filling in filled.items() if gap not in too_uncertain}

@@ -11,7 +11,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class MemberWeights:
-    """What pseudo-gaps say about the members of an ensemble.
+    """The weights of the members of an ensemble.
 
     Attributes
     ----------
@@ -19,6 +19,22 @@ class MemberWeights:
         Root mean square distance to the truth, mm; NaN where unknown.
     weights : ndarray, shape (members,)
         Weights that follow from these errors, the largest 1.
+    """
+
+    typical_errors: np.ndarray
+    weights: np.ndarray
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What pseudo-gaps say about the members of an ensemble.
+
+    Attributes
+    ----------
+    errors : ndarray, shape (pseudo-gaps, 2, members)
+        Result of `squared_errors`.
+    motions : ndarray, shape (pseudo-gaps,)
+        How much neighbours move during each pseudo-gap, mm; NaN where unknown.
     deviation_scale : float
         Factor on the standard deviation that the ensemble states.
     standardized_errors : tuple of ndarray
@@ -26,8 +42,8 @@ class MemberWeights:
         estimated from the other pseudo-gaps alone; NaN where nothing was predicted.
     """
 
-    typical_errors: np.ndarray
-    weights: np.ndarray
+    errors: np.ndarray
+    motions: np.ndarray
     deviation_scale: float = 1.0
     standardized_errors: tuple[np.ndarray, ...] = ()
 

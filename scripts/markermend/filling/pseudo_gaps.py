@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from markermend.filling.gap import Gap
+from markermend.filling.motion import neighbour_motion
 from markermend.numerics.intervals import runs
+from markermend.options.filling import EnsembleOptions
 from markermend.prediction.scene import Scene
 
 
@@ -24,11 +26,14 @@ class PseudoGap:
         The pseudo-gap.
     truth : ndarray, shape (n, 3)
         The hidden positions, mm.
+    motion : float
+        How much neighbours move during the pseudo-gap, mm; NaN where unknown (`neighbour_motion`).
     """
 
     scene: Scene
     gap: Gap
     truth: np.ndarray
+    motion: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -56,7 +61,7 @@ class _Pattern:
         return self.before + self.length + self.after
 
 
-def pseudo_gaps(scene: Scene, gap: Gap, *, count: int, hidden_share: float, neighbours: int) -> list[PseudoGap]:
+def pseudo_gaps(scene: Scene, gap: Gap, options: EnsembleOptions) -> list[PseudoGap]:
     """Hide stretches as long as a gap, spread over the frames where the marker is seen.
 
     A pseudo-gap lies where the marker is seen at both borders. Where the marker is nowhere seen for as long as the gap,
@@ -76,38 +81,36 @@ def pseudo_gaps(scene: Scene, gap: Gap, *, count: int, hidden_share: float, neig
         The recording, in which the gap is missing.
     gap : Gap
         The gap to imitate.
-    count : int
-        Number of pseudo-gaps wanted.
-    hidden_share : float
-        Largest share of the marker's samples that are hidden in one scene.
-    neighbours : int
-        Number of nearest neighbours that should be seen as during the gap.
+    options : EnsembleOptions
+        How many are wanted, and how similar they should be.
 
     Returns
     -------
     list of PseudoGap
-        At most `count`, by their start; empty where the marker is seen too briefly. The same gap gets the same
+        By their start; empty where the marker is seen too briefly. The same gap gets the same
         pseudo-gaps in every run, other gaps get others.
     """
-    length = trial_length(scene.present[:, gap.marker], gap.length)
+    length, count = trial_length(scene.present[:, gap.marker], gap.length), options.pseudo_gaps
     if length < 1 or count == 0:
         return []
     starts = _possible_starts(scene, gap.marker, length)
-    similar = _equally_seen(scene, gap, starts, length, neighbours)
+    similar = _equally_seen(scene, gap, starts, length, options.compared_neighbours)
     starts = similar if len(similar) >= count else starts
     rng = np.random.default_rng([gap.marker, gap.start, gap.stop])
     chosen = starts[np.unique(((np.arange(count) + rng.random(count)) / count * len(starts)).astype(int))]
+    motions = neighbour_motion(scene, gap, chosen, length=length, neighbours=options.motion_neighbours)
+    motion = dict(zip(chosen.tolist(), motions.tolist(), strict=True))
     # The error of a filled sample lasts about as long as its gap: one direction for each pseudo-gap and marker.
     directions = rng.standard_normal((len(chosen), scene.positions.shape[1], 3))
     pattern = _pattern(scene, gap, length)
-    max_per_scene = int(hidden_share * np.count_nonzero(scene.present[:, gap.marker]) / pattern.hidden)
+    max_per_scene = int(options.max_hidden_share * np.count_nonzero(scene.present[:, gap.marker]) / pattern.hidden)
     stride = scene_count(chosen, distance=2 * pattern.hidden, max_per_scene=max_per_scene)
     found: dict[int, PseudoGap] = {}
     for first in range(stride):
         shared = _hide(scene, pattern, chosen[first::stride], directions[first::stride])
         for start in chosen[first::stride].tolist():
             trial = Gap(gap.marker, start, start + length)
-            found[start] = PseudoGap(shared, trial, scene.positions[trial.samples])
+            found[start] = PseudoGap(shared, trial, scene.positions[trial.samples], motion[start])
     return [found[start] for start in chosen.tolist()]
 
 

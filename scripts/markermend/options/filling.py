@@ -142,6 +142,17 @@ class EnsembleOptions:
     compared_neighbours: CountOrNone = 12
     """Nearest neighbours that are compared for this."""
 
+    motion_neighbours: Count = 4
+    """Nearest neighbours by whose motion gaps and pseudo-gaps are compared: by how much a cubic curve between their borders errs on them."""
+
+    motion_power_of_member: Mapping[str, NotNegative] = field(
+        default_factory=lambda: {"linear": 1.0, "spline": 1.0, "pchip": 1.0, "makima": 1.0}
+    )
+    """Where a gap moves more than its pseudo-gaps, errors of these members grow with this power of the motion, by the member's name."""
+
+    stated_motion_power: NotNegative = 0.3
+    """Where a gap moves more than its pseudo-gaps, the stated error grows with this power of the motion."""
+
     max_gap_kinds: Count = 12
     """Kinds of gaps of a marker that have pseudo-gaps of their own, at most; others count as the most similar kind.
 

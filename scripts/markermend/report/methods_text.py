@@ -34,7 +34,8 @@ PRESETS = {
 PSEUDO_GAPS = "pseudo-gaps, stretches of similar length of the same marker that were hidden for this purpose"
 
 WEIGHTS = {
-    "error": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}.",
+    "error": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}; where neighbours move more than there, larger "
+    "errors are expected of interpolations in time.",
     "pma": "The weights are the likelihoods of the distances between markers that each predictor leads to.",
     "both": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}, and are multiplied by the likelihoods "
     "of the distances between markers that each predictor leads to.",

@@ -1,6 +1,7 @@
 """Naive twins of markermend.filling."""
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 
 def expected_error(stated, typical, weights, member, n):
@@ -52,3 +53,24 @@ def share_out(frames, total):
         if open_ones:
             shares[min(open_ones, key=lambda name: (shares[name], -frames[name], [-ord(c) for c in name]))] += 1
     return shares
+
+
+def neighbour_motion(scene, gap, start, length, neighbours):
+    """Median over neighbours of the rms distance from Hermite's curve in a stretch, marker by marker and point by point."""
+    present = scene.present
+    if gap.start < 2 or gap.stop > len(present) - 2:
+        return np.nan
+    near = [m for m in scene.neighbours[gap.marker] if all(present[f, m] for f in range(gap.start - 2, gap.stop + 2))]
+    distances = []
+    for marker in near[:neighbours]:
+        path = [scene.positions[min(max(start + k, 0), len(present) - 1), marker] for k in range(-2, length + 2)]
+        if np.isnan([path[0], path[1], path[-2], path[-1]]).any():
+            continue
+        ends, slopes = [path[1], path[-2]], [path[1] - path[0], path[-1] - path[-2]]
+        curve, squares = CubicHermiteSpline([-1, length], ends, slopes), []
+        for quarter in (1, 2, 3):
+            offset = round((length + 1) * quarter / 4) - 1
+            squares.append(((path[offset + 2] - curve(offset)) ** 2).sum())
+        distances.append(np.sqrt(np.mean(squares)))
+    known = [distance for distance in distances if not np.isnan(distance)]
+    return np.median(known) if known else np.nan

@@ -54,9 +54,11 @@ def test_the_average_equals_the_naive_twin(weights, complete):
 def test_errors_on_pseudo_gaps_count_only_where_the_options_say_so():
     errors = np.array([[[4.0, 16.0], [1, 1]]])
     for weights, expected in (("error", [1, 0.125]), ("both", [1, 0.125]), ("pma", [1, 1]), ("equal", [1, 1])):
-        found = averaging(weights).weigh(errors)
+        found = averaging(weights).weigh(errors, np.ones(2))
         assert found.weights.tolist() == expected
-        assert found.typical_errors.tolist() == [2, 4] and found.deviation_scale == 1
+        assert found.typical_errors.tolist() == [2, 4]
+    grown = averaging().weigh(errors, np.array([1.0, 0.25]))
+    assert grown.typical_errors.tolist() == [2, 1] and grown.weights.tolist() == [0.125, 1]
 
 
 @pytest.mark.parametrize(
