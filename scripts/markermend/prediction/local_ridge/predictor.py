@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -71,7 +71,7 @@ class LocalRidge:
     def __init__(self, options: LocalRidgeOptions) -> None:
         self.options = options
         self._selection = InputSelection(options)
-        self._pooling = Pooling(options.pool_weights, options.pool_validation_blocks)
+        self._pooling = Pooling(options.pool_weights, options.pool_validation_blocks, options.min_training_frames)
 
     def predict(self, scene: Scene, marker: int, start: int, stop: int) -> Prediction:
         """Predict a marker; the error is the kriging standard deviation of left-out residuals. See `Predictor.predict`."""
@@ -125,10 +125,7 @@ class LocalRidge:
 
     def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
         """The regression on the used inputs (mask)."""
-        pooling = self._pooling
-        if len(data.training) < self.options.min_training_frames:
-            pooling = replace(pooling, weights=[weight for weight in pooling.weights if weight > 0] or [1.0])
-        return RidgeRegression.fit(data, used, self.options.ridge_mm2, pooling)
+        return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
 
     def _krige(self, scene: Scene, fit: _Fit, length: int) -> tuple[np.ndarray, np.ndarray, LeverageScale]:
         """Expected residual (n, 3) in local axes, mm, its standard deviation (n,) in a typical pose, and its scale.

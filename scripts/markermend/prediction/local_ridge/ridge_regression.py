@@ -57,10 +57,33 @@ class Pooling:
         Weights of all pooled rows together that are tried, in units of the weight of all training frames.
     blocks : int
         Stretches of the own recording that are left out in turn to choose among them.
+    min_frames : int
+        Training frames from which a regression may leave the pooled rows out.
     """
 
     weights: Sequence[float]
     blocks: int
+    min_frames: int = 0
+
+    def candidates(self, data: TrainingSet) -> list[float]:
+        """List the weights to try for training data.
+
+        Parameters
+        ----------
+        data : TrainingSet
+            The training data, with pooled rows.
+
+        Returns
+        -------
+        list of float
+            Those by which a pooled row counts no more than a frame of the recording. Left-out stretches are longer than most
+            gaps, so that poses which they do not show seem to matter more than they do.
+        """
+        rows = 0 if data.pooled is None else len(data.pooled.local)
+        largest = rows / (data.training[-1] + 1 - data.training[0])
+        few = len(data.training) < self.min_frames
+        found = [weight for weight in self.weights if weight <= largest and not (few and weight == 0)]
+        return found or [min(1.0, largest) if few else 0.0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +104,8 @@ class RidgeRegression:
         Penalties of the columns (c,), mm^2.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
+    pooled : _Products | None
+        Mean products of the pooled rows; None where they have no weight.
     coefficients : np.ndarray
         Coefficients of the columns (c, 3).
     """
@@ -91,6 +116,7 @@ class RidgeRegression:
     columns: np.ndarray
     penalty: np.ndarray
     pool_weight: float
+    pooled: _Products | None
     coefficients: np.ndarray
 
     @classmethod
@@ -129,7 +155,7 @@ class RidgeRegression:
             penalty = np.append(penalty, np.full(columns.shape[1] - len(penalty), features.penalty))
         own = _Products.by_block(data, columns, np.zeros(len(columns), int)).sum()
         pooled = _pooled_products(data, used, features) if weight > 0 else None
-        return cls(data, used, features, columns, penalty, weight, own.coefficients(penalty, pooled, weight))
+        return cls(data, used, features, columns, penalty, weight, pooled, own.coefficients(penalty, pooled, weight))
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Predict the local position of the marker. See `Regression.predict`."""
@@ -142,8 +168,7 @@ class RidgeRegression:
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
         rest = _Products.by_block(self.data, self.columns, block).others()
-        pooled = _pooled_products(self.data, self.used, self.features) if self.pool_weight > 0 else None
-        beta = rest.coefficients(self.penalty, pooled, self.pool_weight)
+        beta = rest.coefficients(self.penalty, self.pooled, self.pool_weight)
         parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
         return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
 
@@ -196,13 +221,13 @@ class _Products:
 
 def _pool_weight(data: TrainingSet, used: np.ndarray, penalty: np.ndarray, pooling: Pooling) -> float:
     """Weight of the pooled rows at which the regression on the inputs alone errs least on stretches left out."""
-    pooled = _pooled_products(data, used, None)
-    if pooled is None:
-        return 0.0
+    weights, pooled = pooling.candidates(data), _pooled_products(data, used, None)
+    if pooled is None or len(weights) == 1:
+        return 0.0 if pooled is None else weights[0]
     own = _Products.by_block(data, with_intercept(data.design(used)), _stretches(data.training, pooling.blocks))
     rest = own.others()
-    errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in pooling.weights]
-    return pooling.weights[int(np.argmin(errors))]
+    errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
+    return weights[int(np.argmin(errors))]
 
 
 def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:

@@ -92,13 +92,13 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
     rows = PooledRows(np.zeros((3, 3)), about_mean(pooled, weights, recording), weights, recording)
     data = training_set(1.0, pooled=rows)
     options = GaussianProcessOptions(inducing_points=10, penalty=RIDGE)
-    regression = fit(data, options, Pooling((0.7,), 4))
+    regression = fit(data, options, Pooling((0.1,), 4))
 
     def extended(local):
         return np.concatenate([local[:, :3], regression.features.values(local[:, :3]), local[:, 3:]], axis=1)
 
     expected = pooled_ridge(
-        extended(data.local), data.weights, extended(rows.local), weights, recording, ridge=RIDGE, pool_weight=0.7
+        extended(data.local), data.weights, extended(rows.local), weights, recording, ridge=RIDGE, pool_weight=0.1
     )
     assert np.allclose(regression.coefficients, expected)
 

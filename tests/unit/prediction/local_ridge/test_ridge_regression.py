@@ -79,7 +79,7 @@ def test_the_weight_of_pooled_rows_has_the_least_error_on_stretches_left_out():
         rng.uniform(0.5, 1, 120),
         pooled_rows(one_law(rng, 90, 8.0), np.ones(90), np.zeros(90, int)),
     )
-    pooling, block = Pooling((0.0, 0.1, 1.0, 10.0), 6), np.repeat(np.arange(6), 20)
+    pooling, block = Pooling((0.0, 0.1, 0.3, 0.7), 6), np.repeat(np.arange(6), 20)
     errors = {}
     for weight in pooling.weights:
         left = RidgeRegression.fit(data, BOTH, 1.0, Pooling((weight,), 6)).left_out(block)
@@ -95,7 +95,7 @@ def test_pooled_rows_of_the_same_law_help_and_others_are_left_out():
     truth = one_law(np.random.default_rng(0), 1, 0.0, 0.0)[:, 6:] + poses @ np.random.default_rng(5).normal(
         0, 0.5, (6, 3)
     )
-    pooling, errors = Pooling((0.0, 0.3, 3.0), 5), {}
+    pooling, errors = Pooling((0.0, 0.3, 2.0), 5), {}
     same, other = one_law(rng, 200, 20.0), one_law(rng, 200, 20.0, law=rng.normal(0, 3.0, (6, 3)))
     for name, pool in (("none", None), ("same", same), ("other", other)):
         rows = None if pool is None else pooled_rows(pool, ones, np.zeros(200, int))
@@ -112,3 +112,13 @@ def test_without_pooling_the_pool_does_not_count():
         RidgeRegression.fit(training_set(own, np.ones(60), rows), BOTH, 0.2).coefficients for rows in (None, pooled)
     )
     assert np.array_equal(alone, ignoring)
+
+
+def test_a_pooled_row_counts_no_more_than_a_frame_and_not_nothing_where_frames_are_few():
+    rng = np.random.default_rng(12)
+    own, pooled = rng.normal(size=(100, 9)), pooled_rows(rng.normal(size=(40, 9)), np.ones(40), np.zeros(40, int))
+    data = training_set(own, np.ones(100), pooled)
+    assert Pooling((0.0, 0.1, 0.3, 1.0), 4).candidates(data) == [0.0, 0.1, 0.3]
+    assert Pooling((0.0, 0.1, 0.3, 1.0), 4, min_frames=101).candidates(data) == [0.1, 0.3]
+    assert Pooling((0.0, 1.0), 4, min_frames=101).candidates(data) == [0.4]
+    assert Pooling((1.0,), 4).candidates(data) == [0.0]
