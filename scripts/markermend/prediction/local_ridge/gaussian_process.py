@@ -162,7 +162,7 @@ def _candidates(data: TrainingSet, used: np.ndarray, count: int) -> np.ndarray:
     """Inputs (n, 3 u) at trusted training frames and pooled rows, evenly spaced."""
     rows, weights = data.local, data.weights
     if data.pooled is not None:
-        rows, weights = np.concatenate([rows, data.pooled.local]), np.append(weights, data.pooled.weights)
+        rows, weights = np.concatenate([rows, data.pooled.about(data.centre)]), np.append(weights, data.pooled.weights)
     columns = np.flatnonzero(np.repeat(used, 3))
     chosen = evenly_spaced(np.flatnonzero(weights > TRUSTED_WEIGHT), count)
     inputs: np.ndarray = rows[np.ix_(chosen, columns)]

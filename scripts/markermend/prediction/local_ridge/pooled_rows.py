@@ -35,18 +35,37 @@ class PooledRows:
         Weights of the rows (m,), between 0 and 1.
     recording : np.ndarray
         Number of the recording of each row (m,), ascending.
+    means : np.ndarray
+        The mean of the recording of each row (m, 3 k + 3), mm.
     """
 
     template: np.ndarray
     local: np.ndarray
     weights: np.ndarray
     recording: np.ndarray
+    means: np.ndarray
 
     @cached_property
     def products(self) -> np.ndarray:
         """Weighted mean products (3 k + 3, 3 k + 3) of the local coordinates, mm^2."""
         products: np.ndarray = (self.local * self.weights[:, None]).T @ self.local / self.weights.sum()
         return products
+
+    def about(self, centre: np.ndarray) -> np.ndarray:
+        """Take the rows about another place: what poses they are, and not how these differ from the usual one.
+
+        Parameters
+        ----------
+        centre : np.ndarray
+            Local coordinates (3 k + 3,), mm.
+
+        Returns
+        -------
+        np.ndarray
+            Local coordinates (m, 3 k + 3), mm, about the centre.
+        """
+        rows: np.ndarray = self.local + (self.means - centre)
+        return rows
 
     def turned(self, shape: np.ndarray) -> np.ndarray:
         """Turn a shape of the anchors so that its local frame is that of these rows.
@@ -96,9 +115,9 @@ def pooled_rows(
     carrying, recording = pool.positions[np.ix_(rows, anchors)], pool.recording[rows]
     template = mean_shape(evenly_spaced(carrying, SHAPE_ROWS))
     local = align(carrying, template).local(pool.positions[np.ix_(rows, markers)]).reshape(len(rows), -1)
-    local = about_mean(local, np.ones(len(rows)), recording)
-    weights = robust_weights(local, ridge=ridge, sigmas=sigmas)
-    return PooledRows(template, about_mean(local, weights, recording), weights, recording)
+    weights = robust_weights(about_mean(local, np.ones(len(rows)), recording), ridge=ridge, sigmas=sigmas)
+    centred = about_mean(local, weights, recording)
+    return PooledRows(template, centred, weights, recording, local - centred)
 
 
 def about_mean(rows: np.ndarray, weights: np.ndarray, recording: np.ndarray) -> np.ndarray:

@@ -247,7 +247,9 @@ def _pooled_products(data: TrainingSet, used: np.ndarray, features: Features | N
         products = products[np.ix_([*chosen, *target], [*chosen, *target])]
     else:
         inputs = pooled.local[:, chosen]
-        extra = about_mean(features.values(inputs), pooled.weights, pooled.recording)
+        # A feature is a function of the pose itself, not of its difference from the usual pose of its recording.
+        values = features.values(pooled.about(data.centre)[:, chosen])
+        extra = about_mean(values, pooled.weights, pooled.recording)
         rows = np.concatenate([inputs, extra, pooled.local[:, target]], axis=1)
         products = (rows * pooled.weights[:, None]).T @ rows / pooled.weights.sum()
     products = np.pad(products, ((1, 0), (1, 0)))

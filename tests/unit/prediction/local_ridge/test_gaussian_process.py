@@ -89,7 +89,8 @@ def test_a_still_body_needs_few_poses():
 def test_features_of_pooled_rows_have_an_offset_for_each_recording():
     rng = np.random.default_rng(8)
     pooled, weights, recording = rng.normal(size=(80, 6)) * 40, rng.uniform(0.3, 1, 80), np.repeat([0, 1], [30, 50])
-    rows = PooledRows(np.zeros((3, 3)), about_mean(pooled, weights, recording), weights, recording)
+    centred = about_mean(pooled, weights, recording)
+    rows = PooledRows(np.zeros((3, 3)), centred, weights, recording, pooled - centred)
     data = training_set(1.0, pooled=rows)
     options = GaussianProcessOptions(inducing_points=10, penalty=RIDGE)
     regression = fit(data, options, Pooling((0.1,), 4))
@@ -98,14 +99,20 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
         return np.concatenate([local[:, :3], regression.features.values(local[:, :3]), local[:, 3:]], axis=1)
 
     expected = pooled_ridge(
-        extended(data.local), data.weights, extended(rows.local), weights, recording, ridge=RIDGE, pool_weight=0.1
+        extended(data.local),
+        data.weights,
+        extended(pooled - data.centre),
+        weights,
+        recording,
+        ridge=RIDGE,
+        pool_weight=0.1,
     )
     assert np.allclose(regression.coefficients, expected)
 
 
 def test_poses_of_other_recordings_are_inducing_points_too():
     pooled = training_set(1.0, seed=6).local + 400.0
-    rows = PooledRows(np.zeros((3, 3)), pooled, np.ones(120), np.zeros(120, int))
+    rows = PooledRows(np.zeros((3, 3)), pooled, np.ones(120), np.zeros(120, int), np.zeros((120, 6)))
     features = InducedFeatures.choose(training_set(1.0, pooled=rows), ONE, RIDGE, GaussianProcessOptions())
     assert 0.2 < (features.points[:, 0] > 200).mean() < 0.8
 

@@ -37,6 +37,8 @@ def test_a_marker_that_was_attached_elsewhere_makes_no_difference():
     found = pooled_rows(pool(*bodies), np.arange(3), np.array([3, 4]), **LIMITS)
     assert np.allclose(found.local[:60], found.local[60:], atol=1e-6)
     assert np.allclose(found.local[:60, :3], 0, atol=1e-6)
+    there = found.about(np.zeros(6))[:, 3:]
+    assert np.allclose(np.linalg.norm(there[60:] - there[:60], axis=1), np.linalg.norm([8.0, -5.0, 10.0]))
 
 
 def test_the_shape_of_another_recording_is_turned_onto_the_template():
