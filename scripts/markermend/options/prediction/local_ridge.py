@@ -81,12 +81,12 @@ class GaussianProcessOptions:
     max_training_frames: Count = 1000
     """Training frames, at most; those of local_ridge if they are fewer."""
 
-    inducing_points: Count = 100
+    inducing_points: Count = 80
     """Poses whose kernel functions the process uses, at most.
 
     Change it when motion is varied (higher, at the cost of time)."""
 
-    max_candidates: Count = 300
+    max_candidates: Count = 250
     """Poses among which these are chosen, at most."""
 
     min_variance: Share = 0.01
@@ -95,5 +95,5 @@ class GaussianProcessOptions:
     length_scale: Positive = 1
     """Length scale of the kernel, in units of the typical distance of two poses."""
 
-    penalty: Positive = 0.0005
-    """Ratio of the variances of noise and process, per unit of weight."""
+    noise_ratio: Positive = 0.5
+    """Variance of the noise of a training frame, in units of that of the process."""

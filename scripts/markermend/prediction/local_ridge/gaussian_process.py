@@ -17,7 +17,6 @@ from markermend.numerics.pivoted_cholesky import pivoted_cholesky
 from markermend.options.prediction.local_ridge import GaussianProcessOptions, LocalRidgeOptions
 from markermend.prediction.local_ridge.model import Regression, TrainingSet
 from markermend.prediction.local_ridge.predictor import TRUSTED_WEIGHT, LocalRidge
-from markermend.prediction.local_ridge.ridge import ridge_coefficients
 from markermend.prediction.local_ridge.ridge_regression import RidgeRegression
 from markermend.prediction.marker_selection import evenly_spaced
 
@@ -66,7 +65,7 @@ class InducedFeatures:
     whitening : np.ndarray
         Matrix (m, m) that makes the kernel values at the points uncorrelated functions of unit variance.
     penalty : float
-        Ratio of the variances of noise and process per unit of weight.
+        Penalty of the coefficients of these functions per unit of weight.
 
     References
     ----------
@@ -79,29 +78,23 @@ class InducedFeatures:
     penalty: float
 
     @classmethod
-    def choose(
-        cls, data: TrainingSet, used: np.ndarray, ridge: float, options: GaussianProcessOptions
-    ) -> InducedFeatures:
+    def choose(cls, ridge: RidgeRegression, options: GaussianProcessOptions) -> InducedFeatures:
         """Choose the kernel and the inducing points for training data.
 
         Parameters
         ----------
-        data : TrainingSet
-            The training data.
-        used : np.ndarray
-            Which of the inputs are used, bool (k,).
-        ridge : float
-            Penalty of the ridge regression by which inputs count, mm^2.
+        ridge : RidgeRegression
+            The regression on the inputs; inputs count by their coefficients.
         options : GaussianProcessOptions
-            Number of points, length scale and penalty.
+            Number of points, length scale and noise.
 
         Returns
         -------
         InducedFeatures
             The features.
         """
-        design = data.design(used)
-        use = np.linalg.norm(ridge_coefficients(design, data.target, data.weights, ridge)[1:], axis=1)
+        data, used = ridge.data, ridge.used
+        use = np.linalg.norm(ridge.coefficients[1:], axis=1)
         candidates = _candidates(data, used, options.max_candidates)
         sample = evenly_spaced(candidates, TYPICAL_POINTS) * use
         typical = max(float(np.sqrt(np.median(squared_distances(sample, sample)))), 1e-6)
@@ -109,7 +102,7 @@ class InducedFeatures:
         pivots, factor = pivoted_cholesky(
             kernel(candidates, candidates), max_rank=options.inducing_points, tolerance=options.min_variance
         )
-        return cls(kernel, candidates[pivots], np.linalg.inv(factor).T, options.penalty)
+        return cls(kernel, candidates[pivots], np.linalg.inv(factor).T, options.noise_ratio / data.weights.sum())
 
     def values(self, inputs: np.ndarray) -> np.ndarray:
         """Evaluate the features. See `Features.values`."""
@@ -136,8 +129,9 @@ class LocalGaussian(LocalRidge):
         self.gaussian = gaussian
 
     def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
-        features = InducedFeatures.choose(data, used, self.options.ridge_mm2, self.gaussian)
-        return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling, features)
+        ridge = RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
+        features = InducedFeatures.choose(ridge, self.gaussian)
+        return ridge.extended(features, max_pooled_rows=self.options.max_training_frames)
 
 
 def squared_distances(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -81,11 +81,22 @@ class LocalRidge:
             data, used, rows = assignment.data, assignment.used, assignment.rows
             regression = hidden.cached((self, data, used.tobytes()), partial(self._fit, data, used))
             fit = _Fit(marker, assignment, regression)
-            inputs = fit.inputs_at(hidden, rows)
-            mean, deviation, scale = self._krige(hidden, fit, stop - start)
-            local = regression.predict(inputs.values) + mean
-            prediction.positions[rows - first] = inputs.frames.laboratory(local)
-            prediction.error[rows - first] = deviation * scale.factor(inputs.values)
+            covariance, scale = self._error_model(hidden, fit, stop - start)
+            # Frames of the gap and those with observations share one alignment: its cost hardly depends on their number.
+            observed = self._observed_nearby(hidden, fit)
+            both = np.union1d(rows, observed)
+            inputs = fit.inputs_at(hidden, both)
+            expected, target = regression.predict(inputs.values), np.searchsorted(both, rows)
+            residual = inputs.frames.local(hidden.positions[both, marker]) - expected
+            mean, variance = krige(
+                covariance,
+                observed_s=observed / hidden.rate,
+                values=residual[np.searchsorted(both, observed)],
+                target_s=rows / hidden.rate,
+            )
+            expected[target] += mean
+            prediction.positions[rows - first] = inputs.frames.laboratory(expected)[target]
+            prediction.error[rows - first] = np.sqrt(variance) * scale.factor(inputs.values[target])
         return prediction
 
     def residuals(self, scene: Scene, markers: np.ndarray | None = None) -> np.ndarray:
@@ -127,28 +138,22 @@ class LocalRidge:
         """The regression on the used inputs (mask)."""
         return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
 
-    def _krige(self, scene: Scene, fit: _Fit, length: int) -> tuple[np.ndarray, np.ndarray, LeverageScale]:
-        """Expected residual (n, 3) in local axes, mm, its standard deviation (n,) in a typical pose, and its scale.
-
-        length: of the gap, frames.
-        """
-        data, used, rows = fit.assignment.data, fit.assignment.used, fit.assignment.rows
+    def _error_model(self, scene: Scene, fit: _Fit, length: int) -> tuple[Covariance, LeverageScale]:
+        """Covariance of the residuals in typical poses, and how they grow with leverage; length: of the gap, frames."""
+        data, used = fit.assignment.data, fit.assignment.used
         blocks = int(np.clip(len(scene.positions) // max(length, 1), 2, MAX_BLOCKS))
         key = self, data, used.tobytes(), blocks
-        covariance, scale = scene.cached(key, partial(self._covariance, scene, fit, blocks))
+        return scene.cached(key, partial(self._covariance, scene, fit, blocks))
+
+    def _observed_nearby(self, scene: Scene, fit: _Fit) -> np.ndarray:
+        """Frames (k,) about those of the assignment that show the marker and its inputs, ascending."""
+        data, used, rows = fit.assignment.data, fit.assignment.used, fit.assignment.rows
         lags = np.geomspace(1, max(2.0, self.options.border_s * scene.rate), BORDER_LAGS)
         reach = np.unique(np.round(lags).astype(int))
         nearby = np.concatenate([rows[0] - reach[::-1], rows, rows[-1] + reach])
         nearby = nearby[(nearby >= 0) & (nearby < len(scene.positions))]
         needed = [*data.anchors, *data.inputs[used], fit.marker]
-        nearby = np.unique(nearby[scene.present[np.ix_(nearby, needed)].all(axis=1)])
-        values = np.zeros((0, 3))
-        if len(nearby):
-            inputs = fit.inputs_at(scene, nearby)
-            observed = inputs.frames.local(scene.positions[nearby, fit.marker])
-            values = observed - fit.regression.predict(inputs.values)
-        mean, variance = krige(covariance, observed_s=nearby / scene.rate, values=values, target_s=rows / scene.rate)
-        return mean, np.sqrt(variance), scale
+        return np.unique(nearby[scene.present[np.ix_(nearby, needed)].all(axis=1)])
 
     def _leverage_scale(self, fit: _Fit, block: np.ndarray) -> tuple[LeverageScale, np.ndarray]:
         """How errors grow with the leverage of the pose; and left-out residuals (training, 3) divided by that."""

@@ -7,14 +7,16 @@ weigh is chosen by the residuals of stretches of the own recording that are left
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.local_ridge.pooled_rows import about_mean
-from markermend.prediction.local_ridge.ridge import penalties, solve, with_intercept
+from markermend.prediction.local_ridge.products import Products, starts_of
+from markermend.prediction.local_ridge.ridge import penalties, with_intercept
+from markermend.prediction.marker_selection import evenly_spaced
 
 
 class Features(Protocol):
@@ -102,10 +104,10 @@ class RidgeRegression:
         Intercept, inputs and features of the training frames (n, c).
     penalty : np.ndarray
         Penalties of the columns (c,), mm^2.
+    pooled : Products | None
+        Mean products of the pooled rows; None where they do not count.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
-    pooled : _Products | None
-        Mean products of the pooled rows; None where they have no weight.
     coefficients : np.ndarray
         Coefficients of the columns (c, 3).
     """
@@ -115,20 +117,13 @@ class RidgeRegression:
     features: Features | None
     columns: np.ndarray
     penalty: np.ndarray
+    pooled: Products | None
     pool_weight: float
-    pooled: _Products | None
     coefficients: np.ndarray
 
     @classmethod
-    def fit(
-        cls,
-        data: TrainingSet,
-        used: np.ndarray,
-        ridge: float,
-        pooling: Pooling | None = None,
-        features: Features | None = None,
-    ) -> RidgeRegression:
-        """Train the regression.
+    def fit(cls, data: TrainingSet, used: np.ndarray, ridge: float, pooling: Pooling | None = None) -> RidgeRegression:
+        """Train the regression on the inputs.
 
         Parameters
         ----------
@@ -137,25 +132,55 @@ class RidgeRegression:
         used : np.ndarray
             Which of the inputs are used, bool (k,).
         ridge : float
-            Penalty of the inputs, mm^2: the variance of the noise on an input.
+            Penalty, mm^2: the variance of the noise on an input.
         pooling : Pooling, optional
             How it learns from the pooled rows of the training data; not at all by default.
-        features : Features, optional
-            Functions of the inputs that it uses besides.
 
         Returns
         -------
         RidgeRegression
             The regression.
         """
-        inputs, penalty = data.design(used), penalties(3 * int(used.sum()), ridge)
-        weight = 0.0 if pooling is None else _pool_weight(data, used, penalty, pooling)
-        columns = _columns(inputs, features)
-        if features is not None:
-            penalty = np.append(penalty, np.full(columns.shape[1] - len(penalty), features.penalty))
-        own = _Products.by_block(data, columns, np.zeros(len(columns), int)).sum()
-        pooled = _pooled_products(data, used, features) if weight > 0 else None
-        return cls(data, used, features, columns, penalty, weight, pooled, own.coefficients(penalty, pooled, weight))
+        columns, penalty = with_intercept(data.design(used)), penalties(3 * int(used.sum()), ridge)
+        pooled = None if pooling is None else _pooled_products(data, used)
+        weights = [0.0] if pooling is None or pooled is None else pooling.candidates(data)
+        stretches = _stretches(data.training, 1 if pooling is None or len(weights) == 1 else pooling.blocks)
+        own, weight = Products.by_block(columns, data.target, data.weights, stretches), weights[0]
+        if len(weights) > 1:
+            rest = own.others()
+            errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
+            weight = weights[int(np.argmin(errors))]
+        pooled = pooled if weight > 0 else None
+        return cls(data, used, None, columns, penalty, pooled, weight, own.sum().coefficients(penalty, pooled, weight))
+
+    def extended(self, features: Features, *, max_pooled_rows: int) -> RidgeRegression:
+        """Train the regression on the inputs and functions of them, with pooled rows of the same weight.
+
+        Parameters
+        ----------
+        features : Features
+            The functions.
+        max_pooled_rows : int
+            Number of pooled rows, at most; they are evenly spaced.
+
+        Returns
+        -------
+        RidgeRegression
+            The regression.
+        """
+        columns = _columns(self.data.design(self.used), features)
+        extra = np.full(columns.shape[1] - len(self.penalty), features.penalty)
+        penalty = np.append(self.penalty, extra)
+        own = Products.by_block(columns, self.data.target, self.data.weights, np.zeros(len(columns), int)).sum()
+        pooled = self.pooled and _extended_products(self.data, self.used, features, max_pooled_rows)
+        return replace(
+            self,
+            features=features,
+            columns=columns,
+            penalty=penalty,
+            pooled=pooled,
+            coefficients=own.coefficients(penalty, pooled, self.pool_weight),
+        )
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Predict the local position of the marker. See `Regression.predict`."""
@@ -164,70 +189,13 @@ class RidgeRegression:
 
     def left_out(self, block: np.ndarray) -> np.ndarray:
         """Compute residuals left out by blocks, from sums over all blocks less those over one. See `Regression.left_out`."""
-        target, starts = self.data.target, _starts(block)
+        target, starts = self.data.target, starts_of(block)
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
-        rest = _Products.by_block(self.data, self.columns, block).others()
+        rest = Products.by_block(self.columns, target, self.data.weights, block).others()
         beta = rest.coefficients(self.penalty, self.pooled, self.pool_weight)
         parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
         return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
-
-
-@dataclass(frozen=True, eq=False)
-class _Products:
-    """Weighted sums of products: of the columns (..., c, c), of these and the target (..., c, 3), and of the target's
-    square (...); and the sum of the weights (...)."""
-
-    gram: np.ndarray
-    cross: np.ndarray
-    square: np.ndarray
-    total: np.ndarray
-
-    @classmethod
-    def by_block(cls, data: TrainingSet, columns: np.ndarray, block: np.ndarray) -> _Products:
-        """The sums over each block of the training frames."""
-        cuts = _starts(block)[1:]
-        full, weights = np.split(columns, cuts), np.split(data.weights, cuts)
-        target = np.split(data.target, cuts)
-        weighted = [(rows * own[:, None]).T for rows, own in zip(full, weights, strict=True)]
-        return cls(
-            np.stack([left @ rows for left, rows in zip(weighted, full, strict=True)]),
-            np.stack([left @ rows for left, rows in zip(weighted, target, strict=True)]),
-            np.array([(own[:, None] * rows**2).sum() for own, rows in zip(weights, target, strict=True)]),
-            np.array([own.sum() for own in weights]),
-        )
-
-    def sum(self) -> _Products:
-        """The sums over all blocks."""
-        return _Products(*(each.sum(axis=0) for each in vars(self).values()))
-
-    def others(self) -> _Products:
-        """For each block the sums over all others."""
-        return _Products(*(each.sum(axis=0) - each for each in vars(self).values()))
-
-    def coefficients(self, penalty: np.ndarray, pooled: _Products | None = None, weight: float = 0.0) -> np.ndarray:
-        """Coefficients (..., c, 3) with pooled rows of a weight in units of that of these."""
-        gram, cross, total = self.gram, self.cross, self.total
-        if pooled is not None and weight > 0:
-            scale = (weight * total / pooled.total)[..., None, None]
-            gram, cross, total = gram + scale * pooled.gram, cross + scale * pooled.cross, (1 + weight) * total
-        return solve(gram, cross, total, penalty)
-
-    def square_error(self, coefficients: np.ndarray) -> float:
-        """Weighted sum of the squared errors of coefficients (..., c, 3)."""
-        explained = (coefficients * (2 * self.cross - self.gram @ coefficients)).sum(axis=(-2, -1))
-        return float((self.square - explained).sum())
-
-
-def _pool_weight(data: TrainingSet, used: np.ndarray, penalty: np.ndarray, pooling: Pooling) -> float:
-    """Weight of the pooled rows at which the regression on the inputs alone errs least on stretches left out."""
-    weights, pooled = pooling.candidates(data), _pooled_products(data, used, None)
-    if pooled is None or len(weights) == 1:
-        return 0.0 if pooled is None else weights[0]
-    own = _Products.by_block(data, with_intercept(data.design(used)), _stretches(data.training, pooling.blocks))
-    rest = own.others()
-    errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
-    return weights[int(np.argmin(errors))]
 
 
 def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
@@ -236,29 +204,34 @@ def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
     return columns if features is None else np.concatenate([columns, features.values(inputs)], axis=1)
 
 
-def _pooled_products(data: TrainingSet, used: np.ndarray, features: Features | None) -> _Products | None:
+def _pooled_products(data: TrainingSet, used: np.ndarray) -> Products | None:
     """Mean products of the pooled rows, which have no intercept."""
+    if data.pooled is None:
+        return None
+    products = data.pooled.products
+    columns = [*np.flatnonzero(np.repeat(used, 3)), *range(len(products) - 3, len(products))]
+    return _without_intercept(products[np.ix_(columns, columns)])
+
+
+def _extended_products(data: TrainingSet, used: np.ndarray, features: Features, max_rows: int) -> Products | None:
+    """Mean products of pooled rows with features."""
     pooled = data.pooled
     if pooled is None:
         return None
-    chosen, products = np.flatnonzero(np.repeat(used, 3)), pooled.products
-    target = np.arange(len(products) - 3, len(products))
-    if features is None:
-        products = products[np.ix_([*chosen, *target], [*chosen, *target])]
-    else:
-        inputs = pooled.local[:, chosen]
-        # A feature is a function of the pose itself, not of its difference from the usual pose of its recording.
-        values = features.values(pooled.about(data.centre)[:, chosen])
-        extra = about_mean(values, pooled.weights, pooled.recording)
-        rows = np.concatenate([inputs, extra, pooled.local[:, target]], axis=1)
-        products = (rows * pooled.weights[:, None]).T @ rows / pooled.weights.sum()
+    taken, columns = evenly_spaced(np.arange(len(pooled.local)), max_rows), np.flatnonzero(np.repeat(used, 3))
+    # A feature is a function of the pose itself, not of its difference from the usual pose of its recording.
+    values = features.values(pooled.about(data.centre)[np.ix_(taken, columns)])
+    local, weights = pooled.local[taken], pooled.weights[taken]
+    rows = about_mean(
+        np.concatenate([local[:, columns], values, local[:, -3:]], axis=1), weights, pooled.recording[taken]
+    )
+    return _without_intercept((rows * weights[:, None]).T @ rows / weights.sum())
+
+
+def _without_intercept(products: np.ndarray) -> Products:
+    """Products of columns and, last, the target, of total weight 1; those with the intercept are 0."""
     products = np.pad(products, ((1, 0), (1, 0)))
-    return _Products(products[:-3, :-3], products[:-3, -3:], np.trace(products[-3:, -3:]), np.ones(()))
-
-
-def _starts(block: np.ndarray) -> np.ndarray:
-    """First place of each block, given the ascending numbers of the blocks (n,)."""
-    return np.flatnonzero(np.diff(block, prepend=block[0] - 1))
+    return Products(products[:-3, :-3], products[:-3, -3:], np.trace(products[-3:, -3:]), np.ones(()))
 
 
 def _stretches(frames: np.ndarray, count: int) -> np.ndarray:

@@ -14,7 +14,7 @@ from support.naive.prediction import kernel_regression, pooled_ridge
 
 ONE, RIDGE = np.array([True]), 0.1
 EXACT = GaussianProcessOptions(
-    inducing_points=120, max_candidates=120, min_variance=1e-9, length_scale=1.0, penalty=0.01
+    inducing_points=120, max_candidates=120, min_variance=1e-9, length_scale=1.0, noise_ratio=1.2
 )
 
 
@@ -32,8 +32,8 @@ def training_set(curved, rows=120, seed=5, pooled=None):
 
 
 def fit(data, options, pooling=None):
-    features = InducedFeatures.choose(data, ONE, RIDGE, options)
-    return RidgeRegression.fit(data, ONE, RIDGE, pooling, features)
+    ridge = RidgeRegression.fit(data, ONE, RIDGE, pooling)
+    return ridge.extended(InducedFeatures.choose(ridge, options), max_pooled_rows=200)
 
 
 def test_with_all_poses_it_equals_plain_kernel_regression_also_without_a_block():
@@ -50,7 +50,7 @@ def test_with_all_poses_it_equals_plain_kernel_regression_also_without_a_block()
             at,
             scales=scales,
             linear=1 / (RIDGE * len(rows)),
-            amplitude=1 / (0.01 * len(rows)),
+            amplitude=1 / (1.2 * len(rows) / 120),
         )
 
     at = data.local[:7, :3] + 3.0
@@ -75,7 +75,7 @@ def test_it_follows_a_curve_where_the_ridge_is_straight():
 
 
 def test_inputs_count_by_how_much_the_ridge_uses_them():
-    scales = InducedFeatures.choose(training_set(0.0), ONE, RIDGE, GaussianProcessOptions()).kernel.scales
+    scales = fit(training_set(0.0), GaussianProcessOptions()).features.kernel.scales
     assert scales[2] < 0.05 * scales[1] < scales[0]
     assert scales[0] > scales[1]
 
@@ -83,7 +83,7 @@ def test_inputs_count_by_how_much_the_ridge_uses_them():
 def test_a_still_body_needs_few_poses():
     data = training_set(0.0)
     still = replace(data, local=np.repeat(data.local[:3], 40, axis=0))
-    assert len(InducedFeatures.choose(still, ONE, RIDGE, GaussianProcessOptions()).points) == 3
+    assert len(fit(still, GaussianProcessOptions()).features.points) == 3
 
 
 def test_features_of_pooled_rows_have_an_offset_for_each_recording():
@@ -92,7 +92,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
     centred = about_mean(pooled, weights, recording)
     rows = PooledRows(np.zeros((3, 3)), centred, weights, recording, pooled - centred)
     data = training_set(1.0, pooled=rows)
-    options = GaussianProcessOptions(inducing_points=10, penalty=RIDGE)
+    options = GaussianProcessOptions(inducing_points=10, noise_ratio=RIDGE * data.weights.sum())
     regression = fit(data, options, Pooling((0.1,), 4))
 
     def extended(local):
@@ -113,7 +113,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
 def test_poses_of_other_recordings_are_inducing_points_too():
     pooled = training_set(1.0, seed=6).local + 400.0
     rows = PooledRows(np.zeros((3, 3)), pooled, np.ones(120), np.zeros(120, int), np.zeros((120, 6)))
-    features = InducedFeatures.choose(training_set(1.0, pooled=rows), ONE, RIDGE, GaussianProcessOptions())
+    features = fit(training_set(1.0, pooled=rows), GaussianProcessOptions()).features
     assert 0.2 < (features.points[:, 0] > 200).mean() < 0.8
 
 
