@@ -7,7 +7,6 @@ follows the body and not an artifact: the detectors work on its residual.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
@@ -23,7 +22,6 @@ from markermend.prediction.local_ridge.model import LocalInputs, Regression, Tra
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from markermend.prediction.scene import Scene
 
-EXP = os.environ.get("LEV")
 MAX_BLOCKS = 12
 """Parts of a recording that are left out of the training in turn, at most; they are about as long as the gap."""
 
