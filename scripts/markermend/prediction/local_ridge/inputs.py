@@ -197,14 +197,14 @@ class InputSelection:
         pool, options = scene.pool, self.options
         if pool is None:
             return None
+        limits = (options.min_pooled_rows, options.max_training_frames), options.ridge_mm2, options.outlier_sigmas
         rows = partial(
             pooled_rows,
             pool,
             anchors,
             np.append(inputs, marker),
-            min_rows=options.min_pooled_rows,
+            row_limits=limits[0],
             ridge=options.ridge_mm2,
             sigmas=options.outlier_sigmas,
         )
-        limits = options.min_pooled_rows, options.ridge_mm2, options.outlier_sigmas
         return pool.cached(("local rows", marker, anchors.tobytes(), inputs.tobytes(), limits), rows)

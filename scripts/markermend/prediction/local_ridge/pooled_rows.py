@@ -37,6 +37,8 @@ class PooledRows:
         Number of the recording of each row (m,), ascending.
     means : np.ndarray
         The mean of the recording of each row (m, 3 k + 3), mm.
+    poses : int
+        Number of poses of which these rows are a sample.
     """
 
     template: np.ndarray
@@ -44,6 +46,7 @@ class PooledRows:
     weights: np.ndarray
     recording: np.ndarray
     means: np.ndarray
+    poses: int
 
     @cached_property
     def products(self) -> np.ndarray:
@@ -85,7 +88,13 @@ class PooledRows:
 
 
 def pooled_rows(
-    pool: Pool, anchors: np.ndarray, markers: np.ndarray, *, min_rows: int, ridge: float, sigmas: float
+    pool: Pool,
+    anchors: np.ndarray,
+    markers: np.ndarray,
+    *,
+    row_limits: tuple[int, int],
+    ridge: float,
+    sigmas: float,
 ) -> PooledRows | None:
     """Express the poses of other recordings in a local frame.
 
@@ -97,8 +106,9 @@ def pooled_rows(
         Indices of the markers that carry the frame (a,).
     markers : np.ndarray
         Indices of the inputs and, last, of the marker itself (k + 1,).
-    min_rows : int
-        Recordings that show all these markers in fewer rows are left out.
+    row_limits : tuple of int
+        Recordings that show all these markers in fewer rows than the first are left out; no more rows than the second are
+        taken, evenly spaced.
     ridge, sigmas : float
         Penalty, mm^2, and limit of the robust weights: see `robust_weights`.
 
@@ -109,15 +119,16 @@ def pooled_rows(
     """
     joint = pool.present[:, anchors].all(axis=1) & pool.present[:, markers].all(axis=1)
     count = np.bincount(pool.recording[joint], minlength=len(pool.names))
-    rows = np.flatnonzero(joint & (count >= min_rows)[pool.recording])
-    if len(rows) == 0:
+    shown = np.flatnonzero(joint & (count >= row_limits[0])[pool.recording])
+    if len(shown) == 0:
         return None
+    rows = evenly_spaced(shown, row_limits[1])
     carrying, recording = pool.positions[np.ix_(rows, anchors)], pool.recording[rows]
     template = mean_shape(evenly_spaced(carrying, SHAPE_ROWS))
     local = align(carrying, template).local(pool.positions[np.ix_(rows, markers)]).reshape(len(rows), -1)
     weights = robust_weights(about_mean(local, np.ones(len(rows)), recording), ridge=ridge, sigmas=sigmas)
     centred = about_mean(local, weights, recording)
-    return PooledRows(template, centred, weights, recording, local - centred)
+    return PooledRows(template, centred, weights, recording, local - centred, len(shown))
 
 
 def about_mean(rows: np.ndarray, weights: np.ndarray, recording: np.ndarray) -> np.ndarray:

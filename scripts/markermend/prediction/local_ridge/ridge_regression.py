@@ -81,7 +81,7 @@ class Pooling:
             Those by which a pooled row counts no more than a frame of the recording. Left-out stretches are longer than most
             gaps, so that poses which they do not show seem to matter more than they do.
         """
-        rows = 0 if data.pooled is None else len(data.pooled.local)
+        rows = 0 if data.pooled is None else data.pooled.poses
         largest = rows / (data.training[-1] + 1 - data.training[0])
         few = len(data.training) < self.min_frames
         found = [weight for weight in self.weights if weight <= largest and not (few and weight == 0)]

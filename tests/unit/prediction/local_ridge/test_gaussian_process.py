@@ -90,7 +90,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
     rng = np.random.default_rng(8)
     pooled, weights, recording = rng.normal(size=(80, 6)) * 40, rng.uniform(0.3, 1, 80), np.repeat([0, 1], [30, 50])
     centred = about_mean(pooled, weights, recording)
-    rows = PooledRows(np.zeros((3, 3)), centred, weights, recording, pooled - centred)
+    rows = PooledRows(np.zeros((3, 3)), centred, weights, recording, pooled - centred, 80)
     data = training_set(1.0, pooled=rows)
     options = GaussianProcessOptions(inducing_points=10, noise_ratio=RIDGE * data.weights.sum())
     regression = fit(data, options, Pooling((0.1,), 4))
@@ -112,7 +112,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
 
 def test_poses_of_other_recordings_are_inducing_points_too():
     pooled = training_set(1.0, seed=6).local + 400.0
-    rows = PooledRows(np.zeros((3, 3)), pooled, np.ones(120), np.zeros(120, int), np.zeros((120, 6)))
+    rows = PooledRows(np.zeros((3, 3)), pooled, np.ones(120), np.zeros(120, int), np.zeros((120, 6)), 120)
     features = fit(training_set(1.0, pooled=rows), GaussianProcessOptions()).features
     assert 0.2 < (features.points[:, 0] > 200).mean() < 0.8
 

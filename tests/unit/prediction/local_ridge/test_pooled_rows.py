@@ -7,7 +7,7 @@ from markermend.numerics.rigid_alignment import align
 from markermend.prediction.local_ridge.pooled_rows import about_mean, pooled_rows
 from support.fillings import rigid_body
 
-LIMITS = {"min_rows": 5, "ridge": 5.0, "sigmas": 6.0}
+LIMITS = {"row_limits": (5, 1000), "ridge": 5.0, "sigmas": 6.0}
 
 
 def pool(*recordings):
@@ -60,3 +60,9 @@ def test_rows_are_taken_about_the_weighted_mean_of_their_recording():
     for number in (0, 2):
         own = recording == number
         assert np.allclose(found[own], rows[own] - np.average(rows[own], axis=0, weights=weights[own]))
+
+
+def test_more_rows_than_wanted_are_sampled_evenly():
+    takes = pool(rigid_body(frames=60), rigid_body(frames=30, seed=2))
+    found = pooled_rows(takes, np.arange(3), np.array([3, 4]), **LIMITS | {"row_limits": (5, 30)})
+    assert found.poses == 90 and np.bincount(found.recording).tolist() == [20, 10]

@@ -20,7 +20,7 @@ def training_set(local, weights, pooled=None):
 
 def pooled_rows(local, weights, recording):
     centred = about_mean(local, weights, recording)
-    return PooledRows(np.zeros((3, 3)), centred, weights, recording, local - centred)
+    return PooledRows(np.zeros((3, 3)), centred, weights, recording, local - centred, len(local))
 
 
 def one_law(rng, rows, spread, noise=0.3, law=None):
