@@ -7,6 +7,8 @@ import pytest
 
 from markermend.core.poses import Pool
 from markermend.prediction.local_ridge.predictor import LocalRidge
+from markermend.simulation.walker import MeasurementErrors, walk
+from markermend.simulation.walker_body import make_body
 from support.fillings import predictor, rigid_body, scene
 
 
@@ -94,3 +96,26 @@ def test_a_pool_of_unlike_poses_is_not_learned_from(ridge, walker):
     pooled = replace(seen, pool=Pool(noise, np.zeros(len(noise), int), ("noise",)))
     alone, found = (ridge.predict(each, 7, 400, 460).positions for each in (seen, pooled))
     assert np.allclose(found, alone, atol=0.1)
+
+
+def test_markers_attached_anew_still_help(ridge):
+    """In another recording of the person all markers sit about 10 mm from where they are in this one."""
+    body, errors = make_body(rng=np.random.default_rng(3)), MeasurementErrors(noise=0.2, soft_tissue=1.0)
+
+    def take(offsets, seconds, activities, seed):
+        own = replace(body, marker_offsets=body.marker_offsets + offsets)
+        rng = np.random.default_rng(seed)
+        made = walk(body=own, duration=seconds, rate=100.0, activities=activities, errors=errors, rng=rng)
+        return made.recording.positions
+
+    short = take(0.0, 2.5, ["walk"], 1)
+    displaced = np.random.default_rng(9).normal(0, 10 / np.sqrt(3), body.marker_offsets.shape)
+    other = take(displaced, 30.0, ["walk", "reach", "sit"], 2)[::4]
+    seen = scene(short)
+    pooled = replace(seen, pool=Pool(other, np.zeros(len(other), int), ("other",)))
+    distances = {"alone": [], "pooled": []}
+    for marker in range(0, short.shape[1], 6):
+        for name, shown in (("alone", seen), ("pooled", pooled)):
+            found = ridge.predict(shown, marker, 80, 180).positions
+            distances[name].append(np.linalg.norm(found - short[79:181, marker], axis=1).mean())
+    assert np.mean(distances["pooled"]) < 0.9 * np.mean(distances["alone"])
