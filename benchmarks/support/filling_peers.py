@@ -31,7 +31,6 @@ Peer = Callable[[Recording, Sequence[Gap]], np.ndarray]
 """From a whole recording and the gaps (marker, start, stop) to hide in it to filled positions (frames, markers, 3), NaN = left open."""
 
 PREDICTORS = (
-    "spline",
     "linear_regression",
     "local_interpolation",
     "local_quadratic",
