@@ -183,7 +183,8 @@ class Ensemble:
         deviation = np.where(unknown, np.nan, average.deviation * growth * evaluation.deviation_scale)
         if scene.inherited_std is not None:
             inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self.options.distances.references)
-            deviation = np.hypot(deviation, inherited)
+            # What makes neighbours err, such as an unusual pose, makes the marker err, too: the errors add up.
+            deviation = deviation + inherited
         shares = zip(self.members, average.weights, strict=True)
         return Filling(
             average.positions, deviation, {member.name: float(share) for member, share in shares if share > 0}
