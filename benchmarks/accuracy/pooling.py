@@ -144,26 +144,34 @@ def jobs(subjects: Sequence[str], seeds: Sequence[int]) -> Iterator[tuple[str, s
 
 
 def row(cases: Sequence[Case]) -> dict[str, object]:
-    """What several cases show together."""
+    """What several cases show together: mean errors, mm, and their ratio where both arms fill all gaps, and what each arm shows."""
+    both = [case for case in cases if np.isfinite([case.alone.distance, case.pooled.distance]).all()]
+    alone, pooled = (_mean([getattr(case, name).distance.mean() for case in both]) for name in ("alone", "pooled"))
     found: dict[str, object] = {"cases": len(cases), "gaps": sum(case.markers for case in cases)}
-    filled = [case for case in cases if np.isfinite([case.alone.distance, case.pooled.distance]).all()]
-    errors = {}
+    found |= {"alone_mm": alone, "pooled_mm": pooled, "ratio": pooled / alone}
     for name in ("alone", "pooled"):
-        arms = [getattr(case, name) for case in cases]
-        found[f"unfilled_{name}"] = sum(int(np.isnan(arm.distance).any(axis=1).sum()) for arm in arms)
-        errors[name] = float(np.mean([getattr(case, name).distance.mean() for case in filled])) if filled else np.nan
-        found[f"{name}_mm"] = errors[name]
-    found["ratio"] = errors["pooled"] / errors["alone"]
-    for name in ("alone", "pooled"):
-        arms = [getattr(case, name) for case in filled]
-        for level, field in (("68", "error"), ("95", "error95")):
-            inside = [arm.distance.ravel() <= getattr(arm, field).ravel() for arm in arms]
-            found[f"inside{level}_{name}"] = 100 * float(np.concatenate(inside).mean()) if inside else np.nan
-        squares = [((arm.distance**2).mean(axis=1), (arm.error**2).mean(axis=1)) for arm in arms]
-        logs = [np.log(true / stated) / 2 for true, stated in squares]
-        found[f"spread_{name}"] = float(np.concatenate(logs).std()) if logs else np.nan
-        found[f"seconds_{name}"] = float(np.mean([getattr(case, name).seconds for case in cases]))
+        found |= {f"{key}_{name}": value for key, value in summary([getattr(case, name) for case in cases]).items()}
     return found
+
+
+def summary(arms: Sequence[Arm]) -> dict[str, object]:
+    """Number of gaps that stay open; and of the cases without: mean error, mm, true positions within the balls, %, and spread of the
+    logarithm of the ratio of true to stated errors over the gaps; and seconds for each case."""
+    filled = [arm for arm in arms if np.isfinite(arm.distance).all()]
+    logs = [np.log((arm.distance**2).mean(axis=1) / (arm.error**2).mean(axis=1)) / 2 for arm in filled]
+    return {
+        "unfilled": sum(int(np.isnan(arm.distance).any(axis=1).sum()) for arm in arms),
+        "filled_mm": _mean([arm.distance.mean() for arm in filled]),
+        "inside68": 100 * _mean([arm.distance <= arm.error for arm in filled]),
+        "inside95": 100 * _mean([arm.distance <= arm.error95 for arm in filled]),
+        "spread": float(np.concatenate(logs).std()) if logs else np.nan,
+        "seconds": _mean([arm.seconds for arm in arms]),
+    }
+
+
+def _mean(parts: Sequence[np.ndarray] | Sequence[float]) -> float:
+    """Mean over all values; NaN where there are none."""
+    return float(np.concatenate([np.ravel(part) for part in parts]).mean()) if parts else np.nan
 
 
 GROUPS: dict[str, Callable[[Case], tuple[object, ...]]] = {
