@@ -6,7 +6,8 @@ Writes: a table to stdout: per recording and gap length, and per number of gaps,
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.calibration --runs 8 --jobs 2
 
-In each run some markers, chosen at random, miss the same stretch at a random place. The stated shares are 68 and 95 %.
+In each run some markers, chosen at random, miss the same stretch at a random place; with `--unusual`, a marker and its nearest neighbours
+miss a stretch in which it moves as it seldom does, such as the step of a foot that stands nearly always. The stated shares are 68 and 95 %.
 Samples of one gap go together, so a cell holds little more information than it has runs: the standard error is printed next to it,
 from the spread between runs.
 """
@@ -17,14 +18,16 @@ import argparse
 from collections import defaultdict
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import error_spread, fill_gapped, load
+from benchmarks.support.gap_cases import Changes, error_spread, fill_gapped, load, read_changes
+from benchmarks.support.made_gaps import random_gaps, unusual_gaps
 from markermend import api
 
 OneRun = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -42,23 +45,30 @@ def neighbours(folder: str, name: str) -> list[np.ndarray]:
     return api.infer_mesh([whole]).neighbour_indices(whole.markers)
 
 
-def one_run(folder: str, name: str, length_s: float, markers: int, seed: Sequence[int]) -> OneRun | None:
+class Plan(NamedTuple):
+    """What one run hides: so many markers for so long, where they move unusually or anywhere; changed options of the ensemble."""
+
+    name: str
+    length_s: float
+    markers: int
+    seed: tuple[int, int]
+    unusual: bool
+    changes: Changes
+
+
+def one_run(folder: str, plan: Plan) -> OneRun | None:
     """Hide a stretch of some markers and fill it; returns distances, error and error95 (samples, markers), mm, or None."""
-    whole = load(folder, name)
-    length = round(length_s * whole.rate)
-    if length > MOST_SHARE * whole.frames or 2 * markers > len(whole.markers):
+    whole, near = load(folder, plan.name), neighbours(folder, plan.name)
+    length = round(plan.length_s * whole.rate)
+    if length > MOST_SHARE * whole.frames or 2 * plan.markers > len(whole.markers):
         return None
-    rng = np.random.default_rng([*seed, length, markers])
-    seen = np.concatenate([np.zeros((1, len(whole.markers)), int), np.cumsum(~whole.missing, axis=0)])
-    for start in rng.permutation(np.arange(1, whole.frames - length - 1)).tolist():
-        there = np.flatnonzero(seen[start + length + 1] - seen[start - 1] == length + 2)
-        if len(there) >= markers:
-            gaps = [(int(marker), start, start + length) for marker in rng.choice(there, markers, replace=False)]
-            break
-    else:
+    rng = np.random.default_rng([*plan.seed, length, plan.markers])
+    unusual = unusual_gaps(whole, near, length, plan.markers, rng) if plan.unusual else []
+    gaps = unusual or random_gaps(whole, length, plan.markers, rng)
+    if not gaps:
         return None
-    filled = fill_gapped(whole, gaps, neighbours(folder, name), OPTIONS["fill"].members)
-    place = slice(start, start + length), [marker for marker, _, _ in gaps]
+    filled = fill_gapped(whole, gaps, near, OPTIONS["fill"].members, plan.changes)
+    place = slice(*gaps[0][1:]), [marker for marker, _, _ in gaps]
     distance = np.linalg.norm(filled.positions[place] - whole.positions[place], axis=2)
     return distance, filled.error[place], filled.error95[place]
 
@@ -85,13 +95,17 @@ def main() -> None:
     parser.add_argument("--markers", nargs="+", type=int, default=[1, 3], help="that miss the stretch at once")
     parser.add_argument("--runs", type=int, default=4, help="per recording, length and number of markers")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--unusual", action="store_true", help="hide stretches in which markers move as they seldom do")
+    parser.add_argument(
+        "--set", nargs="+", default=[], metavar="KEY=VALUE", help="other options of advanced.fill.ensemble"
+    )
     parser.add_argument("--jobs", type=int, default=1, help="processes, of one thread each")
     parser.add_argument("--tsv", type=Path, help="write the results here, too, as in benchmarks/results")
     arguments = parser.parse_args()
     clean = sorted(path.stem for path in (arguments.data / "clean").iterdir() if path.suffix in (".c3d", ".trc"))
     names = arguments.recordings or clean
     plan = [
-        (name, length, markers, [arguments.seed, run])
+        Plan(name, length, markers, (arguments.seed, run), arguments.unusual, read_changes(arguments.set))
         for name in names
         for length in arguments.lengths
         for markers in arguments.markers
@@ -99,13 +113,10 @@ def main() -> None:
     ]
     found: dict[tuple[str, float | str], list[OneRun]] = defaultdict(list)
     with ProcessPoolExecutor(arguments.jobs) as pool:
-        columns = zip(*plan, strict=True)
-        for (name, length, markers, _), outcome in zip(
-            plan, pool.map(one_run, [str(arguments.data)] * len(plan), *columns), strict=True
-        ):
+        for run, outcome in zip(plan, pool.map(partial(one_run, str(arguments.data)), plan), strict=True):
             if outcome is not None:
-                for group in (name, f"{markers} gaps", "all"):
-                    found[group, length].append(outcome)
+                for group in (run.name, f"{run.markers} gaps", "all"):
+                    found[group, run.length_s].append(outcome)
                     found[group, "all"].append(outcome)
     print("% within error (standard error), within error95 (standard error); every run weighs the same")
     headings = [*arguments.lengths, "all"]

@@ -23,11 +23,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from benchmarks.support import result_tables
 from benchmarks.support.defaults import DATA, OPTIONS
-from benchmarks.support.gap_cases import FilledCase, FilledGap, error_spread, fill_case, score
+from benchmarks.support.gap_cases import FilledCase, FilledGap, error_spread, fill_case, read_changes, score
 
 Programs = dict[str, dict[str, dict[str, Any]]]
 """Errors and seconds of other programs by program and case."""
@@ -143,7 +142,7 @@ def main() -> None:
     cases = [case for case in cases if not arguments.conditions or case["cond"] in arguments.conditions]
     cases = [case for case in cases if arguments.iterations is None or case["it"] < arguments.iterations]
     names, folder = tuple(arguments.members), str(arguments.data)
-    changes = tuple((key, yaml.safe_load(value)) for key, _, value in (each.partition("=") for each in arguments.set))
+    changes = read_changes(arguments.set)
     with ProcessPoolExecutor(arguments.jobs) as pool:
         done = list(pool.map(partial(fill_case, folder, names=names, changes=changes), cases))
     for title, kept in (("all markers", False), ("without the rigidly fitted markers of HDM05", True)):

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 os.environ["OMP_NUM_THREADS"] = os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
+import yaml
 
 from benchmarks.support.defaults import OPTIONS
 from markermend import api
@@ -64,6 +65,11 @@ LIFTED: dict[str, Any] = {
 LIFTED |= {"max_error_mm": None, "max_error95_mm": None, "max_altered_share": 1.0}
 FITTED = ("HEAD", "LFHD", "RFHD", "LBHD", "RBHD", "LFWT", "RFWT", "LBWT", "RBWT", "LASI", "RASI", "LPSI", "RPSI")
 """Names of head and pelvis markers: in HDM05 these were fitted rigidly, any rigid model is exact there."""
+
+
+def read_changes(texts: Iterable[str]) -> Changes:
+    """Changed options from texts such as `weights=pma`."""
+    return tuple((key, yaml.safe_load(value)) for key, _, value in (text.partition("=") for text in texts))
 
 
 @cache
