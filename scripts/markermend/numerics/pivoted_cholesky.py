@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 
-def pivoted_cholesky(covariance: np.ndarray, *, max_rank: int, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+def pivoted_cholesky(covariance: np.ndarray, *, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """Factor a covariance; each pivot is the point of the largest variance given the pivots before it.
 
     Parameters
     ----------
     covariance : np.ndarray
         Covariance of n points (n, n).
-    max_rank : int
-        Number of pivots, at most.
     tolerance : float
         No pivot is added where the variance of all points, given the pivots, is below this.
 
@@ -31,5 +29,4 @@ def pivoted_cholesky(covariance: np.ndarray, *, max_rank: int, tolerance: float)
     from scipy.linalg.lapack import dpstrf  # 0.1 s to import, and most detectors never get here
 
     full, order, rank, _ = dpstrf(covariance, tol=tolerance, lower=1)
-    rank = min(rank, max_rank)
     return order[:rank] - 1, np.tril(full[:rank, :rank])

@@ -376,7 +376,7 @@ RENAMED: dict[str, tuple[str, dict[str, str]]] = {
         {
             "points": "inducing_points",
             "lengths": "length_scale",
-            "amplitudes": "noise_ratio",
+            "amplitudes": "penalty",
         },
     ),
     "fill.networks": (

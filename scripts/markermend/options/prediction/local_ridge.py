@@ -82,18 +82,16 @@ class GaussianProcessOptions:
     """Training frames, at most; those of local_ridge if they are fewer."""
 
     inducing_points: Count = 80
-    """Poses whose kernel functions the process uses, at most.
+    """Poses whose kernel functions the process uses, at most; they are evenly spaced among the training frames.
 
     Change it when motion is varied (higher, at the cost of time)."""
 
-    max_candidates: Count = 250
-    """Poses among which these are chosen, at most."""
-
     min_variance: Share = 0.01
-    """No pose is added where the process is known this well at all others: variance left, as a share of that of the process."""
+    """Poses at which the process would be known this well from the others are left out: variance left, as a share of that of the
+    process."""
 
     length_scale: Positive = 1
     """Length scale of the kernel, in units of the typical distance of two poses."""
 
-    noise_ratio: Positive = 0.5
-    """Variance of the noise of a training frame, in units of that of the process."""
+    penalty: Positive = 0.0005
+    """Ratio of the variances of noise and process, per unit of weight of the training frames."""

@@ -2,7 +2,7 @@
 
 Frame, inputs and kriging are those of the local ridge. The covariance is the ridge's linear one plus a Matern kernel in the
 pose: near the training poses the marker may depend on its neighbours in any smooth way, far from them it does so as in the
-ridge. Inputs count by how much the ridge uses them. The kernel is approximated by functions of a few informative
+ridge. Inputs count by how much the ridge uses them. The kernel is approximated by functions of some
 poses (inducing points), so that the process is a ridge regression on these functions beside the inputs.
 """
 
@@ -19,9 +19,6 @@ from markermend.prediction.local_ridge.model import Regression, TrainingSet
 from markermend.prediction.local_ridge.predictor import TRUSTED_WEIGHT, LocalRidge
 from markermend.prediction.local_ridge.ridge_regression import RidgeRegression
 from markermend.prediction.marker_selection import evenly_spaced
-
-TYPICAL_POINTS = 100
-"""Poses from whose pairs the typical distance is estimated; more change it little."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +83,7 @@ class InducedFeatures:
         ridge : RidgeRegression
             The regression on the inputs; inputs count by their coefficients.
         options : GaussianProcessOptions
-            Number of points, length scale and noise.
+            Number of points, length scale and penalty.
 
         Returns
         -------
@@ -95,14 +92,12 @@ class InducedFeatures:
         """
         data, used = ridge.data, ridge.used
         use = np.linalg.norm(ridge.coefficients[1:], axis=1)
-        candidates = _candidates(data, used, options.max_candidates)
-        sample = evenly_spaced(candidates, TYPICAL_POINTS) * use
+        poses = _poses(data, used, options.inducing_points)
+        sample = poses * use
         typical = max(float(np.sqrt(np.median(squared_distances(sample, sample)))), 1e-6)
         kernel = PoseKernel(use / (options.length_scale * typical))
-        pivots, factor = pivoted_cholesky(
-            kernel(candidates, candidates), max_rank=options.inducing_points, tolerance=options.min_variance
-        )
-        return cls(kernel, candidates[pivots], np.linalg.inv(factor).T, options.noise_ratio / data.weights.sum())
+        pivots, factor = pivoted_cholesky(kernel(poses, poses), tolerance=options.min_variance)
+        return cls(kernel, poses[pivots], np.linalg.inv(factor).T, options.penalty)
 
     def values(self, inputs: np.ndarray) -> np.ndarray:
         """Evaluate the features. See `Features.values`."""
@@ -152,7 +147,7 @@ def squared_distances(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return positive
 
 
-def _candidates(data: TrainingSet, used: np.ndarray, count: int) -> np.ndarray:
+def _poses(data: TrainingSet, used: np.ndarray, count: int) -> np.ndarray:
     """Inputs (n, 3 u) at trusted training frames and pooled rows, evenly spaced."""
     rows, weights = data.local, data.weights
     if data.pooled is not None:

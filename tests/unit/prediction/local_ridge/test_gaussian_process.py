@@ -13,9 +13,7 @@ from support.fillings import predictor, scene
 from support.naive.prediction import kernel_regression, pooled_ridge
 
 ONE, RIDGE = np.array([True]), 0.1
-EXACT = GaussianProcessOptions(
-    inducing_points=120, max_candidates=120, min_variance=1e-9, length_scale=1.0, noise_ratio=1.2
-)
+EXACT = GaussianProcessOptions(inducing_points=120, min_variance=1e-9, length_scale=1.0, penalty=0.01)
 
 
 def training_set(curved, rows=120, seed=5, pooled=None):
@@ -50,7 +48,7 @@ def test_with_all_poses_it_equals_plain_kernel_regression_also_without_a_block()
             at,
             scales=scales,
             linear=1 / (RIDGE * len(rows)),
-            amplitude=1 / (1.2 * len(rows) / 120),
+            amplitude=1 / (0.01 * len(rows)),
         )
 
     at = data.local[:7, :3] + 3.0
@@ -92,7 +90,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
     centred = about_mean(pooled, weights, recording)
     rows = PooledRows(np.zeros((3, 3)), centred, weights, recording, pooled - centred, 80)
     data = training_set(1.0, pooled=rows)
-    options = GaussianProcessOptions(inducing_points=10, noise_ratio=RIDGE * data.weights.sum())
+    options = GaussianProcessOptions(inducing_points=10, penalty=RIDGE)
     regression = fit(data, options, Pooling((0.1,), 4))
 
     def extended(local):
