@@ -150,7 +150,7 @@ class EnsembleOptions:
     )
     """Where a gap moves more than its pseudo-gaps, errors of these members grow with this power of the motion, by the member's name."""
 
-    stated_motion_power: NotNegative = 0.3
+    stated_motion_power: NotNegative = 0.2
     """Where a gap moves more than its pseudo-gaps, the stated error grows with this power of the motion."""
 
     max_gap_kinds: Count = 12
