@@ -52,13 +52,14 @@ class ErrorLimits:
         Reason or None
             The first limit that the filling exceeds; None where it exceeds none.
         """
-        errors = (
-            ("expected error", "fill.max_error_mm", self.error_mm),
-            ("expected error (95 %)", "fill.max_error95_mm", self.error95_mm),
-        )
-        for (name, setting, allowed), radius in zip(errors, radii, strict=True):
-            largest = radius * deviation_mm
-            if allowed is not None and largest > allowed:
-                limit = Limit(setting, allowed, largest)
-                return Reason(Cause.UNCERTAIN, f"{name} {largest:.3g} mm ({limit.text})", limit)
+        error, error95 = (radius * deviation_mm for radius in radii)
+        if self.error_mm is not None and error > self.error_mm:
+            return _too_uncertain("expected error", Limit("fill.max_error_mm", self.error_mm, error))
+        if self.error95_mm is not None and error95 > self.error95_mm:
+            return _too_uncertain("expected error (95 %)", Limit("fill.max_error95_mm", self.error95_mm, error95))
         return None
+
+
+def _too_uncertain(name: str, limit: Limit) -> Reason:
+    """The reason that an error exceeds its limit."""
+    return Reason(Cause.UNCERTAIN, f"{name} {limit.actual:.3g} mm ({limit.text})", limit)
