@@ -1,4 +1,4 @@
-"""Locally weighted principal component regression (Kieu et al. 2022), written from its formulas: a peer of filling.
+"""Locally weighted principal component regression (Kieu et al. 2022) by the formulas of its released program: a peer of filling.
 
 Positions are centred on the mean of the markers without gaps and standardised over the frames that show every marker (Z; zeros in the
 columns of markers with gaps: Z0). For each marker g with a gap, columns are weighted (W_g) by the distance of their marker from g. With
@@ -7,7 +7,7 @@ U_g, U0_g the principal components of Z W_g and Z0 W_g, scores on the second bas
     P_g = Z0 W_g U0_g T_g U_g' W_g^-1
 
 What fills the gaps is the sum of alpha_g P_g, in mm. The alphas minimise |B' (sum of alpha_g P_g - A)| over the training frames, where A
-are the centred positions, mm, and B is the sum of the P_g. The released program also has weights of frames, which are all equal.
+are the centred positions, mm, and B is the sum of the P_g. The program's weights of frames are all equal and left out.
 
 Reference: Kieu, Yu, Li & Zhang (2022), "Locally weighted PCA regression to recover missing markers in human motion data", PLoS ONE
 17(8), e0272407. The training frames of its experiment include half of those to be filled; here no frame to be filled trains.
