@@ -6,7 +6,6 @@ Members are weighted by their errors on pseudo-gaps, by the likelihood of the di
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
@@ -26,6 +25,7 @@ from markermend.filling.motion import motion_ratio, neighbour_motion
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
 from markermend.prediction.interface import Predictor, Trainable
+from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
 
@@ -91,6 +91,7 @@ class Ensemble:
         self._averaging = Averaging(options)
         powers = [options.motion_power_of_member.get(member.name, 0.0) for member in members]
         self._motion_powers = np.array(powers)
+        self._use_neighbours = np.array([member.name not in KINDS for member in members], bool)
 
     def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
         """Find the kind of a gap; the result of `evaluate` for one gap holds for all gaps of its kind.
@@ -151,9 +152,7 @@ class Ensemble:
         scaled = [
             each / deviation_scale(np.delete(ratios, k), options.stated_error_weight) for k, each in enumerate(missed)
         ]
-        # Where pseudo-gaps are shorter than the gap, errors are taken to grow as a random walk does.
-        growth = math.sqrt(gap.length / trials[0].gap.length) if trials else 1.0
-        scale = growth * deviation_scale(ratios, options.stated_error_weight)
+        scale = deviation_scale(ratios, options.stated_error_weight)
         return Evaluation(errors, np.array([trial.motion for trial in trials]), scale, tuple(scaled))
 
     def fill(self, scene: Scene, gap: Gap, evaluation: Evaluation) -> Filling:
@@ -184,7 +183,7 @@ class Ensemble:
         if scene.inherited_std is not None:
             inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self.options.distances.references)
             # What makes neighbours err, such as an unusual pose, makes the marker err, too: the errors add up.
-            deviation = deviation + inherited
+            deviation = deviation + average.weights[self._use_neighbours].sum() * inherited
         shares = zip(self.members, average.weights, strict=True)
         return Filling(
             average.positions, deviation, {member.name: float(share) for member, share in shares if share > 0}
