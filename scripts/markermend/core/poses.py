@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from markermend.core.cache import Cache, Result
-
-CACHE_SIZE = 60
-"""Results that a pool caches for the predictors of one marker after the other."""
+from markermend.core.cache import CachesResults
 
 
 @dataclass(frozen=True, eq=False)
-class Pool:
-    """Poses from the subject's other recordings, as the predictors of one recording see them.
+class Pool(CachesResults):
+    """Poses from the subject's other recordings, as the predictors of one recording see them; it caches their results.
 
     Attributes
     ----------
@@ -38,27 +35,24 @@ class Pool:
         present: np.ndarray = ~np.isnan(self.positions).any(axis=2)
         return present
 
-    @cached_property
-    def _cache(self) -> Cache:
-        """Results of predictors on this pool."""
-        return Cache(CACHE_SIZE)
-
-    def cached(self, key: Hashable, compute: Callable[[], Result]) -> Result:
-        """Compute a result once for all scenes that share the pool.
+    def rows_with(self, markers: Sequence[int], *, fewest: int) -> np.ndarray:
+        """List the rows that show markers.
 
         Parameters
         ----------
-        key : Hashable
-            Identifies the result: it must hold everything that the result depends on besides the pool.
-        compute : Callable[[], Result]
-            Computes the result.
+        markers : sequence of int
+            Indices of the markers.
+        fewest : int
+            Recordings with fewer such rows are left out.
 
         Returns
         -------
-        Result
-            The result, computed now or before.
+        np.ndarray
+            Indices of the rows (n,), ascending.
         """
-        return self._cache.get(key, compute)
+        shown = self.present[:, markers].all(axis=1)
+        count = np.bincount(self.recording[shown], minlength=len(self.names))
+        return np.flatnonzero(shown & (count >= fewest)[self.recording])
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from markermend.core.cache import Cache, Result
+from markermend.core.cache import CachesResults
 from markermend.core.mesh import Mesh
 from markermend.core.poses import Pool
 from markermend.core.recording import Recording
 from markermend.core.shape import Shape
 
-CACHE_SIZE = 60
-"""Results that a scene caches for its predictors: enough for the members and missing neighbours of one marker."""
-
 
 @dataclass(frozen=True)
-class Scene:
-    """What is observed of a recording, as the predictors see it.
+class Scene(CachesResults):
+    """What is observed of a recording, as the predictors see it; it caches their results.
 
     Attributes
     ----------
@@ -102,28 +99,6 @@ class Scene:
         # Ten times as fast as any() over so short an axis.
         present: np.ndarray = ~(absent[..., 0] | absent[..., 1] | absent[..., 2])
         return present
-
-    @cached_property
-    def _cache(self) -> Cache:
-        """Results of predictors on this scene."""
-        return Cache(CACHE_SIZE)
-
-    def cached(self, key: Hashable, compute: Callable[[], Result]) -> Result:
-        """Compute a result once for all gaps that share the scene.
-
-        Parameters
-        ----------
-        key : Hashable
-            Identifies the result: it must hold everything that the result depends on besides the scene.
-        compute : Callable[[], Result]
-            Computes the result.
-
-        Returns
-        -------
-        Result
-            The result, computed now or before.
-        """
-        return self._cache.get(key, compute)
 
     def without(self, marker: int, start: int, stop: int) -> Scene:
         """Hide a marker during a gap.

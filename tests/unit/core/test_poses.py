@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from markermend.core.poses import Poses
+from markermend.core.poses import Pool, Poses
 
 
 def make_poses() -> Poses:
@@ -44,3 +44,12 @@ def test_poses_of_recordings_with_another_mesh_are_not_shown() -> None:
     assert pool is not None
     assert pool.names == ("static",)
     assert make_poses().others("walk", ["A"], among=["walk"]) is None
+
+
+def test_rows_of_recordings_that_show_markers_too_seldom_are_left_out() -> None:
+    positions = np.zeros((7, 2, 3))
+    positions[[1, 5], 1] = np.nan
+    pool = Pool(positions, np.repeat([0, 1], [4, 3]), ("walk", "jump"))
+    assert pool.rows_with([0, 1], fewest=1).tolist() == [0, 2, 3, 4, 6]
+    assert pool.rows_with([0, 1], fewest=3).tolist() == [0, 2, 3]
+    assert pool.rows_with([1], fewest=4).tolist() == []

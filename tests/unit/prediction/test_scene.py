@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from markermend.prediction.scene import CACHE_SIZE
+from markermend.core.cache import CACHE_SIZE
 from support.fillings import rigid_body, scene
 
 

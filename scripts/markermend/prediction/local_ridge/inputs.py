@@ -173,8 +173,7 @@ class InputSelection:
             return True
         if scene.pool is None or count < options.min_own_frames:
             return False
-        pooled = scene.pool.present[:, markers].all(axis=1)
-        return int(np.count_nonzero(pooled)) >= options.min_training_frames
+        return len(scene.pool.rows_with(markers, fewest=options.min_pooled_rows)) >= options.min_training_frames
 
     def _transform(self, scene: Scene, marker: int, anchors: _Anchors, inputs: np.ndarray) -> TrainingSet:
         """Local coordinates at the training frames, about their medians, with robust weights."""
@@ -197,14 +196,8 @@ class InputSelection:
         pool, options = scene.pool, self.options
         if pool is None:
             return None
-        limits = (options.min_pooled_rows, options.max_training_frames), options.ridge_mm2, options.outlier_sigmas
-        rows = partial(
-            pooled_rows,
-            pool,
-            anchors,
-            np.append(inputs, marker),
-            row_limits=limits[0],
-            ridge=options.ridge_mm2,
-            sigmas=options.outlier_sigmas,
-        )
-        return pool.cached(("local rows", marker, anchors.tobytes(), inputs.tobytes(), limits), rows)
+        limits = options.min_pooled_rows, options.max_training_frames
+        ridge, sigmas = options.ridge_mm2, options.outlier_sigmas
+        markers = np.append(inputs, marker)
+        rows = partial(pooled_rows, pool, anchors, markers, row_limits=limits, ridge=ridge, sigmas=sigmas)
+        return pool.cached(("local rows", anchors.tobytes(), markers.tobytes(), limits, ridge, sigmas), rows)

@@ -117,9 +117,7 @@ def pooled_rows(
     PooledRows or None
         The rows; None where no recording shows the markers.
     """
-    joint = pool.present[:, anchors].all(axis=1) & pool.present[:, markers].all(axis=1)
-    count = np.bincount(pool.recording[joint], minlength=len(pool.names))
-    shown = np.flatnonzero(joint & (count >= row_limits[0])[pool.recording])
+    shown = pool.rows_with([*anchors, *markers], fewest=row_limits[0])
     if len(shown) == 0:
         return None
     rows = evenly_spaced(shown, row_limits[1])

@@ -79,3 +79,13 @@ def test_other_recordings_make_up_for_too_few_frames():
     (found,) = pooled(elsewhere)
     assert found.data.training.tolist() == list(range(20)) and len(found.data.pooled.local) == 80
     assert not pooled(elsewhere[:50])
+
+
+def test_recordings_that_show_the_markers_too_briefly_do_not_make_up_for_it():
+    """Twenty recordings have four rows each, fewer than are learned from: together they must not count as enough."""
+    body, elsewhere = rigid_body(frames=120, markers=8), rigid_body(frames=80, markers=8, seed=1)
+    body[20:, 0] = np.nan
+    for rows, count in ((4, 0), (5, 1)):
+        pool = Pool(elsewhere, np.arange(80) // rows, tuple(map(str, range(80 // rows))))
+        found = InputSelection(OPTIONS).assignments(replace(scene(body), pool=pool), 0, np.arange(20, 60))
+        assert len(list(found)) == count
