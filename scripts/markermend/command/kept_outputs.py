@@ -14,8 +14,8 @@ from typing import Any
 
 from markermend.storage import atomic
 
-PACKAGES = ("numpy", "scipy")
-"""Packages of which another version may give other bytes."""
+PACKAGES = ("numpy", "scipy", "pyarrow", "torch")
+"""Packages of which another version may give other bytes; torch need not be installed."""
 
 
 class KeptOutputs:
@@ -34,7 +34,7 @@ class KeptOutputs:
     def __init__(self, stage: str, outputs: Sequence[Path], made_from: Mapping[str, Any]) -> None:
         self._record = outputs[0].parent / "logs" / f"{stage}.json"
         self._outputs = outputs
-        versions = {name: metadata.version(name) for name in PACKAGES}
+        versions = {name: _version(name) for name in PACKAGES}
         text = json.dumps({**made_from, "packages": versions}, sort_keys=True)
         self._made_from = hashlib.sha256(text.encode()).hexdigest()
 
@@ -59,3 +59,11 @@ class KeptOutputs:
     def _state(self) -> dict[str, Any]:
         """What is recorded: checksums of what the outputs were made from, and of the outputs."""
         return {"made_from": self._made_from, "outputs": {path.name: atomic.sha256(path) for path in self._outputs}}
+
+
+def _version(package: str) -> str | None:
+    """Version of a package; None where it is not installed."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None

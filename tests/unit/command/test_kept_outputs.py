@@ -34,6 +34,15 @@ def test_outputs_made_by_other_versions_are_not(outputs, monkeypatch):
     assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
 
 
+def test_a_package_that_was_installed_since_counts(outputs, monkeypatch):
+    absent, version = "not-installed-anywhere", kept_outputs.metadata.version
+    monkeypatch.setattr(kept_outputs, "PACKAGES", (*kept_outputs.PACKAGES, absent))
+    KeptOutputs("blur", outputs, MADE_FROM).record()
+    assert KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "1" if name == absent else version(name))
+    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
+
+
 @pytest.mark.parametrize("harm", ["missing", "edited", "no record", "broken record"])
 def test_outputs_that_are_not_as_recorded_are_not_current(outputs, harm, tmp_path):
     if harm == "missing":
