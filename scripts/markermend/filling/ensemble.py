@@ -15,12 +15,7 @@ from markermend.filling.averaging import Averaging
 from markermend.filling.candidates import Candidates, predict_candidates
 from markermend.filling.distance_likelihood import DistanceModel
 from markermend.filling.gap import Gap, GapKind, gap_kind, known_kind
-from markermend.filling.member_weights import (
-    Evaluation,
-    MemberWeights,
-    deviation_scale,
-    squared_errors,
-)
+from markermend.filling.member_weights import Evaluation, MemberWeights, deviation_scale, squared_errors
 from markermend.filling.motion import motion_ratio, neighbour_motion
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
@@ -89,8 +84,7 @@ class Ensemble:
         self.members, self.trial_members = tuple(members), tuple(trial_members)
         self.options = options
         self._averaging = Averaging(options)
-        powers = [options.motion_power_of_member.get(member.name, 0.0) for member in members]
-        self._motion_powers = np.array(powers)
+        self._motion_powers = np.array([options.motion_power_of_member.get(member.name, 0.0) for member in members])
         self._use_neighbours = np.array([member.name not in KINDS for member in members], bool)
 
     def kind(self, scene: Scene, gap: Gap, known: Collection[GapKind]) -> GapKind:
@@ -182,7 +176,8 @@ class Ensemble:
         deviation = np.where(unknown, np.nan, average.deviation * growth * evaluation.deviation_scale)
         if scene.inherited_std is not None:
             inherited = _inherited_deviation(hidden, gap, scene.inherited_std, self.options.distances.references)
-            # What makes neighbours err, such as an unusual pose, makes the marker err, too: the errors add up.
+            # What makes neighbours err, such as an unusual pose, makes the marker err, too: the errors add up. Interpolations in
+            # time do not look at neighbours.
             deviation = deviation + average.weights[self._use_neighbours].sum() * inherited
         shares = zip(self.members, average.weights, strict=True)
         return Filling(

@@ -140,6 +140,15 @@ def test_the_deviation_inherits_that_of_filled_neighbours():
         assert found.deviation[n] == pytest.approx(plain.deviation[n] + common)
 
 
+def test_interpolations_in_time_inherit_nothing():
+    truth = rigid_body()
+    seen, gap = scene(truth), Gap(2, 120, 150)
+    own = ensemble(["spline"], max_gap_s_of_member={})
+    weights = own.evaluate(seen, gap)
+    found = own.fill(replace(seen, inherited_std=np.full(truth.shape[:2], 4.0)), gap, weights)
+    assert np.array_equal(found.deviation, own.fill(seen, gap, weights).deviation)
+
+
 def test_the_better_member_gets_the_weight(walker):
     seen = scene(walker.recording.positions)
     both = ensemble(["local_ridge", "spline"], max_gap_s_of_member={})
