@@ -45,7 +45,7 @@ class LocalRidgeOptions:
     min_training_frames: Count = 60
     """Frames on which marker and neighbours must be seen for a model."""
 
-    min_own_frames: Count = 12
+    min_own_frames: Annotated[int, AtLeast(2)] = 12
     """Frames on which they must be seen in the recording itself where the subject's other recordings show them often enough."""
 
     outlier_sigmas: Positive = 6
@@ -82,7 +82,7 @@ class GaussianProcessOptions:
     """Training frames, at most; those of local_ridge if they are fewer."""
 
     inducing_points: Count = 80
-    """Poses whose kernel functions the process uses, at most; they are evenly spaced among the training frames.
+    """Poses whose kernel functions the process uses, at most; they are evenly spaced among training frames and pooled poses.
 
     Change it when motion is varied (higher, at the cost of time)."""
 
