@@ -497,7 +497,8 @@ def clean_subject(
     recordings : sequence of Recording
         The recordings as read, with different names and like sets of markers; they are not modified.
     mesh : Mesh, optional
-        The body mesh of the subject; by default it is inferred from these recordings.
+        The body mesh of the subject; by default it is inferred from these recordings. Recordings from which a mesh was not
+        inferred are filled from themselves alone.
     options : Options, optional
         The options; with `fill.pool` off, each recording is filled from itself alone.
     decisions : mapping of str to sequence of mapping, optional
