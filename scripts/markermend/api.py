@@ -394,6 +394,8 @@ def sample_poses(repaired: Sequence[TreatedRecording], mesh: Mesh, options: Opti
     own = (options or Options.read()).poses
     moving = [one.recording for one in repaired if one.recording.facts.get("kind") != "static"]
     frames = {one.facts["recording"]: one.frames for one in moving}
+    if len(frames) < len(moving):
+        raise ValueError(f"two recordings have one name: {', '.join(sorted(one.facts['recording'] for one in moving))}")
     shares = pose_sample.share_out(frames, [mesh.recordings], options=own)
     sampled = [one for one in moving if one.facts["recording"] in shares]
     return pose_sample.join(

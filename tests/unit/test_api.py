@@ -84,6 +84,12 @@ def test_without_pooling_recordings_are_filled_from_themselves(subject):
     assert "learned_from" not in together.recording.facts
 
 
+def test_two_recordings_of_one_name_are_refused(subject):
+    jump = subject[0]
+    with pytest.raises(ValueError, match="two recordings have one name: jump, jump"):
+        api.clean_subject([jump, jump])
+
+
 def test_decisions_on_a_subject_are_told_apart_by_recording(subject):
     decisions = {"walk": [{"marker": "M1", "decision": "reject", "value": "gap"}]}
     cleaned = api.clean_subject(subject, decisions=decisions)
