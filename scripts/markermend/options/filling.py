@@ -77,7 +77,7 @@ class DistanceOptions:
 class RadiusOptions:
     """Radii of the balls around filled samples, before anything is known about the recording."""
 
-    inner: Positive = 1.65
+    inner: Positive = 1.55
     """Radius of the ball that holds the true position with probability 0.68, in stated standard deviations of one axis
     (1.872 for a Gaussian)."""
 
@@ -246,7 +246,8 @@ class FillOptions:
     shorter pieces."""
 
     checked_piece_s: Seconds = 0.05
-    """Pieces between gaps that are shorter are used only where they are as predicted without them; 0 to use all."""
+    """Pieces between gaps that are shorter are used only where they are as predicted without them, if the gap could be filled without them;
+    0 to use all."""
 
     piece_tolerance: Positive = 2
     """Largest distance of such a piece from what is predicted, as a multiple of the radius of the 95 % ball.

@@ -12,7 +12,7 @@ def test_flags_carry_every_kind_of_value():
     words = dict(word.split("=", 1) for word in shlex.split(write_flags(SECTIONS["fill"](max_gap_s_of={"a b": 0.1}))))
     assert words["--max-gap-s"] == "2" and words["--fill-ends"] == "false" and words["--protect"] == "[]"
     assert words["--max-gap-s-of"] == '{"a b": 0.1}'
-    assert json.loads(words["--ensemble"])["radius"]["inner"] == 1.65
+    assert json.loads(words["--ensemble"])["radius"]["inner"] == 1.55
     assert write_flags(SECTIONS["fill"](max_gap_s=None)).startswith("--max-gap-s=none ")
 
 
