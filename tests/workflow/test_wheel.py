@@ -48,9 +48,10 @@ def environment(wheel, tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory) -> Project:
-    """A checkout with one recording, and its results."""
+    """A checkout with two recordings of one person, and their results."""
     project = Project(tmp_path_factory.mktemp("checkout"))
-    write_recording(project.recordings / "S01/a.c3d", seed=1)
+    for seed, name in enumerate("ab", start=1):
+        write_recording(project.recordings / f"S01/{name}.c3d", seed=seed)
     project.run()
     return project
 
@@ -68,7 +69,7 @@ def test_the_wheel_holds_the_package_and_the_workflow(wheel):
 def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, project, tmp_path):
     config = [f"recordings={project.recordings}", f"results={tmp_path / 'out'}"]
     text = run(environment / "markermend", "--cores", "2", "--config", *config, cwd=tmp_path)
-    assert "1 recordings: 1 cleaned" in text
+    assert "2 recordings: 2 cleaned" in text
     here, there = tmp_path / "out/S01/a", project.results / "S01/a"
     names = [path.name for path in there.iterdir() if path.is_file()]
     assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
@@ -84,9 +85,11 @@ def test_ten_lines_clean_a_recording_as_the_workflow_does(environment, project, 
     text = (PROJECT / "README.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     assert len(example.strip().splitlines()) <= 10
-    (tmp_path / "walk.py").write_text(example.replace("walk", "a"), encoding="utf-8")
-    (tmp_path / "a.c3d").write_bytes((project.recordings / "S01/a.c3d").read_bytes())
+    (tmp_path / "walk.py").write_text(example.replace("walk", "a").replace("turn", "b"), encoding="utf-8")
+    for name in "ab":
+        (tmp_path / f"{name}.c3d").write_bytes((project.recordings / f"S01/{name}.c3d").read_bytes())
     assert run(environment / "python", "walk.py", cwd=tmp_path).endswith("samples changed\n")
-    there = project.results / "S01/a"
-    assert (tmp_path / "a_cleaned.c3d").read_bytes() == (there / "cleaned.c3d").read_bytes()
-    assert (tmp_path / "a_changes.tsv").read_bytes() == (there / "changes.tsv").read_bytes()
+    for name in "ab":
+        there = project.results / "S01" / name
+        assert (tmp_path / f"{name}_cleaned.c3d").read_bytes() == (there / "cleaned.c3d").read_bytes()
+        assert (tmp_path / f"{name}_changes.tsv").read_bytes() == (there / "changes.tsv").read_bytes()
