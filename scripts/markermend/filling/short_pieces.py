@@ -1,7 +1,7 @@
 """Short pieces: samples between gaps for so short a time that they are no border, and whether they may be trusted.
 
-The gaps around such pieces form a stretch. A piece is trusted where it lies within the 95 % ball around the positions that are
-predicted for the whole stretch without any of its pieces.
+The gaps around such pieces form a stretch. A piece is trusted where it is near the positions that are predicted for
+the whole stretch without any of its pieces, in units of their expected error.
 """
 
 from __future__ import annotations
@@ -81,12 +81,12 @@ def without_doubtful_pieces(
     predict : callable
         Fills a stretch of a scene in which all of it is missing.
     radius : float
-        Radius of the 95 % ball in standard deviations of a filling.
+        Largest distance of a trusted piece from what is predicted, in standard deviations of a filling.
 
     Returns
     -------
     Scene
-        The scene without the pieces of which any sample lies outside its ball or is not predicted; the same one where
+        The scene without the pieces of which any sample lies farther away or is not predicted; the same one where
         there are none.
     """
     different = sorted(set(stretches), key=lambda stretch: (stretch.marker, stretch.start))

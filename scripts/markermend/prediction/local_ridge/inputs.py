@@ -12,9 +12,9 @@ from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.pooled_rows import PooledRows, pooled_rows
+from markermend.prediction.local_ridge.pooled_rows import SHAPE_ROWS, PooledRows, pooled_rows
 from markermend.prediction.local_ridge.ridge import robust_weights
-from markermend.prediction.marker_selection import pseudo_random_subset
+from markermend.prediction.marker_selection import evenly_spaced, pseudo_random_subset
 from markermend.prediction.scene import Scene
 
 MIN_ANCHORS = 3
@@ -22,9 +22,6 @@ MIN_ANCHORS = 3
 
 EXTRA_ANCHORS = 3
 """Anchors that are added, at most, to a frame of too little extent."""
-
-SHAPE_FRAMES = 200
-"""Frames from which the mean shape of the anchors is estimated; more change it little."""
 
 OFTEN = 0.9
 """A neighbour observed in a smaller share of the frames to predict comes after those that are there throughout."""
@@ -148,7 +145,7 @@ class InputSelection:
             joint = np.flatnonzero(observed)
             if not self._enough(scene, observed, [marker, *markers.tolist()]):
                 return None
-            sample = joint[np.unique(np.linspace(0, len(joint) - 1, SHAPE_FRAMES).astype(int))]
+            sample = evenly_spaced(joint, SHAPE_ROWS)
             return _Anchors(markers, observed, mean_shape(scene.positions[np.ix_(sample, markers)]))
 
         return scene.cached((self, "anchors", marker, markers.tobytes()), compute)
