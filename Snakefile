@@ -36,7 +36,13 @@ rule all:
         rules.report.output,
 
 
+if workflow.is_main_process:
+    # Also after a dry run: what was read once is not read again.
+    atexit.register(plan.data.checksums.save)
+
+
 onstart:
+    plan.data.checksums.save()
     if repeats_papers():
         papers.write_lists()
     if cleans():

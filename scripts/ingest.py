@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from markermend.command.stage import Stage
-from markermend.formats.ingest import ingest_file
+from markermend.formats.ingest import check_unchanged, ingest_file
 from markermend.options.general import RecordingOptions
 from markermend.options.ingest import IngestOptions
 from markermend.storage import stage_files
@@ -27,6 +27,7 @@ def work(call: Any) -> str:
         rate=call.rate,
         options=call.options,
     )
+    check_unchanged(recording, [call.sha256, call.facts["inputs"]["source"]])
     stage_files.write_recording(call.markers, recording, call.facts)
     return (
         f"{recording.frames} frames of {len(recording.markers)} markers at {recording.rate:g} Hz, "

@@ -55,7 +55,7 @@ def run(source, folder, config):
     def options(name):
         return shlex.split(write_flags(sections[name]))
 
-    recording = ["--recording=walk", "--subject=S01", "--kind=dynamic", "--rate=none"]
+    recording = ["--recording=walk", "--subject=S01", "--kind=dynamic", "--rate=none", "--sha256=none"]
     ingest.main(["--source", str(source), "--markers", files["01_markers.parquet"], *recording, *options("ingest")])
     mesh.main(["--markers", files["01_markers.parquet"], "--mesh-files", "--mesh", body, *options("mesh")])
     labels.main([*common, "--earlier", "--events", found[0], *options("labels")])

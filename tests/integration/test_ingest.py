@@ -29,6 +29,7 @@ def flags(source, target, **more):
         "subject": "Anna",
         "kind": "auto",
         "rate": "none",
+        "sha256": "none",
         "static-motion-mm": 15,
         "min-placeholder-distance-mm": 1000,
         **more,

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -76,6 +77,29 @@ def test_a_second_run_has_nothing_to_do_and_neither_has_one_after_a_touch(finish
         *finished.folder.rglob("*.py"),
     ]:
         path.touch()
+    assert NOTHING in finished.plan().text
+
+
+def test_an_original_is_recognised_by_its_content_whatever_its_date_or_name(finished, tmp_path):
+    """As after `cp -p` or `rsync -a` of another recording, and after two recordings exchanged their names."""
+    a, b, kept = finished.recordings / "S01/a.c3d", finished.recordings / "S02/b.c3d", tmp_path / "kept.c3d"
+    write_recording(tmp_path / "other.c3d", seed=7)
+    os.utime(tmp_path / "other.c3d", (10**9, 10**9))
+    shutil.copy2(a, kept)
+    shutil.copy2(tmp_path / "other.c3d", a)
+    replaced = finished.plan()
+    shutil.copy2(kept, a)
+    assert replaced.jobs == {**dict.fromkeys([*CHAIN, "all"], 1)}
+    assert replaced.parameters_changed == {"ingest"}
+    assert NOTHING in finished.plan().text
+    a.rename(tmp_path / "aside.c3d")
+    b.rename(a)
+    (tmp_path / "aside.c3d").rename(b)
+    exchanged = finished.plan()
+    a.rename(tmp_path / "aside.c3d")
+    b.rename(a)
+    (tmp_path / "aside.c3d").rename(b)
+    assert exchanged.jobs == {**dict.fromkeys(CHAIN[:-1], 2), "report": 1, "all": 1}
     assert NOTHING in finished.plan().text
 
 

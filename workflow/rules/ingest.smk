@@ -6,8 +6,6 @@ Writes: 01_markers.parquet for each recording, mesh.json for each subject.
 
 
 rule ingest:
-    input:
-        source=plan.data.source,
     output:
         markers=files.markers,
     log:
@@ -27,7 +25,6 @@ rule ingest:
         options=plan.stage_options("ingest"),
         failures=plan.failed("ingest"),
         source=plan.data.original,
-        source_hash=plan.data.source_hash,
         recording=plan.data.recording_flags,
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"

@@ -111,7 +111,6 @@ for suffix in FORMATS:
         name:
             f"export_{suffix}"
         input:
-            source=plan.data.source,
             markers=files.markers,
             filled=files.filled,
             record=files.changes,

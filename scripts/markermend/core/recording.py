@@ -36,6 +36,10 @@ class BadRecording(Exception):
     """A recording that cannot be used, with a reason that a person can act on."""
 
 
+class SourceChanged(Exception):
+    """The original file changed while the run was on; unlike BadRecording, the next run tries again."""
+
+
 class SetAside(Exception):
     """A recording that an earlier stage set aside.
 

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from markermend.core.recording import MEASURED, MISSING, BadRecording, Recording, Restored, changed
+from markermend.core.recording import MEASURED, MISSING, BadRecording, Recording, Restored, SourceChanged, changed
 from markermend.formats import comparison, files
 from markermend.formats.reading import PatchResult
 from markermend.storage import atomic
@@ -57,14 +57,16 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
 
     Raises
     ------
+    SourceChanged
+        Where the source is not the file that was ingested.
     BadRecording
-        Where the source is not the file that was ingested, or where any other byte would differ.
+        Where any other byte would differ.
     """
     check_invariant(measured, restored)
     facts = measured.facts["source"]
     before = atomic.sha256(source)
     if before != facts["sha256"]:
-        raise BadRecording(f"{source.name} has changed since it was ingested: run the workflow again")
+        raise SourceChanged(f"{source.name} has changed since it was ingested; the next run ingests it again")
     differs = changed(measured, restored)
     columns = facts["columns"]
     with atomic.replacing(cleaned) as temporary:

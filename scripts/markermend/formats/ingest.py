@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from markermend.core.recording import BadRecording, Recording
+from markermend.core.recording import BadRecording, Recording, SourceChanged
 from markermend.formats import files, units
 from markermend.formats.placeholders import find_placeholders
 from markermend.formats.reading import Reading
@@ -60,6 +61,26 @@ def ingest_file(
     )
     made.facts["source"]["sha256"] = sha256(path)
     return made
+
+
+def check_unchanged(recording: Recording, earlier: Iterable[str | None]) -> None:
+    """Check that the file of a recording is the one that it was before it was read.
+
+    Parameters
+    ----------
+    recording : Recording
+        As `ingest_file` read it.
+    earlier : iterable of str or None
+        Checksums of the file at earlier times; None for whatever it was.
+
+    Raises
+    ------
+    SourceChanged
+        Where one differs.
+    """
+    source = recording.facts["source"]
+    if any(checksum not in (None, source["sha256"]) for checksum in earlier):
+        raise SourceChanged(f"{source['name']} changed while the run was on; the next run reads it again")
 
 
 def ingest(

@@ -47,7 +47,7 @@ class GeneralOptions:
 
 @dataclass(frozen=True)
 class RecordingOptions:
-    """What the table of recordings says about one recording."""
+    """What is known of one recording before it is read."""
 
     recording: str
     """Name of the recording."""
@@ -60,6 +60,9 @@ class RecordingOptions:
 
     rate: float | None
     """Frame rate in Hz, in place of the file's; `none` for the file's."""
+
+    sha256: str | None = None
+    """Checksum of the file; `none` for whatever it is."""
 
 
 @dataclass(frozen=True)

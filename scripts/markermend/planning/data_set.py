@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,9 +12,10 @@ from typing import Any, Protocol
 from markermend.options.general import GeneralOptions
 from markermend.options.values import text
 from markermend.planning import discovery
-from markermend.planning.discovery import Folders, nameable
+from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
-from markermend.storage.atomic import sha256
+from markermend.planning.result_files import ResultFiles
+from markermend.storage.source_checksums import SourceChecksums
 
 
 class Wildcards(Protocol):
@@ -35,6 +35,8 @@ class DataSet:
     ----------
     entries : mapping of Folders to Entry
         The recordings, by the names of their folders.
+    checksums : SourceChecksums
+        The checksums of their original files.
     meshes : mapping of str to list of str, optional
         Mesh files that the user supplies, by the names of the subjects' folders.
     decisions : mapping of Folders to list of dict, optional
@@ -44,6 +46,7 @@ class DataSet:
     """
 
     entries: Mapping[Folders, Entry]
+    checksums: SourceChecksums
     meshes: Mapping[str, list[str]] = field(default_factory=dict)
     decisions: Mapping[Folders, list[dict[str, Any]]] = field(default_factory=dict)
     missing: str = ""
@@ -75,34 +78,15 @@ class DataSet:
         """Path of the original file; see `DataSet.entry`."""
         return self.entry(wildcards).source
 
-    def source(self, wildcards: Wildcards) -> str | list[str]:
-        """The original file as an input, where its name can be one; see `DataSet.entry`."""
-        path = self.original(wildcards)
-        return path if nameable(path) else []
-
-    def source_hash(self, wildcards: Wildcards) -> str | None:
-        """Hash an original that cannot be an input, so that an edit reruns what depends on it.
-
-        Parameters
-        ----------
-        wildcards : Wildcards
-            The names of the recording's folders.
-
-        Returns
-        -------
-        str or None
-            The sha256; `not there` where there is no file; None for an original that is an input.
-        """
-        path = self.original(wildcards)
-        if nameable(path):
-            return None
-        return sha256(Path(path)) if os.path.exists(path) else "not there"
+    def source_hash(self, wildcards: Wildcards) -> str:
+        """Checksum of the original file: other content reruns what depends on it, whatever its date; see `DataSet.entry`."""
+        return self.checksums.of(f"{wildcards.subject}/{wildcards.recording}", self.original(wildcards))
 
     def recording_flags(self, wildcards: Wildcards) -> list[str]:
-        """What the table of recordings states, as flags; see `DataSet.entry`."""
+        """What is known of a recording before it is read, as flags; see `DataSet.entry`."""
         entry = self.entry(wildcards)
         stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind, "rate": text(entry.rate)}
-        return [f"--{name}={value}" for name, value in stated.items()]
+        return [f"--{name}={value}" for name, value in {**stated, "sha256": self.source_hash(wildcards)}.items()]
 
     def decisions_flag(self, wildcards: Wildcards) -> str:
         """The decisions on the recording alone, as a flag; see `DataSet.entry`."""
@@ -157,7 +141,8 @@ def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) ->
     entries, missing = _entries(options["general"].recordings, results, schemas)
     meshes = discovery.supplied_meshes(entries, options["mesh"].files)
     decisions, warnings = discovery.find_decisions(options, list(entries.values()))
-    return DataSet(entries, meshes, decisions, missing), warnings
+    checksums = SourceChecksums(Path(ResultFiles(results).sources))
+    return DataSet(entries, checksums, meshes, decisions, missing), warnings
 
 
 def _entries(name: str, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str]:

@@ -108,6 +108,11 @@ class ResultFiles:
         return f"{self.results}/report"
 
     @property
+    def sources(self) -> str:
+        """The record of the original files and their checksums."""
+        return f"{self.report}/logs/sources.json"
+
+    @property
     def papers(self) -> str:
         """The folder of the experiments of the papers."""
         return f"{self.results}/papers"

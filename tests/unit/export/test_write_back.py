@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 
-from markermend.core.recording import FILLED, MISSING, ORIGINS, BadRecording, Recording, Restored, changed
+from markermend.core.recording import (
+    FILLED,
+    MISSING,
+    ORIGINS,
+    BadRecording,
+    Recording,
+    Restored,
+    SourceChanged,
+    changed,
+)
 from markermend.export import write_back
 from markermend.formats import comparison, files
 from markermend.formats.c3d.writer import Content, write_new
@@ -97,7 +106,7 @@ def test_an_original_that_changed_since_ingest_is_refused(tmp_path):
     measured = original(tmp_path / "walk.c3d")
     with open(tmp_path / "walk.c3d", "ab") as file:
         file.write(b"\0")
-    with pytest.raises(BadRecording, match="has changed since"):
+    with pytest.raises(SourceChanged, match="has changed since"):
         write_back.write_cleaned(tmp_path / "walk.c3d", tmp_path / "cleaned.c3d", measured, restored(measured))
 
 

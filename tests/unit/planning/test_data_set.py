@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -10,6 +11,7 @@ from markermend.options.config import read_config
 from markermend.planning.data_set import find_data_set
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
+from markermend.storage.atomic import sha256
 from support.paths import PROJECT
 
 
@@ -23,22 +25,23 @@ def test_recordings_are_identified_by_their_folders(plan):
     assert plan.data.mesh_files(SimpleNamespace(subject="S%201")) == []
 
 
-def test_an_original_is_an_input_or_is_identified_by_its_content(plan, tmp_path):
-    assert plan.data.source(job()) == plan.data.original(job()) == str(tmp_path / "walk.c3d")
-    assert plan.data.source_hash(job()) is None
+def test_an_original_is_identified_by_its_content(plan, config, tmp_path):
+    assert plan.data.original(job()) == str(tmp_path / "walk.c3d")
     strange = job("S2", "%7Bx%7D")
-    assert plan.data.source(strange) == [] and plan.data.original(strange) == str(tmp_path / "{x}.csv")
+    assert plan.data.original(strange) == str(tmp_path / "{x}.csv")
     before = plan.data.source_hash(strange)
+    assert before == sha256(tmp_path / "{x}.csv")
     (tmp_path / "{x}.csv").write_text("edited")
-    assert re.fullmatch("[0-9a-f]{64}", before) and plan.data.source_hash(strange) != before
-    (tmp_path / "{x}.csv").unlink()
-    assert plan.data.source_hash(strange) == "not there"
+    assert plan.data.source_hash(strange) == before
+    again = make_plan(config, PROJECT, deployed=False)
+    assert again.data.source_hash(strange) == sha256(tmp_path / "{x}.csv") != before
 
 
 def test_what_the_table_says_of_a_recording_becomes_flags(plan):
     flags = plan.data.recording_flags(job(recording="run"))
-    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120"]
-    assert plan.data.recording_flags(job())[-1] == "--rate=none"
+    checksum = f"--sha256={sha256(Path(plan.data.original(job(recording='run'))))}"
+    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120", checksum]
+    assert "--rate=none" in plan.data.recording_flags(job())
 
 
 def test_decisions_reach_their_recording_alone(tmp_path, plan, config):

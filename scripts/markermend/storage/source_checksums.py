@@ -1,0 +1,114 @@
+"""The checksums of the original files: their content decides what is made again, whatever their dates and names.
+
+An original is read only where path, size, inode or either time differ from those of the last time.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import time
+from pathlib import Path
+from typing import NotRequired, TypedDict
+
+from markermend.storage.atomic import sha256, write_text
+
+SETTLED_NS = 2_000_000_000
+"""Age from which a file gets another time when it is written to: file systems count in up to two seconds."""
+
+ABSENT = "not there"
+"""Stands for the checksum of a file that is not there or cannot be read, or that is no file."""
+
+
+class SourceRecord(TypedDict):
+    """What is recorded of an original: its path, its checksum, and what the file of this checksum is recognised by, if it is.
+
+    Attributes
+    ----------
+    path : str
+        Absolute path.
+    sha256 : str
+        Checksum of its bytes, or `not there`.
+    file : list of int, optional
+        Size, inode, time of the last change of the content and of anything, in ns.
+    """
+
+    path: str
+    sha256: str
+    file: NotRequired[list[int]]
+
+
+class SourceChecksums:
+    """The checksums of the original files of recordings, recorded from one run to the next.
+
+    Parameters
+    ----------
+    path : Path
+        The file that records them.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._recorded: dict[str, SourceRecord] | None = None
+        self._current: dict[str, SourceRecord] = {}
+
+    @property
+    def recorded(self) -> dict[str, SourceRecord]:
+        """What was recorded before, by recording; nothing where there is no record that can be read."""
+        if self._recorded is None:
+            try:
+                self._recorded = dict(json.loads(self._path.read_text(encoding="utf-8")))
+            except (OSError, ValueError, TypeError):
+                self._recorded = {}
+        return self._recorded
+
+    def of(self, recording: str, source: str) -> str:
+        """Give the checksum of an original, the same throughout a run.
+
+        Parameters
+        ----------
+        recording : str
+            The folders of the recording, `SUBJECT/RECORDING`.
+        source : str
+            Absolute path of its original.
+
+        Returns
+        -------
+        str
+            The sha256 of its bytes; `not there` where there is no file that can be read.
+        """
+        if recording not in self._current:
+            self._current[recording] = self._look(self.recorded.get(recording), source)
+        return self._current[recording]["sha256"]
+
+    def save(self) -> None:
+        """Record the checksums given so far, where any is new. Where nothing can be written, files are read again next time."""
+        if self._current.items() <= self.recorded.items():
+            return
+        try:
+            write_text(self._path, json.dumps({**self.recorded, **self._current}, indent=0, sort_keys=True) + "\n")
+        except OSError:
+            return
+
+    def _look(self, recorded: SourceRecord | None, source: str) -> SourceRecord:
+        """The record of a file as it is: as recorded, or read."""
+        try:
+            before = _recognise(source)
+            if recorded and recorded["path"] == source and recorded.get("file") == before:
+                return recorded
+            checksum, now = sha256(Path(source)), time.time_ns()
+            # Else it may be written to once more without getting another time.
+            if before == _recognise(source) and now - max(before[2:]) > SETTLED_NS:
+                return {"path": source, "sha256": checksum, "file": before}
+            return {"path": source, "sha256": checksum}
+        except OSError:
+            return {"path": source, "sha256": ABSENT}
+
+
+def _recognise(source: str) -> list[int]:
+    """What a file is recognised by: size, inode, time of the last change of the content and of anything, in ns."""
+    found = os.stat(source)
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(f"{source} is no file")
+    return [found.st_size, found.st_ino, found.st_mtime_ns, found.st_ctime_ns]
