@@ -12,53 +12,52 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from markermend.storage import atomic
+from markermend.storage import output_checksums
 
 PACKAGES = ("numpy", "scipy", "pyarrow", "torch")
 """Packages of which another version may give other bytes; torch need not be installed."""
 
 
-class KeptOutputs:
-    """The outputs of a stage, with a record of what they were made from.
+def dependencies_hash(made_from: Mapping[str, Any]) -> str:
+    """Compute a checksum of what outputs depend on.
+
+    Parameters
+    ----------
+    made_from : mapping of str to Any
+        Everything that they depend on but the versions of packages: JSON values.
+
+    Returns
+    -------
+    str
+        Its sha256, and that of the versions.
+    """
+    versions = {name: _version(name) for name in PACKAGES}
+    text = json.dumps({**made_from, "packages": versions}, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def are_current(stage: str, outputs: Sequence[Path], dependencies: str) -> bool:
+    """Say whether outputs are there as they were recorded, made from the same.
 
     Parameters
     ----------
     stage : str
-        Name of the stage; the record is `logs/STAGE.json` beside the first output.
+        Name of their stage.
     outputs : sequence of Path
-        The output files.
-    made_from : mapping of str to Any
-        Everything that they depend on but the versions of packages: JSON values.
+        The output files, in one folder.
+    dependencies : str
+        What `dependencies_hash` gives.
+
+    Returns
+    -------
+    bool
+        Whether there is nothing to do.
     """
-
-    def __init__(self, stage: str, outputs: Sequence[Path], made_from: Mapping[str, Any]) -> None:
-        self._record = outputs[0].parent / "logs" / f"{stage}.json"
-        self._outputs = outputs
-        versions = {name: _version(name) for name in PACKAGES}
-        text = json.dumps({**made_from, "packages": versions}, sort_keys=True)
-        self._made_from = hashlib.sha256(text.encode()).hexdigest()
-
-    def are_current(self) -> bool:
-        """Say whether the outputs are there as they were recorded, made from the same.
-
-        Returns
-        -------
-        bool
-            Whether there is nothing to do.
-        """
-        try:
-            recorded = json.loads(self._record.read_text(encoding="utf-8"))
-            return bool(recorded == self._state())
-        except (OSError, ValueError):
-            return False
-
-    def record(self) -> None:
-        """Record what the outputs were made from."""
-        atomic.write_json(self._record, self._state())
-
-    def _state(self) -> dict[str, Any]:
-        """What is recorded: checksums of what the outputs were made from, and of the outputs."""
-        return {"made_from": self._made_from, "outputs": {path.name: atomic.sha256(path) for path in self._outputs}}
+    record = output_checksums.read(outputs[0].parent, stage) if outputs else None
+    try:
+        return bool(record and record.dependencies == dependencies and record.outputs == output_checksums.of(outputs))
+    except OSError:
+        return False
 
 
 def _version(package: str) -> str | None:

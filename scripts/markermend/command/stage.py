@@ -20,13 +20,15 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
-from markermend.command.kept_outputs import KeptOutputs
+from markermend.command.failures import count_failure
+from markermend.command.inputs import checksums
+from markermend.command.kept_outputs import are_current, dependencies_hash
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.description import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
 from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
-from markermend.storage import atomic, stage_files
+from markermend.storage import output_checksums, stage_files
 from markermend.storage.folder_names import printable
 
 log = logging.getLogger("markermend")
@@ -68,7 +70,6 @@ class Stage:
         group = self.parser.add_argument_group("options (defaults: config/config.yaml)")
         self.inputs: list[str] = []
         self.outputs: list[str] = []
-        self._keeps_outputs = False
         self._classes = {cls: stage_options(cls) for cls in (options, given)}
         for option in (option for options in self._classes.values() for option in options):
             group.add_argument(
@@ -115,7 +116,6 @@ class Stage:
 
     def keeps_outputs(self) -> None:
         """Declare that the outputs are kept where they were made from the same inputs, with the same options and code."""
-        self._keeps_outputs = True
         text = "hash of the code: where it, the inputs and the options are those of the last time, the outputs are kept"
         self.parser.add_argument("--code", required=True, metavar="TEXT", help=text)
 
@@ -143,13 +143,15 @@ class Stage:
         made = [
             cls(**{option.name: arguments[option.name] for option in options}) for cls, options in self._classes.items()
         ]
-        call = SimpleNamespace(**{name: arguments[name] for name in self.inputs + self.outputs}, options=made[0])
+        call = SimpleNamespace(
+            **{name: arguments[name] for name in self.inputs + self.outputs}, options=made[0], dependencies=None
+        )
         vars(call).update(vars(made[-1]) if len(made) > 1 else {})
         started = time.perf_counter()
 
         def prepare_and_work() -> str | None:
             call.facts = self._facts(arguments, made)
-            return self._work_or_keep(work, call, arguments) if self._keeps_outputs else work(call)
+            return self._work_or_keep(work, call, arguments.get("code"))
 
         result, failure = self._attempt(prepare_and_work, call, arguments)
         if failure is not None:
@@ -158,25 +160,34 @@ class Stage:
             else:
                 for name in self.outputs:
                     stage_files.set_aside(getattr(call, name), failure.stage, failure.reason)
+        command = [] if argv is not None else [sys.executable, *sys.argv]
+        output_checksums.write(self.name, self._written(call), command=command, dependencies=call.dependencies)
         log.info("%s: %s (%.2f s)", self.name, result or "done", time.perf_counter() - started)
 
-    def _work_or_keep(self, work: Callable[[Any], str | None], call: Any, arguments: dict[str, Any]) -> str | None:
-        """Work, unless the outputs are those that the work would give."""
-        outputs = KeptOutputs(
-            self.name, [getattr(call, name) for name in self.outputs], {**call.facts, "code": arguments["code"]}
-        )
-        if outputs.are_current():
-            return "the outputs are kept: inputs, options and code are those that they were made from"
-        result = work(call)
-        outputs.record()
+    def _work_or_keep(self, work: Callable[[Any], str | None], call: Any, code: str | None) -> str | None:
+        """Work, unless the outputs are kept and those that the work would give."""
+        dependencies = None if code is None else dependencies_hash({**call.facts, "code": code})
+        if dependencies and are_current(self.name, self._written(call), dependencies):
+            result: str | None = "the outputs are kept: inputs, options and code are those that they were made from"
+        else:
+            # A record of earlier outputs says nothing of what is written now, should this process be killed.
+            output_checksums.remove(getattr(call, self.outputs[0]).parent, self.name)
+            result = work(call)
+        call.dependencies = dependencies
         return result
+
+    def _written(self, call: Any) -> list[Path]:
+        """The outputs that there are."""
+        named = [getattr(call, name) for name in self.outputs]
+        paths = [path for given in named for path in ([given] if isinstance(given, Path) else given)]
+        return [path for path in paths if path.is_file()]
 
     def _facts(self, arguments: dict[str, Any], options: Sequence[Any]) -> dict[str, Any]:
         """What the outputs store: the stage, its options, and the checksums of its inputs."""
         return {
             "stage": self.name,
             "options": {name: own for each in options for name, own in passed(each).items()},
-            "inputs": {name: hashes(arguments[name]) for name in self.inputs},
+            "inputs": {name: checksums(arguments[name], own=arguments[self.outputs[0]].parent) for name in self.inputs},
         }
 
     def _attempt(
@@ -193,7 +204,7 @@ class Stage:
             log.error("%s", traceback.format_exc())
             text = printable(self._without_folders(str(error), arguments))
             failure = SetAside(self.name, f"{self.name} failed: {type(error).__name__}: {text}")
-            self._count_failure(call, failure)
+            count_failure(getattr(call, self.outputs[0]).parent, self.name, failure.reason)
             return f"set aside: {failure.reason}", failure
 
     def _without_folders(self, text: str, arguments: dict[str, Any]) -> str:
@@ -203,13 +214,6 @@ class Stage:
             for path in sorted(paths, key=lambda path: -len(str(path))):
                 text = text.replace(str(path), path.name)
         return text
-
-    def _count_failure(self, call: Any, failure: SetAside) -> None:
-        """Append the failure to failures.tsv beside the first output; the workflow reads how many there were."""
-        first = getattr(call, self.outputs[0])
-        first.parent.mkdir(parents=True, exist_ok=True)
-        with open(first.parent / "failures.tsv", "a", encoding="utf-8") as file:
-            file.write(f"{self.name}\t{' '.join(failure.reason.split())}\n")
 
 
 def _parse(option: Option, words: str) -> Any:
@@ -228,29 +232,3 @@ def _metavar(option: Option) -> str:
     if get_origin(kind) is Literal:
         return "|".join(get_args(kind))
     return kinds.get(kind, "JSON") + ("|none" if others else "")
-
-
-def hashes(paths: Path | Sequence[Path]) -> str | list[str]:
-    """Hash one file, or each of several.
-
-    Parameters
-    ----------
-    paths : Path or sequence of Path
-        The files.
-
-    Returns
-    -------
-    str or list of str
-        Their sha256.
-
-    Raises
-    ------
-    BadRecording
-        Where one is not there.
-    """
-    try:
-        return atomic.sha256(paths) if isinstance(paths, Path) else [atomic.sha256(path) for path in paths]
-    except FileNotFoundError as error:
-        raise BadRecording(
-            f"{Path(error.filename).name} is not there: is it a broken link, or was it moved?"
-        ) from error

@@ -5,6 +5,7 @@ Arrays go to Arrow and back without pandas, whose import would take longer than 
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,6 +21,9 @@ from markermend.storage.atomic import replacing
 KEY = b"markermend"
 """The footer key under which a file carries its facts, as JSON."""
 
+CHECKSUM = b"markermend_sha256"
+"""The footer key of their checksum: those of the pages are about values alone."""
+
 
 def write_table(path: Path, table: pa.Table, facts: Mapping[str, Any]) -> None:
     """Write a table with facts in its footer.
@@ -34,8 +38,9 @@ def write_table(path: Path, table: pa.Table, facts: Mapping[str, Any]) -> None:
         JSON values.
     """
     footer = json.dumps(facts, sort_keys=True, ensure_ascii=False, allow_nan=False).encode()
+    stated = {KEY: footer, CHECKSUM: hashlib.sha256(footer).hexdigest().encode()}
     with replacing(path) as temporary:
-        pq.write_table(table.replace_schema_metadata({KEY: footer}), temporary, compression="zstd")
+        pq.write_table(table.replace_schema_metadata(stated), temporary, compression="zstd", write_page_checksum=True)
 
 
 def read_table(path: Path) -> pa.Table:
@@ -50,10 +55,18 @@ def read_table(path: Path) -> pa.Table:
     -------
     pyarrow.Table
         The table.
+
+    Raises
+    ------
+    OSError
+        Where the file is no Parquet file, or the checksum of a page is wrong.
     """
-    # Not by pq.read_table, which imports pandas.
-    with pq.ParquetFile(path) as file:
-        return file.read(use_threads=False)
+    try:
+        # Not by pq.read_table, which imports pandas.
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            return file.read(use_threads=False)
+    except (OSError, pa.ArrowException) as error:
+        raise OSError(f"{path.name} cannot be read: {error}") from error
 
 
 def read_footer(path: Path) -> dict[str, Any]:
@@ -68,8 +81,19 @@ def read_footer(path: Path) -> dict[str, Any]:
     -------
     dict
         JSON values.
+
+    Raises
+    ------
+    OSError
+        Where the file is no Parquet file of ours, or their checksum is wrong.
     """
-    facts: dict[str, Any] = json.loads(pq.read_schema(path).metadata[KEY])
+    try:
+        stated = pq.read_schema(path).metadata
+        if hashlib.sha256(stated[KEY]).hexdigest() != stated[CHECKSUM].decode():
+            raise OSError("the checksum of its facts is wrong")
+        facts: dict[str, Any] = json.loads(stated[KEY])
+    except (OSError, pa.ArrowException, KeyError, TypeError, ValueError) as error:
+        raise OSError(f"{path.name} cannot be read: {error}") from error
     return facts
 
 

@@ -3,9 +3,14 @@
 import pytest
 
 from markermend.command import kept_outputs
-from markermend.command.kept_outputs import KeptOutputs
+from markermend.command.kept_outputs import are_current, dependencies_hash
+from markermend.storage import output_checksums
 
 MADE_FROM = {"stage": "blur", "options": {"window_s": 1.0}, "inputs": {"markers": "ab"}, "code": "c"}
+
+
+def record(paths):
+    output_checksums.write("blur", paths, dependencies=dependencies_hash(MADE_FROM))
 
 
 @pytest.fixture
@@ -13,34 +18,34 @@ def outputs(tmp_path):
     paths = [tmp_path / "a", tmp_path / "b"]
     for path in paths:
         path.write_text(path.name)
-    KeptOutputs("blur", paths, MADE_FROM).record()
+    record(paths)
     return paths
 
 
 def test_outputs_made_from_the_same_are_current_wherever_they_lie(outputs, tmp_path):
-    assert KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    assert are_current("blur", outputs, dependencies_hash(MADE_FROM))
     moved = tmp_path.rename(tmp_path.with_name(f"{tmp_path.name} moved"))
-    assert KeptOutputs("blur", [moved / path.name for path in outputs], MADE_FROM).are_current()
+    assert are_current("blur", [moved / path.name for path in outputs], dependencies_hash(MADE_FROM))
     assert str(tmp_path) not in (moved / "logs/blur.json").read_text()
 
 
 @pytest.mark.parametrize("key", MADE_FROM)
 def test_outputs_made_from_anything_else_are_not(outputs, key):
-    assert not KeptOutputs("blur", outputs, {**MADE_FROM, key: {"other": 1}}).are_current()
+    assert not are_current("blur", outputs, dependencies_hash({**MADE_FROM, key: {"other": 1}}))
 
 
 def test_outputs_made_by_other_versions_are_not(outputs, monkeypatch):
     monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "0")
-    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    assert not are_current("blur", outputs, dependencies_hash(MADE_FROM))
 
 
 def test_a_package_that_was_installed_since_counts(outputs, monkeypatch):
     absent, version = "not-installed-anywhere", kept_outputs.metadata.version
     monkeypatch.setattr(kept_outputs, "PACKAGES", (*kept_outputs.PACKAGES, absent))
-    KeptOutputs("blur", outputs, MADE_FROM).record()
-    assert KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    record(outputs)
+    assert are_current("blur", outputs, dependencies_hash(MADE_FROM))
     monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "1" if name == absent else version(name))
-    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    assert not are_current("blur", outputs, dependencies_hash(MADE_FROM))
 
 
 @pytest.mark.parametrize("harm", ["missing", "edited", "no record", "broken record"])
@@ -53,4 +58,4 @@ def test_outputs_that_are_not_as_recorded_are_not_current(outputs, harm, tmp_pat
         (tmp_path / "logs/blur.json").unlink()
     else:
         (tmp_path / "logs/blur.json").write_text("{")
-    assert not KeptOutputs("blur", outputs, MADE_FROM).are_current()
+    assert not are_current("blur", outputs, dependencies_hash(MADE_FROM))

@@ -14,7 +14,8 @@ from markermend.command.stage import Stage
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.declaration import PositiveSeconds, Shared
 from markermend.options.mesh import MeshOptions
-from markermend.storage import atomic, stage_files
+from markermend.storage import atomic, output_checksums, stage_files
+from markermend.storage.output_checksums import OutputRecord
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,30 @@ def test_a_stage_that_keeps_its_outputs_works_again_only_on_something_else(stage
     assert [run("--code=2"), run("--code=2")] == [3, 3]
     stage.run(fails_with(BadRecording("no frames")), [*argv, "--code=3"])
     assert run("--code=2") == 4
+
+
+def test_what_a_stage_wrote_is_recorded(stage, argv, tmp_path):
+    def work(call):
+        assert output_checksums.find(call.blurred) is None
+        atomic.write_json(call.blurred, {"blurred": True})
+
+    for _ in range(2):
+        stage.run(work, argv)
+        record = output_checksums.find(tmp_path / "out.json")
+        assert record == OutputRecord("blur", {"out.json": atomic.sha256(tmp_path / "out.json")})
+    stage.run(fails_with(BadRecording("no frames")), argv)
+    note = output_checksums.find(tmp_path / "out.json")
+    assert note is not None and note.outputs == {"out.json": atomic.sha256(tmp_path / "out.json")} != record.outputs
+
+
+def test_a_damaged_input_is_not_read(stage, argv, tmp_path):
+    output_checksums.write("smear", [tmp_path / "in.json"])
+    (tmp_path / "in.json").write_text("{ ")
+    stage.run(lambda call: pytest.fail("read"), argv)
+    with pytest.raises(SetAside, match=r"in.json is not as smear wrote it") as note:
+        stage_files.read_json(tmp_path / "out.json")
+    assert note.value.stage == "smear"
+    assert (tmp_path / "failures.tsv").read_text().startswith("smear\t")
 
 
 def test_a_bad_recording_is_set_aside_and_not_tried_again(stage, argv, tmp_path):

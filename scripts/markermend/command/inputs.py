@@ -1,0 +1,73 @@
+"""The inputs of a stage: their checksums, and what becomes of one that is not as it was written.
+
+A stage reads no damaged file. It makes a file anew by the command that wrote it, which gives the same bytes. Where that
+fails, or the file belongs to more than the recording, so that others may make it at the same time, the recording is set aside,
+and a failure is counted of the stage that wrote the file, so that the next run makes it anew.
+"""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from markermend.command.failures import count_failure
+from markermend.core.recording import BadRecording, SetAside
+from markermend.storage import output_checksums
+from markermend.storage.atomic import sha256
+
+log = logging.getLogger("markermend")
+
+
+def checksums(paths: Path | Sequence[Path], *, own: Path) -> str | list[str]:
+    """Compute the checksums of inputs, which are then as they were written.
+
+    Parameters
+    ----------
+    paths : Path or sequence of Path
+        One input or several.
+    own : Path
+        The folder of what the stage is about: a recording, a subject, or all. What lies in it may be made anew.
+
+    Returns
+    -------
+    str or list of str
+        Their sha256.
+
+    Raises
+    ------
+    BadRecording
+        Where one is not there.
+    SetAside
+        Where one is damaged, and could not be made anew.
+    """
+    return _checksum(paths, own) if isinstance(paths, Path) else [_checksum(path, own) for path in paths]
+
+
+def _checksum(path: Path, own: Path) -> str:
+    """The checksum of one input."""
+    try:
+        checksum = sha256(path)
+    except FileNotFoundError as error:
+        raise BadRecording(f"{path.name} is not there: is it a broken link, or was it moved?") from error
+    record = output_checksums.find(path)
+    if record is None or record.outputs[path.name] == checksum:
+        return checksum
+    # Results that were moved would be made where they were; what others read, too, might be made many times at once.
+    at_its_place = str(path) in record.command and path.is_relative_to(own)
+    if at_its_place and _make_anew(path, record):
+        return record.outputs[path.name]
+    reason = f"{path.name} is not as {record.stage} wrote it: the file is damaged; the next run makes it anew"
+    count_failure(path.parent, record.stage, reason)
+    raise SetAside(record.stage, reason)
+
+
+def _make_anew(path: Path, record: output_checksums.OutputRecord) -> bool:
+    """Run the command that wrote a file once more, and say whether the file is as it was."""
+    log.warning("%s is damaged: running %s once more, which wrote it", path.name, record.stage)
+    try:
+        subprocess.run(record.command, check=True)
+        return sha256(path) == record.outputs[path.name]
+    except (OSError, subprocess.CalledProcessError):
+        return False

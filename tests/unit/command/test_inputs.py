@@ -1,0 +1,89 @@
+"""No stage reads a damaged file: it is made anew at once, or in the next run."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from markermend.command.inputs import checksums
+from markermend.core.recording import BadRecording, SetAside
+from markermend.storage import output_checksums
+from markermend.storage.atomic import sha256
+
+WRITE = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])"
+
+
+@pytest.fixture
+def peaks(tmp_path):
+    """An input whose record names a command that writes it."""
+    path = tmp_path / "S01/walk/02_peaks.parquet"
+    path.parent.mkdir(parents=True)
+    path.write_text("peaks")
+    output_checksums.write("peaks", [path], command=[sys.executable, "-c", WRITE, str(path), "peaks"])
+    return path
+
+
+def flip(path: Path, bit: int = 5) -> None:
+    """Change one bit, and neither size nor date."""
+    content = bytearray(path.read_bytes())
+    content[bit // 8] ^= 1 << bit % 8
+    path.write_bytes(content)
+
+
+def test_checksums_are_given_by_input(peaks):
+    assert checksums(peaks, own=peaks.parent) == sha256(peaks)
+    assert checksums([peaks, peaks], own=peaks.parent) == [sha256(peaks)] * 2
+    assert checksums([], own=peaks.parent) == []
+
+
+def test_a_file_of_which_nothing_is_recorded_is_read_as_it_is(peaks, tmp_path):
+    flip(peaks)
+    (peaks.parent / "logs/peaks.json").unlink()
+    assert checksums(peaks, own=peaks.parent) == sha256(peaks)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(BadRecording, match=r"02_peaks.parquet is not there"):
+        checksums(tmp_path / "02_peaks.parquet", own=tmp_path)
+
+
+@pytest.mark.parametrize("bit", range(0, 40, 5))
+def test_a_damaged_file_is_made_anew(peaks, bit):
+    before = sha256(peaks)
+    flip(peaks, bit)
+    assert checksums(peaks, own=peaks.parent) == before == sha256(peaks)
+    assert not (peaks.parent / "failures.tsv").exists()
+
+
+@pytest.mark.parametrize("harm", ["other bytes", "fails", "gone", "unknown"])
+def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, harm):
+    command = {
+        "other bytes": [sys.executable, "-c", WRITE, str(peaks), "other"],
+        "fails": [sys.executable, "-c", "raise SystemExit(1)", str(peaks)],
+        "gone": [str(peaks.parent / "python"), "x.py", str(peaks)],
+        "unknown": [],
+    }[harm]
+    output_checksums.write("peaks", [peaks], command=command)
+    flip(peaks)
+    with pytest.raises(
+        SetAside, match=r"02_peaks.parquet is not as peaks wrote it.*the next run makes it anew"
+    ) as note:
+        checksums(peaks, own=peaks.parent)
+    assert note.value.stage == "peaks"
+    assert (peaks.parent / "failures.tsv").read_text().split("\t")[0] == "peaks"
+
+
+def test_results_that_were_moved_are_not_made_where_they_were(peaks, tmp_path):
+    moved = peaks.parents[1].rename(tmp_path / "S02") / "walk/02_peaks.parquet"
+    flip(moved)
+    with pytest.raises(SetAside):
+        checksums(moved, own=moved.parent)
+    assert not peaks.exists() and (moved.parent / "failures.tsv").exists()
+
+
+def test_a_file_that_belongs_to_more_than_the_recording_is_left_to_the_next_run(peaks):
+    flip(peaks)
+    with pytest.raises(SetAside):
+        checksums(peaks, own=peaks.parent / "other")
+    assert (peaks.parent / "failures.tsv").read_text().count("\n") == 1
+    assert checksums(peaks, own=peaks.parents[1])

@@ -1,0 +1,72 @@
+"""Tables come back as they were written, or not at all."""
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from markermend.storage.parquet_tables import column, read_footer, read_table, vector, write_table
+
+FACTS = {"markers": ["A", "Knöchel"], "rate": 100.0}
+
+
+@pytest.fixture
+def table():
+    rng = np.random.default_rng(0)
+    columns = {name: column(rng.normal(0, 500, 40), np.float64) for name in ("A.x", "A.y")}
+    columns["A.origin"] = pa.DictionaryArray.from_arrays(column(np.arange(40) % 3, np.int8), pa.array(["a", "b", "c"]))
+    return pa.Table.from_arrays(list(columns.values()), list(columns))
+
+
+@pytest.fixture
+def path(tmp_path, table):
+    write_table(tmp_path / "07_filled.parquet", table, FACTS)
+    return tmp_path / "07_filled.parquet"
+
+
+def test_equal_tables_give_equal_bytes_that_are_read_as_they_were_written(path, table):
+    assert read_footer(path) == FACTS and read_table(path).equals(table)
+    np.testing.assert_array_equal(vector(read_table(path)["A.x"]), vector(table["A.x"]))
+    before = path.read_bytes()
+    write_table(path, table, FACTS)
+    assert path.read_bytes() == before
+
+
+def test_no_flipped_bit_of_a_value_or_a_fact_is_read(path, table):
+    """One bit of each third byte of pages (with their headers) and facts; those of the footer's other parts are not covered."""
+    content = path.read_bytes()
+    footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+    facts = content.index(b'{"markers"')
+    places = [*range(4, footer, 3), *range(facts, facts + 40)]
+    bits = np.random.default_rng(1).integers(8, size=len(places))
+    refused = 0
+    for place, bit in zip(places, bits.tolist(), strict=True):
+        damaged = bytearray(content)
+        damaged[place] ^= 1 << bit
+        path.write_bytes(damaged)
+        try:
+            assert read_footer(path) == FACTS
+            read = read_table(path)
+        except OSError:
+            refused += 1
+        else:
+            assert all(read[name].equals(table[name]) for name in ("A.x", "A.y"))
+    assert refused > 0.7 * len(places)
+
+
+def test_other_programs_read_the_table(path, table):
+    assert pq.read_table(path, page_checksum_verification=True).replace_schema_metadata(None).equals(table)
+
+
+@pytest.mark.parametrize("content", [b"", b"PAR1", b"PAR1" + b"\0" * 40 + b"PAR1"])
+def test_what_is_no_table_is_named(path, content):
+    path.write_bytes(content)
+    for read in (read_footer, read_table):
+        with pytest.raises(OSError, match=r"07_filled.parquet cannot be read"):
+            read(path)
+
+
+def test_a_table_of_another_program_states_no_facts(path, table):
+    pq.write_table(table, path)
+    with pytest.raises(OSError, match=r"07_filled.parquet cannot be read"):
+        read_footer(path)
