@@ -1,4 +1,7 @@
-"""The command `markermend`: Snakemake with the workflow's own Snakefile, wherever the package is installed."""
+"""The command `markermend`: Snakemake with the workflow's own Snakefile, wherever the package is installed.
+
+`markermend verify RESULTS` checks the files of results instead; see `markermend.command.verification`.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from markermend.command import verification
 from markermend.storage.installation import workflow_folder
 
 
@@ -35,11 +39,13 @@ def _of_workflow(word: str, folder: Path) -> bool:
 
 
 def main() -> int:
-    """Run the workflow with the arguments of this process.
+    """Run the workflow with the arguments of this process, or check results.
 
     Returns
     -------
     int
-        Snakemake's exit status.
+        The exit status: Snakemake's, or that of the check.
     """
+    if sys.argv[1:2] == ["verify"]:
+        return verification.main(sys.argv[2:])
     return subprocess.call(command(sys.argv[1:]))

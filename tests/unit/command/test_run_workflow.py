@@ -22,3 +22,9 @@ def test_a_config_file_of_the_workflow_is_found_from_any_folder(monkeypatch, tmp
     (tmp_path / "config/evaluate").mkdir(parents=True)
     (tmp_path / name).touch()
     assert run_workflow.command(["--configfile", name, "config/mine.yaml"])[-2:] == [name, "config/mine.yaml"]
+
+
+def test_results_are_checked_without_snakemake(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(sys, "argv", ["markermend", "verify", str(tmp_path)])
+    assert run_workflow.main() == 2
+    assert capsys.readouterr().err == f"{tmp_path} holds no results\n"

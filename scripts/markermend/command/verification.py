@@ -1,0 +1,144 @@
+"""The command `markermend verify RESULTS`: whether every result is as it was written, and every original as it was read."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from markermend.command.failures import count_failure
+from markermend.storage import output_checksums
+from markermend.storage.atomic import sha256
+from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
+from markermend.storage.source_checksums import SourceChecksums
+
+MISSING = "not there"
+"""Stands for the checksum of a file that is not there or cannot be read."""
+
+UNRECORDED = "nothing recorded"
+"""Stands for a checksum that should have been recorded."""
+
+ALWAYS_RECORDED = ("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json")
+"""Files of which a checksum must be recorded."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One file as it was, and as it is.
+
+    Attributes
+    ----------
+    file : str
+        Path of a result from the folder of results, or of an original.
+    expected, found : str
+        Its checksums as recorded and as computed, or why there is none.
+    stage : str, optional
+        The stage that wrote it; none for an original.
+    """
+
+    file: str
+    expected: str
+    found: str
+    stage: str = ""
+
+    @property
+    def differs(self) -> bool:
+        """Whether the file is not as it was."""
+        return self.expected != self.found
+
+
+def check(results: Path) -> Iterator[Checked]:
+    """Check every result and original of a folder of results.
+
+    Parameters
+    ----------
+    results : Path
+        The folder.
+
+    Yields
+    ------
+    Checked
+        Each file of which a checksum is recorded, or should be: results by their folders, then originals.
+    """
+    subjects = [path for path in _folders(results) if path.name not in RESERVED_SUBJECTS]
+    recordings = [path for subject in subjects for path in _folders(subject) if path.name != output_checksums.FOLDER]
+    for folder in [results / "report", *sorted([*subjects, *recordings])]:
+        yield from _outputs(folder, results)
+    sources = SourceChecksums(results / "report/logs/sources.json").recorded
+    for recording in recordings:
+        yield from _source(recording, {name: record["path"] for name, record in sources.items()})
+
+
+def _folders(path: Path) -> list[Path]:
+    """The folders in a folder."""
+    return sorted(inner for inner in path.iterdir() if inner.is_dir() and not inner.name.startswith("."))
+
+
+def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
+    """The files in one folder of results."""
+    place = folder.relative_to(results)
+    recorded: set[str] = set()
+    for record in output_checksums.records(folder):
+        recorded |= record.outputs.keys()
+        for name, expected in record.outputs.items():
+            yield Checked(str(place / name), expected, _checksum(folder / name), record.stage)
+    for path in sorted({path for pattern in ALWAYS_RECORDED for path in folder.glob(pattern)}):
+        if path.name not in recorded:
+            yield Checked(str(place / path.name), UNRECORDED, _checksum(path))
+
+
+def _source(folder: Path, paths: dict[str, str]) -> Iterator[Checked]:
+    """The original of one recording, of which its certificate states the checksum that was read."""
+    name = f"{folder.parent.name}/{folder.name}"
+    try:
+        expected = json.loads((folder / "certificate.json").read_text(encoding="utf-8"))["original_sha256"]
+    except (OSError, ValueError, TypeError, KeyError):
+        return
+    if expected is not None:
+        path = paths.get(name)
+        yield Checked(path or f"the original of {name}", expected, _checksum(Path(path)) if path else UNRECORDED)
+
+
+def _checksum(path: Path) -> str:
+    """The checksum of a file."""
+    try:
+        return sha256(path)
+    except OSError:
+        return MISSING
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Check a folder of results, and print a table of what differs.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        RESULTS, the folder, and `--remake` where the next run is to make anew what differs.
+
+    Returns
+    -------
+    int
+        0 where nothing differs, 1 where a file does, 2 where the folder holds no results.
+    """
+    parser = argparse.ArgumentParser(prog="markermend verify", description=__doc__, allow_abbrev=False)
+    parser.add_argument("results", type=Path, metavar="RESULTS", help="the folder of results")
+    parser.add_argument("--remake", action="store_true", help="let the next run make anew what differs")
+    flags = parser.parse_args(arguments)
+    checked = list(check(flags.results)) if flags.results.is_dir() else []
+    if not checked:
+        print(f"{flags.results} holds no results", file=sys.stderr)
+        return 2
+    different = [one for one in checked if one.differs]
+    if different:
+        table = csv.writer(sys.stdout, delimiter="\t", lineterminator="\n")
+        table.writerow(["file", "expected", "found"])
+        table.writerows([printable(one.file), one.expected, one.found] for one in different)
+    for folder, stage in {((flags.results / one.file).parent, one.stage) for one in different if one.stage}:
+        if flags.remake:
+            count_failure(folder, stage, "its outputs are not as it wrote them")
+    print(f"{len(checked) - len(different)} files are as they were, {len(different)} differ", file=sys.stderr)
+    return int(bool(different))

@@ -1,0 +1,107 @@
+"""Every file is held against its recorded checksum."""
+
+import json
+import os
+
+import pytest
+
+from markermend.command.verification import MISSING, UNRECORDED, check, main
+from markermend.storage import output_checksums
+from markermend.storage.atomic import sha256
+from markermend.storage.source_checksums import SourceChecksums
+
+WRITTEN = {
+    "S01": {"mesh": ["mesh.json"]},
+    "S01/walk": {
+        "ingest": ["01_markers.parquet"],
+        "export": ["cleaned.c3d", "changes.tsv", "originals.parquet", "certificate.json"],
+    },
+    "report": {"report": ["index.html"]},
+}
+
+
+@pytest.fixture
+def results(tmp_path):
+    """The results of one recording, whose original is in another folder."""
+    source, top = tmp_path / "walk.c3d", tmp_path / "results"
+    source.write_text("walk")
+    for folder, stages in WRITTEN.items():
+        (top / folder).mkdir(parents=True)
+        for stage, names in stages.items():
+            for name in names:
+                (top / folder / name).write_text(f"{stage} {name}")
+            if stage == "export":
+                (top / folder / "certificate.json").write_text(json.dumps({"original_sha256": sha256(source)}))
+            output_checksums.write(stage, [top / folder / name for name in names])
+    checksums = SourceChecksums(top / "report/logs/sources.json")
+    checksums.of("S01/walk", str(source))
+    checksums.save()
+    return top
+
+
+def different(results):
+    return {one.file: (one.expected, one.found) for one in check(results) if one.differs}
+
+
+def lines(results, capsys, *flags):
+    """The exit status, the table and the last line of the command."""
+    status = main([str(results), *flags])
+    printed = capsys.readouterr()
+    return status, [line.split("\t") for line in printed.out.splitlines()], printed.err.splitlines()[-1]
+
+
+def test_files_that_are_as_they_were_are_counted(results, capsys):
+    assert len(list(check(results))) == 8
+    assert lines(results, capsys) == (0, [], "8 files are as they were, 0 differ")
+
+
+@pytest.mark.parametrize("name", [f"{folder}/{name}" for folder in WRITTEN for names in WRITTEN[folder].values() for name in names])  # fmt: skip
+def test_a_changed_file_is_listed_with_both_checksums_whatever_its_date(results, capsys, name):
+    path, before = results / name, sha256(results / name)
+    file, content = path.stat(), bytearray(path.read_bytes())
+    content[1] ^= 1
+    path.write_bytes(content)
+    os.utime(path, ns=(file.st_atime_ns, file.st_mtime_ns))
+    status, table, last = lines(results, capsys)
+    # A certificate that is none says nothing of the original.
+    other = 6 if path.name == "certificate.json" else 7
+    assert status == 1 and last == f"{other} files are as they were, 1 differ"
+    assert table == [["file", "expected", "found"], [name, before, sha256(path)]]
+
+
+def test_a_missing_file_is_listed(results):
+    before = sha256(results / "S01/walk/cleaned.c3d")
+    (results / "S01/walk/cleaned.c3d").unlink()
+    assert different(results) == {"S01/walk/cleaned.c3d": (before, MISSING)}
+
+
+def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
+    source, before = tmp_path / "walk.c3d", sha256(tmp_path / "walk.c3d")
+    source.write_text("turn")
+    assert different(results) == {str(source): (before, sha256(source))}
+    source.unlink()
+    assert different(results) == {str(source): (before, MISSING)}
+    (results / "report/logs/sources.json").unlink()
+    assert different(results) == {"the original of S01/walk": (before, UNRECORDED)}
+
+
+def test_a_file_of_which_nothing_is_recorded_is_listed_and_a_note_of_a_person_is_not(results):
+    (results / "S01/walk/logs/ingest.json").unlink()
+    (results / "S01/walk/notes.txt").write_text("check the left knee")
+    path = results / "S01/walk/01_markers.parquet"
+    assert different(results) == {"S01/walk/01_markers.parquet": (UNRECORDED, sha256(path))}
+
+
+def test_the_next_run_makes_anew_what_differs_on_request(results, capsys):
+    (results / "S01/walk/cleaned.c3d").write_text("edited")
+    (results / "S01/walk/changes.tsv").unlink()
+    assert lines(results, capsys)[0] == 1 and not list(results.rglob("failures.tsv"))
+    assert lines(results, capsys, "--remake")[0] == 1
+    (failures,) = results.rglob("failures.tsv")
+    assert failures == results / "S01/walk/failures.tsv" and failures.read_text().split("\t")[0] == "export"
+    assert failures.read_text().count("\n") == 1
+
+
+def test_a_folder_without_results_is_an_error(tmp_path, capsys):
+    for folder in (tmp_path, tmp_path / "none"):
+        assert lines(folder, capsys) == (2, [], f"{folder} holds no results")
