@@ -23,3 +23,16 @@ def test_a_default_detector_and_its_command_import_no_published_one(stage):
 
 def test_what_is_asked_for_is_imported():
     assert "published.peaks" in published_after("import markermend.detection.published.peaks")
+
+
+@pytest.mark.parametrize(
+    "stage", ["ingest", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "qc", "report"]
+)
+def test_a_command_starts_without_scipy(stage):
+    loaded = (
+        f"import sys; sys.path.insert(0, {str(PROJECT / 'scripts')!r}); import {stage}; print('scipy' in sys.modules)"
+    )
+    assert (
+        subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True, check=True).stdout.strip()
+        == "False"
+    )

@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +61,8 @@ def are_current(stage: str, outputs: Sequence[Path], dependencies: str) -> bool:
 
 def _version(package: str) -> str | None:
     """Version of a package; None where it is not installed."""
+    from importlib import metadata  # 0.03 s to import, which only a stage that keeps its outputs needs
+
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

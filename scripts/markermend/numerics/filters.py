@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy import ndimage
 
 from markermend.numerics.intervals import runs
 
@@ -70,6 +69,8 @@ def moving_median(signal: np.ndarray, window: int) -> np.ndarray:
     np.ndarray
         Medians (frames,); runs are extended by their first and last sample. NaN where the signal is NaN.
     """
+    from scipy import ndimage  # slow to import
+
     return per_run(lambda run: ndimage.median_filter(run, window, mode="nearest"), signal)
 
 
@@ -128,6 +129,8 @@ def high_pass(signal: np.ndarray, window: int, order: int) -> np.ndarray:
     if window % 2 == 0 or window <= order:
         raise ValueError(f"window {window} is not odd or not above the order {order}")
 
+    from scipy import ndimage  # slow to import
+
     def run_high_pass(run: np.ndarray) -> np.ndarray:
         rest: np.ndarray
         if len(run) < window:
@@ -162,6 +165,8 @@ def moving_sum(signal: np.ndarray, window: int) -> np.ndarray:
     ----------
     skurowski2022 eq 21, 22.
     """
+    from scipy import ndimage  # slow to import
+
     return per_run(lambda run: ndimage.convolve1d(run, np.ones(window), mode="constant"), signal)
 
 
@@ -207,19 +212,38 @@ def band_pass(signal: np.ndarray, *, band_hz: tuple[float, float], rate: float, 
     ----------
     Oppenheim, Schafer (2010), Discrete-Time Signal Processing, section 7.5: the window method (Hamming).
     """
-    from scipy.signal import firwin, oaconvolve  # slow to import
-
-    taps = firwin(2 * half_length + 1, band_hz, pass_zero=False, fs=rate)
+    taps = _band_pass_taps(band_hz[0] / rate, band_hz[1] / rate, half_length)
 
     def run_band_pass(run: np.ndarray) -> np.ndarray:
         inside = np.full(len(run), np.nan)
         if len(run) > len(taps):
             longer = np.pad(run, half_length, mode="reflect", reflect_type="odd")
             border = half_length // 2
-            inside[border:-border] = oaconvolve(longer, taps, mode="valid")[border:-border]
+            inside[border:-border] = _convolve(longer, taps)[border:-border]
         return inside
 
     return per_run(run_band_pass, signal)
+
+
+def _band_pass_taps(low: float, high: float, half_length: int) -> np.ndarray:
+    """Taps of a band-pass between two frequencies, cycles per sample, of gain 1 in the middle of the band."""
+    lag = np.arange(-half_length, half_length + 1)
+    taps = (2 * high * np.sinc(2 * high * lag) - 2 * low * np.sinc(2 * low * lag)) * np.hamming(len(lag))
+    scaled: np.ndarray = taps / (taps * np.cos(np.pi * (low + high) * lag)).sum()
+    return scaled
+
+
+def _convolve(signal: np.ndarray, taps: np.ndarray) -> np.ndarray:
+    """Convolve a signal (n,) with k < n symmetric taps where they lie inside it (n - k + 1,), by Fourier transforms of overlapping blocks."""
+    block = 1 << int(np.ceil(np.log2(8 * len(taps))))
+    step, count = block - len(taps) + 1, len(signal) - len(taps) + 1
+    blocks = -(-count // step)
+    padded = np.pad(signal, (0, (blocks - 1) * step + block - len(signal)))
+    spectrum = np.fft.rfft(np.lib.stride_tricks.sliding_window_view(padded, block)[::step], axis=1)
+    # The first samples of each block are those into which its end is wrapped.
+    whole = np.fft.irfft(spectrum * np.fft.rfft(taps, block), block, axis=1)
+    inside: np.ndarray = whole[:, len(taps) - 1 :].reshape(-1)[:count]
+    return inside
 
 
 def low_pass(signal: np.ndarray, *, cutoff_hz: float, rate: float, order: int = 2) -> np.ndarray:

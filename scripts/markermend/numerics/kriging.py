@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from markermend.numerics.non_negative import non_negative_least_squares
+
 MIN_PAIRS = 20
 """Least number of pairs of frames at each of the shortest lags from which the white noise is estimated."""
 
@@ -171,8 +173,6 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, m
     Covariance
         The covariance function; a minimal white noise alone where no sample is known.
     """
-    from scipy.optimize import nnls  # 0.2 s to import, and most detectors never get here
-
     max_lag = int(np.clip(round(max_lag_s * rate), 2, max(2, len(residual) // 2)))
     # Fewer of the long lags are fitted: the short ones, which matter at the borders, must not be outvoted.
     lags = np.unique(np.round(np.geomspace(1, max_lag, FITTED_LAGS)).astype(int) - 1)
@@ -182,7 +182,7 @@ def fit_covariance(residual: np.ndarray, *, rate: float, scales_s: np.ndarray, m
         return Covariance(np.append(1e-12, np.zeros(2 * len(scales_s))), scales_s)
     lag_s = lags / rate
     design = np.concatenate([(lags == 0)[:, None].astype(float), kernels(lag_s, scales_s)], axis=1)
-    weights, _ = nnls(design, empirical)
+    weights = non_negative_least_squares(design, empirical)
     if weights.sum() <= 0:
         weights[0] = max(empirical[0], 1e-12)
     # Noise that is small compared with the total variance escapes the fit. A residual taken for noiseless would be

@@ -7,7 +7,6 @@ A signal is a float vector with NaN where nothing was measured; sizes are odd nu
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
 from markermend.numerics.filters import per_run
 
@@ -31,6 +30,8 @@ def erosion(signal: np.ndarray, size: int) -> np.ndarray:
     ----------
     skurowski2022 eq 13, read as the minimum.
     """
+    from scipy import ndimage  # slow to import
+
     return per_run(lambda run: ndimage.minimum_filter1d(run, size, mode="constant", cval=np.inf), signal)
 
 
@@ -53,6 +54,8 @@ def dilation(signal: np.ndarray, size: int) -> np.ndarray:
     ----------
     skurowski2022 eq 14, read as the maximum.
     """
+    from scipy import ndimage  # slow to import
+
     return per_run(lambda run: ndimage.maximum_filter1d(run, size, mode="constant", cval=-np.inf), signal)
 
 

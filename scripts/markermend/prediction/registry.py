@@ -7,44 +7,110 @@ from dataclasses import replace
 from typing import Any
 
 from markermend.options.prediction.predictors import PredictorOptions
-from markermend.prediction.global_regression import GlobalRegression
 from markermend.prediction.interface import Predictor
 from markermend.prediction.interpolation import KINDS, Interpolation
-from markermend.prediction.lagged_regression.polynomial import Polynomial
-from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
-from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
 from markermend.prediction.local_ridge.predictor import LocalRidge
-from markermend.prediction.low_rank.iterated_svd import IteratedSvd
-from markermend.prediction.low_rank.weighted_pca import WeightedPca
-from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
-from markermend.prediction.neural_network.predictor import Network
-from markermend.prediction.reference_triangle import LocalGRNN, LocalInterpolation, LocalQuadratic
-from markermend.prediction.state_space.bolero import Bolero
-from markermend.prediction.state_space.kalman_smoother import KalmanSmoother
+
+Maker = Callable[[PredictorOptions], Predictor]
+"""Makes a predictor from the options; most import theirs, since a stage needs few of them."""
+
+NETWORKS = ("network_linear", "network_tanh", "network_lstm", "network_gru", "network_bilstm")
+"""Names of the neural networks."""
 
 
-def _interpolation(kind: str) -> Callable[[PredictorOptions], Predictor]:
+def _interpolation(kind: str) -> Maker:
     return lambda options: Interpolation(kind, knots=options.interpolation.knots)
 
 
-def _network(name: str) -> Callable[[PredictorOptions], Predictor]:
-    return lambda options: Network(name, options.neural_networks)
+def _network(name: str) -> Maker:
+    def make(options: PredictorOptions) -> Predictor:
+        from markermend.prediction.neural_network.predictor import Network
+
+        return Network(name, options.neural_networks)
+
+    return make
 
 
-REGISTRY: dict[str, Callable[[PredictorOptions], Predictor]] = {
+def _polynomial(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.lagged_regression.polynomial import Polynomial
+
+    return Polynomial(options.polynomial)
+
+
+def _replicated_network(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.lagged_regression.replicated_network import ReplicatedNetwork
+
+    return ReplicatedNetwork(options.replicated_network)
+
+
+def _linear_regression(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.global_regression import GlobalRegression
+
+    return GlobalRegression(options.linear_regression)
+
+
+def _local_interpolation(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.reference_triangle import LocalInterpolation
+
+    return LocalInterpolation(options.reference_triangle)
+
+
+def _local_quadratic(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.reference_triangle import LocalQuadratic
+
+    return LocalQuadratic(options.reference_triangle)
+
+
+def _local_grnn(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.reference_triangle import LocalGRNN
+
+    return LocalGRNN(options.reference_triangle)
+
+
+def _msvd(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.low_rank.iterated_svd import IteratedSvd
+
+    return IteratedSvd(options.msvd)
+
+
+def _weighted_pca(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.low_rank.weighted_pca import WeightedPca
+
+    return WeightedPca(options.weighted_pca)
+
+
+def _kalman(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.state_space.kalman_smoother import KalmanSmoother
+
+    return KalmanSmoother(options.kalman)
+
+
+def _bolero(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.state_space.bolero import Bolero
+
+    return Bolero(options.bolero)
+
+
+def _local_gp(options: PredictorOptions) -> Predictor:
+    from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
+
+    return LocalGaussian(options.local_ridge, options.local_gp)
+
+
+REGISTRY: dict[str, Maker] = {
     **{kind: _interpolation(kind) for kind in KINDS},
     **{name: _network(name) for name in NETWORKS},
-    "polynomial": lambda options: Polynomial(options.polynomial),
-    "replicated_network": lambda options: ReplicatedNetwork(options.replicated_network),
-    "linear_regression": lambda options: GlobalRegression(options.linear_regression),
-    "local_interpolation": lambda options: LocalInterpolation(options.reference_triangle),
-    "local_quadratic": lambda options: LocalQuadratic(options.reference_triangle),
-    "local_grnn": lambda options: LocalGRNN(options.reference_triangle),
-    "msvd": lambda options: IteratedSvd(options.msvd),
-    "weighted_pca": lambda options: WeightedPca(options.weighted_pca),
-    "kalman": lambda options: KalmanSmoother(options.kalman),
-    "bolero": lambda options: Bolero(options.bolero),
-    "local_gp": lambda options: LocalGaussian(options.local_ridge, options.local_gp),
+    "polynomial": _polynomial,
+    "replicated_network": _replicated_network,
+    "linear_regression": _linear_regression,
+    "local_interpolation": _local_interpolation,
+    "local_quadratic": _local_quadratic,
+    "local_grnn": _local_grnn,
+    "msvd": _msvd,
+    "weighted_pca": _weighted_pca,
+    "kalman": _kalman,
+    "bolero": _bolero,
+    "local_gp": _local_gp,
     "local_ridge": lambda options: LocalRidge(options.local_ridge),
 }
 """How to make each predictor from the options."""
@@ -69,7 +135,7 @@ def learn_from_pool(names: Sequence[str]) -> bool:
     return any(name in POOLING or name not in REGISTRY for name in names)
 
 
-def known_members(options: PredictorOptions) -> dict[str, Callable[[PredictorOptions], Predictor]]:
+def known_members(options: PredictorOptions) -> dict[str, Maker]:
     """List the predictors and the variants of local_ridge and local_gp.
 
     Parameters
@@ -92,7 +158,7 @@ def known_members(options: PredictorOptions) -> dict[str, Callable[[PredictorOpt
     return known
 
 
-def _variant(kind: str, name: str, changes: Mapping[str, Any]) -> Callable[[PredictorOptions], Predictor]:
+def _variant(kind: str, name: str, changes: Mapping[str, Any]) -> Maker:
     """Make local_ridge or local_gp with some options of local_ridge changed."""
 
     def make(options: PredictorOptions) -> Predictor:

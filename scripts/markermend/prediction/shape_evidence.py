@@ -7,9 +7,9 @@ a marker of the subject) states which points belong to which marker, and has a l
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import lgamma
 
 import numpy as np
-from scipy.special import gammaln
 
 from markermend.core.shape import Shape
 from markermend.numerics.distances import distances
@@ -195,7 +195,7 @@ class ShapeEvidence:
     def _log_density(self, deviation: np.ndarray, scale: np.ndarray) -> np.ndarray:
         """Log density (1/mm) of Student's t distribution at deviations (..., anchors) of distances, mm."""
         freedom = self.options.degrees_of_freedom
-        constant = gammaln((freedom + 1) / 2) - gammaln(freedom / 2) - np.log(freedom * np.pi) / 2
+        constant = lgamma((freedom + 1) / 2) - lgamma(freedom / 2) - np.log(freedom * np.pi) / 2
         density: np.ndarray = (
             constant - np.log(scale) - (freedom + 1) / 2 * np.log1p((deviation / scale) ** 2 / freedom)
         )

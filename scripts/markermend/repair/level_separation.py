@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
+from markermend.numerics import moving
 from markermend.numerics.intervals import runs
 from markermend.options.repair import SeparationOptions
 from markermend.repair.methods import Proposal
@@ -77,9 +77,7 @@ def _jumps(changes: np.ndarray, window: int) -> tuple[np.ndarray, np.ndarray, np
             break
         vector = (jumps[:, None] * detrended).sum(axis=0) / np.count_nonzero(jumps)
         within = (jumps == 0).astype(float)[:, None]
-        total, count = (
-            ndimage.uniform_filter1d(own, window, axis=0, mode="nearest") for own in (within * changes, within)
-        )
+        total, count = (moving.mean(own, window, mode="edge") for own in (within * changes, within))
         trend = total / np.maximum(count, 0.5 / window)
     return jumps, vector, detrended
 

@@ -1,5 +1,7 @@
 """Outputs are kept only where they are there as recorded, made from the same, with the same versions of packages."""
 
+from importlib import metadata
+
 import pytest
 
 from markermend.command import kept_outputs
@@ -35,16 +37,16 @@ def test_outputs_made_from_anything_else_are_not(outputs, key):
 
 
 def test_outputs_made_by_other_versions_are_not(outputs, monkeypatch):
-    monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "0")
+    monkeypatch.setattr(metadata, "version", lambda name: "0")
     assert not are_current("blur", outputs, dependencies_hash(MADE_FROM))
 
 
 def test_a_package_that_was_installed_since_counts(outputs, monkeypatch):
-    absent, version = "not-installed-anywhere", kept_outputs.metadata.version
+    absent, version = "not-installed-anywhere", metadata.version
     monkeypatch.setattr(kept_outputs, "PACKAGES", (*kept_outputs.PACKAGES, absent))
     record(outputs)
     assert are_current("blur", outputs, dependencies_hash(MADE_FROM))
-    monkeypatch.setattr(kept_outputs.metadata, "version", lambda name: "1" if name == absent else version(name))
+    monkeypatch.setattr(metadata, "version", lambda name: "1" if name == absent else version(name))
     assert not are_current("blur", outputs, dependencies_hash(MADE_FROM))
 
 

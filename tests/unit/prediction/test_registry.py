@@ -5,7 +5,8 @@ import pytest
 
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.local_ridge.gaussian_process import LocalGaussian
-from markermend.prediction.registry import REGISTRY, learn_from_pool, members
+from markermend.prediction.neural_network.predictor import KINDS as NETWORK_KINDS
+from markermend.prediction.registry import NETWORKS, REGISTRY, learn_from_pool, members
 from support.fillings import predictor, predictor_options, rigid_body, scene
 
 NAMES = sorted(REGISTRY)
@@ -145,3 +146,7 @@ def test_the_local_ridge_the_local_process_and_their_variants_learn_from_the_poo
         learn_from_pool(["spline", name]) for name in ("local_ridge", "local_ridge_fine", "local_gp", "local_gp_wide")
     )
     assert not learn_from_pool(["spline", "local_grnn", "linear_regression"])
+
+
+def test_the_networks_are_those_of_their_package():
+    assert set(NETWORKS) == set(NETWORK_KINDS)

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
 from markermend.detection.labelling.permutations import Permutation
 from markermend.prediction.shape_evidence import ShapeEvidence
@@ -97,6 +95,9 @@ def minimum_cut(single: np.ndarray, joint: np.ndarray) -> np.ndarray:
     np.ndarray
         Whether each node has the second state, bool (nodes,); the first one among equals.
     """
+    from scipy.sparse import coo_array  # 0.1 s to import, and few recordings get here
+    from scipy.sparse.csgraph import breadth_first_order, maximum_flow
+
     count = len(single)
     cost = single[:, 1] - single[:, 0]
     cost = (

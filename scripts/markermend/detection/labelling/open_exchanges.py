@@ -12,8 +12,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from markermend.core.events import Event
 from markermend.core.labels import undo_exchanges
@@ -162,6 +160,9 @@ def _turning_groups(
     turning, steady = _states(positions[step // 2 :: step], triples, options)
     if not turning.any():
         return
+    from scipy.sparse import coo_array  # 0.1 s to import, and few recordings get here
+    from scipy.sparse.csgraph import connected_components
+
     node = np.array([min(m, counterpart.get(m, m)) for m in every.tolist()])
     ends = node[triples[steady, 0]], node[triples[steady, 2]]
     joined = coo_array((np.ones(len(ends[0])), ends), shape=(len(every), len(every)))

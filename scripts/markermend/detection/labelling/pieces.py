@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 WORST, IMPOSSIBLE = 2.0, 1e6
 """Cost of the worst match of a piece and a marker that is accepted, and one that no assignment can bear."""
@@ -85,5 +84,7 @@ def assigned(costs: Mapping[Piece, Mapping[int, float]], *, min_lead: float) -> 
 
 def _assignment(cost: np.ndarray) -> tuple[np.ndarray, float]:
     """The column of each row with the least total cost, and this cost."""
+    from scipy.optimize import linear_sum_assignment  # 0.2 s to import, and few recordings get here
+
     row, column = linear_sum_assignment(np.where(np.isfinite(cost), cost, IMPOSSIBLE))
     return column[np.argsort(row)], float(cost[row, column].sum())

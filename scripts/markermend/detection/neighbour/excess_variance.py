@@ -15,11 +15,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from scipy import ndimage, stats
 
 from markermend.detection.neighbour import nearest_neighbours, residual_scale
 from markermend.detection.neighbour.residual_scale import moving_mean
-from markermend.numerics import filters
+from markermend.numerics import filters, moving
 from markermend.numerics.intervals import runs, samples
 from markermend.options.detection.noise import ExcessVarianceOptions, JitterOptions, WobbleOptions
 from markermend.prediction.scene import Scene
@@ -30,7 +29,7 @@ MIN_WINDOW = 9
 MIN_SIZE = 1e-3
 """Smallest usual size, mm: markers computed from a model fit exactly."""
 
-MEDIAN_SQUARE = float(stats.chi2.median(1))
+MEDIAN_SQUARE = 0.454936423119572
 """Median of the squares of a normal variable of variance 1."""
 
 
@@ -137,7 +136,7 @@ class BandDetector:
                 enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
                 inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
                 even = evenness(residual[start:stop])
-                lasting = ndimage.minimum_filter1d(score[start:stop], length).max() * even
+                lasting = moving.minimum(score[start:stop], length).max() * even
                 rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
                 if lasting > 1 and even >= self._options.min_evenness:
                     found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))

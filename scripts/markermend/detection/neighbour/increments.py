@@ -12,11 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from markermend.core.events import Event
 from markermend.detection.neighbour import residual_scale
-from markermend.numerics import intervals
+from markermend.numerics import intervals, moving
 from markermend.numerics.intervals import runs
 from markermend.options.detection.noise import IncrementOptions
 from markermend.prediction.scene import Scene
@@ -66,7 +65,7 @@ def detrended_increments(values: np.ndarray, window: int) -> np.ndarray:
     for start, stop in runs(~np.isnan(values).any(axis=1)):
         if stop - start > 1:
             change = np.diff(values[start:stop], axis=0)
-            increments[start + 1 : stop] = change - ndimage.median_filter(change, (window, 1), mode="reflect")
+            increments[start + 1 : stop] = change - moving.median(change, window)
     return increments
 
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy import ndimage
 
+from markermend.numerics import moving
+from markermend.numerics.non_negative import non_negative_least_squares
 from markermend.numerics.robust import moving_median_across_gaps
 
 NEIGHBOUR_QUANTILE = 0.5
@@ -146,8 +147,6 @@ def fitted_rise(
     np.ndarray
         Expected size in units of the level (frames, markers).
     """
-    from scipy.optimize import nnls  # slow to import
-
     known = np.nan_to_num(relative, nan=1.0)
     kinds = [np.ones(relative.shape), *(kind + 1.0 for kind in motion)]
     for m, around in enumerate(neighbours):
@@ -158,7 +157,7 @@ def fitted_rise(
     seen = ~np.isnan(relative[some])
     if not seen.any():
         return np.ones(relative.shape)
-    exponents, _ = nnls(regressors[some][seen], np.log(known[some][seen]))
+    exponents = non_negative_least_squares(regressors[some][seen], np.log(known[some][seen]))
     rise: np.ndarray = np.exp(regressors @ exponents)
     return rise
 
@@ -179,6 +178,6 @@ def moving_mean(values: np.ndarray, window: int) -> np.ndarray:
         Means (frames, ...); NaN where no value of the window is known.
     """
     known = ~np.isnan(values)
-    total = ndimage.uniform_filter1d(np.where(known, values, 0.0), window, axis=0)
-    share = ndimage.uniform_filter1d(known.astype(float), window, axis=0)
+    total = moving.mean(np.where(known, values, 0.0), window)
+    share = moving.mean(known.astype(float), window)
     return np.where(share > 0.5 / window, total / np.maximum(share, 0.5 / window), np.nan)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from markermend.numerics.displaced_scene import either_side, jumps, settle
 from markermend.numerics.intervals import samples
@@ -157,11 +156,16 @@ def find_scene_jumps(
     enough = (~np.isnan(distance)).sum(axis=1) >= options.min_markers
     size = np.zeros(len(distance))
     size[enough] = np.nanmedian(distance[enough], axis=1)
+    beside = np.maximum(np.append(size[1:], 0), np.append(0, size[:-1]))
+    alone = (size >= options.floor_mm) & (beside <= NEIGHBOUR_RATIO * size)
+    if not alone.any():
+        return
+    from scipy import ndimage  # 0.15 s to import, and few recordings get here
+
     usual = ndimage.median_filter(size, samples(options.scale_window_s, rate, odd=True), mode="nearest")
     level = np.maximum(options.floor_mm, options.usual_factor * usual)
-    beside = np.maximum(np.append(size[1:], 0), np.append(0, size[:-1]))
     done = 0
-    for k in np.flatnonzero((size >= level) & (beside <= NEIGHBOUR_RATIO * size)).tolist():
+    for k in np.flatnonzero((size >= level) & alone).tolist():
         if k >= done and _moves_as_one(positions, k, options):
             last, largest_mm = settle(positions, k)
             before, after = either_side(positions, k, last)

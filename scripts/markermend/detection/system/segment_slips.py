@@ -7,7 +7,6 @@ from functools import cached_property
 from itertools import combinations
 
 import numpy as np
-from scipy import ndimage
 
 from markermend.detection.system.slip_pulses import (
     Pulse,
@@ -107,7 +106,7 @@ def _usual(size: np.ndarray, window: int) -> np.ndarray:
     blocks = max(1, len(size) // window)
     parts = np.array_split(size, blocks)
     medians = np.array([np.median(part, axis=0) for part in parts])
-    wide = ndimage.maximum_filter1d(medians, 2, axis=0) if blocks > 1 else medians
+    wide = np.maximum(medians, medians[np.maximum(np.arange(blocks) - 1, 0)])
     spread = np.repeat(wide, [len(part) for part in parts], axis=0)
     usual: np.ndarray = np.maximum(spread, 0.5 * np.median(medians, axis=0))
     return usual

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy import ndimage
 
+from markermend.numerics import moving
 from markermend.options.detection.frames import SegmentSlipOptions
 
 
@@ -51,7 +51,8 @@ def pulse_sizes(positions: np.ndarray, length: int, options: SegmentSlipOptions)
     powers = np.vander(time / len(time), options.context_order + 1)
     kernel = np.where(inside, 1 / length, 0.0)
     kernel[~inside] = -powers[inside].mean(axis=0) @ np.linalg.pinv(powers[~inside])
-    pulse = ndimage.correlate1d(positions, kernel, axis=0)
+    padded = moving.centred(positions, len(kernel), mode="symmetric")
+    pulse = sum(weight * padded[k : k + len(positions)] for k, weight in enumerate(kernel))
     sizes: np.ndarray = np.nan_to_num(np.sqrt((pulse**2).sum(axis=2)))
     return sizes
 
