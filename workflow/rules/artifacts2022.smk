@@ -13,6 +13,16 @@ def artifacts2022_learned(wildcards):
     return str(rules.artifacts2022_networks.output.networks).format(recording=wildcards.recording) if needed else []
 
 
+def artifacts2022_all_runs(wildcards):
+    """The tables of all jobs."""
+    return [file for own in artifacts2022.values() for file in own.files()]
+
+
+def artifacts2022_lists(wildcards):
+    """The lists of these tables, as flags."""
+    return [word for name, own in artifacts2022.items() for word in (f"--{name}", f"@{own.list_file()}")]
+
+
 localrules:
     artifacts2022,
 
@@ -38,7 +48,7 @@ rule artifacts2022_networks:
         mem_mb=2000,
         runtime=60,
     params:
-        *plan.code("artifacts2022_networks"),
+        code=plan.code("artifacts2022_networks"),
         seed=papers.options.seed,
         options=artifacts2022["runs"].flag,
     message:
@@ -65,7 +75,7 @@ rule artifacts2022_runs:
         mem_mb=2000,
         runtime=60,
     params:
-        *plan.code("artifacts2022_runs"),
+        code=plan.code("artifacts2022_runs"),
         seed=papers.options.seed,
         options=artifacts2022["runs"].flag,
     message:
@@ -94,7 +104,7 @@ rule artifacts2022_readings:
         mem_mb=2000,
         runtime=60,
     params:
-        *plan.code("artifacts2022_readings"),
+        code=plan.code("artifacts2022_readings"),
         seed=papers.options.seed,
         options=artifacts2022["readings"].flag,
     message:
@@ -122,7 +132,7 @@ rule artifacts2022_slow:
         mem_mb=2000,
         runtime=120,
     params:
-        *plan.code("artifacts2022_slow"),
+        code=plan.code("artifacts2022_slow"),
         seed=papers.options.seed,
         options=artifacts2022["slow"].flag,
     message:
@@ -151,7 +161,7 @@ rule artifacts2022_repairs:
         mem_mb=2000,
         runtime=120,
     params:
-        *plan.code("artifacts2022_repairs"),
+        code=plan.code("artifacts2022_repairs"),
         seed=papers.options.seed,
         options=artifacts2022["repairs"].flag,
     message:
@@ -181,7 +191,7 @@ rule artifacts2022_operators:
         mem_mb=2000,
         runtime=60,
     params:
-        *plan.code("artifacts2022_operators"),
+        code=plan.code("artifacts2022_operators"),
         seed=papers.options.seed,
         options=artifacts2022["operators"].flag,
     message:
@@ -194,7 +204,7 @@ rule artifacts2022_operators:
 
 rule artifacts2022_tables:
     input:
-        runs=[file for own in artifacts2022.values() for file in own.files],
+        runs=artifacts2022_all_runs,
         published=f"{PUBLISHED}/skurowski2022.tsv",
     output:
         confusion=papers.table("artifacts2022", "confusion"),
@@ -215,8 +225,8 @@ rule artifacts2022_tables:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("artifacts2022_tables"),
-        runs=[word for name, own in artifacts2022.items() for word in (f"--{name}", f"@{own.list}")],
+        code=plan.code("artifacts2022_tables"),
+        runs=artifacts2022_lists,
         tables=f"{papers.folder}/artifacts2022/tables",
     message:
         "Put the runs of artifacts2022 into tables"

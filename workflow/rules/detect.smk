@@ -28,7 +28,7 @@ for stage in plan.detectors:
             mem_mb=2000,
             runtime=10,
         params:
-            *plan.code(stage),
+            code=plan.code(stage),
             options=plan.stage_options(stage),
             failures=plan.failed(stage),
         message:

@@ -60,7 +60,7 @@ rule papers_recording:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("papers_recording"),
+        code=plan.code("papers_recording"),
         recording=papers.recording_flags,
     message:
         "Prepare {wildcards.recording}"
@@ -83,7 +83,7 @@ rule papers_script:
         mem_mb=1000,
         runtime=5,
     params:
-        *plan.code("papers_script"),
+        code=plan.code("papers_script"),
     message:
         "Copy the plotting script"
     shell:
@@ -112,7 +112,7 @@ rule papers_page:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("papers_page", "evaluation/templates", "report/templates"),
+        code=plan.code("papers_page", "evaluation/templates", "report/templates"),
         options=papers.paper_options,
         note=papers.note,
     message:
@@ -139,7 +139,7 @@ rule papers_index:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("papers_index", "evaluation/templates", "report/templates"),
+        code=plan.code("papers_index", "evaluation/templates", "report/templates"),
     message:
         "Put the papers together"
     shell:

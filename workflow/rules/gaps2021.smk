@@ -32,7 +32,7 @@ rule gaps2021_runs:
         mem_mb=4000,
         runtime=240,
     params:
-        *plan.code("gaps2021_runs"),
+        code=plan.code("gaps2021_runs"),
         seed=papers.options.seed,
         options=gaps2021["runs"].flag,
     message:
@@ -59,7 +59,7 @@ rule gaps2021_descriptors:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("gaps2021_descriptors"),
+        code=plan.code("gaps2021_descriptors"),
         options=gaps2021["descriptors"].flag,
     message:
         "Describe {wildcards.recording}"
@@ -93,9 +93,9 @@ rule gaps2021_tables:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("gaps2021_tables"),
-        runs=gaps2021["runs"].list,
-        described=gaps2021["descriptors"].list,
+        code=plan.code("gaps2021_tables"),
+        runs=gaps2021["runs"].list_file,
+        described=gaps2021["descriptors"].list_file,
         options=papers.flag("gaps2021", "networks", "published_as"),
     message:
         "Put the runs of gaps2021 into tables"

@@ -21,7 +21,7 @@ rule ingest:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("ingest"),
+        code=plan.code("ingest"),
         options=plan.stage_options("ingest"),
         failures=plan.failed("ingest"),
         source=plan.data.original,
@@ -52,7 +52,7 @@ rule mesh:
         mem_mb=4000,
         runtime=20,
     params:
-        *plan.code("mesh"),
+        code=plan.code("mesh"),
         options=plan.stage_options("mesh"),
         failures=plan.failed("mesh"),
         list=files.markers_list,

@@ -46,7 +46,7 @@ rule pma2018_runs:
         mem_mb=2000,
         runtime=60,
     params:
-        *plan.code("pma2018_runs"),
+        code=plan.code("pma2018_runs"),
         seed=papers.options.seed,
         options=pma2018["runs"].flag,
     message:
@@ -79,8 +79,8 @@ rule pma2018_tables:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("pma2018_tables"),
-        runs=pma2018["runs"].list,
+        code=plan.code("pma2018_tables"),
+        runs=pma2018["runs"].list_file,
         options=pma2018_options,
     message:
         "Put the runs of pma2018 into tables"

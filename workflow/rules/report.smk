@@ -30,7 +30,7 @@ rule qc:
         mem_mb=2000,
         runtime=10,
     params:
-        *plan.code("qc", "report/templates"),
+        code=plan.code("qc", "report/templates"),
         options=plan.stage_options("qc"),
         failures=plan.failed("qc"),
     message:
@@ -59,7 +59,7 @@ rule report:
         mem_mb=4000,
         runtime=20,
     params:
-        *plan.code("report", "report/templates"),
+        code=plan.code("report", "report/templates"),
         options=plan.stage_options("report"),
         failures=plan.failed("report"),
         list=files.quality_list,

@@ -27,7 +27,7 @@ rule repair:
         mem_mb=4000,
         runtime=30,
     params:
-        *plan.code("repair"),
+        code=plan.code("repair"),
         options=plan.stage_options("repair"),
         decisions=plan.data.decisions_flag,
         failures=plan.failed("repair"),
@@ -58,7 +58,7 @@ rule poses:
         mem_mb=4000,
         runtime=20,
     params:
-        *plan.code("poses"),
+        code=plan.code("poses"),
         options=plan.stage_options("poses"),
         failures=plan.failed("poses"),
         list=files.repaired_list,
@@ -92,8 +92,7 @@ rule fill:
         mem_mb=4000,
         runtime=60,
     params:
-        *plan.code("fill"),
-        code=plan.code_hash("fill"),
+        code=plan.code("fill"),
         options=plan.stage_options("fill"),
         decisions=plan.data.decisions_flag,
         failures=plan.failed("fill"),
@@ -135,7 +134,7 @@ for suffix in FORMATS:
             mem_mb=2000,
             runtime=10,
         params:
-            *plan.code("export"),
+            code=plan.code("export"),
             options=plan.stage_options("export"),
             failures=plan.failed("export"),
             source=plan.data.original,

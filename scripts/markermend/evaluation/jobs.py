@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from markermend.storage.atomic import write_text
@@ -23,8 +24,9 @@ class Jobs:
         Name of the folder of the tables, such as "runs".
     keys : tuple of str
         The wildcards.
-    rows : tuple of tuple of str
-        The values of the wildcards of each job.
+    list_rows : callable
+        Gives the values of the wildcards of each job. Thousands of recordings have millions of jobs, which are listed only in a run
+        that is asked for the experiments.
     options : str
         The options that the commands of the jobs read; see options.write_flag.
     """
@@ -32,7 +34,7 @@ class Jobs:
     folder: str
     name: str
     keys: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    list_rows: Callable[[], Iterable[tuple[str, ...]]]
     options: str
 
     @property
@@ -65,19 +67,32 @@ class Jobs:
         """
         return self.options
 
-    @property
-    def files(self) -> list[str]:
-        """The tables of all jobs."""
+    @cached_property
+    def rows(self) -> tuple[tuple[str, ...], ...]:
+        """The values of the wildcards of each job."""
+        return tuple(self.list_rows())
+
+    def files(self, wildcards: object = None) -> list[str]:
+        """Name the tables of all jobs, as inputs of a rule; see `Jobs.flag`."""
         folder = f"{self.folder}/{self.name}"
         return [f"{folder}/{'/'.join(row)}.tsv" for row in self.rows]
 
-    @property
-    def list(self) -> str:
-        """The list of the tables of all jobs, for commands (`@FILE`): a command line has no room for thousands.
+    def list_file(self, wildcards: object = None) -> str:
+        """Name the list of the tables of all jobs, for commands (`@FILE`): a command line has no room for thousands.
 
         Each set of jobs has a list of its own, so that runs with other options in the same folder leave it alone.
+
+        Parameters
+        ----------
+        wildcards : object, optional
+            Not used: there is one list.
+
+        Returns
+        -------
+        str
+            Its file.
         """
-        digest = hashlib.sha256("\n".join(self.files).encode()).hexdigest()
+        digest = hashlib.sha256("\n".join(self.files()).encode()).hexdigest()
         return f"{self.folder}/logs/{self.name}_{digest[:12]}.txt"
 
     @property
@@ -87,7 +102,7 @@ class Jobs:
 
     def write_list(self) -> None:
         """Write the list of the tables of all jobs."""
-        write_text(Path(self.list), "".join(f"{file}\n" for file in self.files))
+        write_text(Path(self.list_file()), "".join(f"{file}\n" for file in self.files()))
 
 
 def product(conditions: Mapping[str, Sequence[object]]) -> tuple[tuple[str, ...], ...]:

@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 from collections.abc import Iterable
 from functools import cache
-from modulefinder import ModuleFinder
 from pathlib import Path
-from typing import Any
 
 import markermend
-
-
-class OwnModules(ModuleFinder):
-    """Finds the modules of the package that a script imports, and no others."""
-
-    def find_module(self, name: str, path: Any, parent: Any = None) -> Any:
-        """Find a module; see `ModuleFinder.find_module`. Raises ImportError for what is not ours."""
-        if parent is None and path is None and name != markermend.__name__:
-            raise ImportError(name)
-        return super().find_module(name, path, parent)
 
 
 def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
@@ -43,13 +32,56 @@ def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
     """
     folder = script.resolve().parent
     library = folder if (folder / markermend.__name__).is_dir() else Path(markermend.__file__).resolve().parents[1]
-    finder = OwnModules(path=[str(library)])
-    finder.run_script(str(script.resolve()))
-    origins = (getattr(module, "__file__", None) for module in finder.modules.values())
-    files = [Path(origin) for origin in origins if origin]
+    files = modules(script.resolve(), library)
     for path in extra:
         files += [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
     return sorted(f"{name_of(file, [folder, library, folder.parent])}:{content_hash(file)}" for file in files)
+
+
+def modules(script: Path, library: Path) -> list[Path]:
+    """Find the modules of the package that a script imports, directly or not.
+
+    Parameters
+    ----------
+    script : Path
+        The script.
+    library : Path
+        The folder that holds the package.
+
+    Returns
+    -------
+    list of Path
+        Their files, and the script.
+    """
+    found = {script: None}
+    waiting = [script]
+    while waiting:
+        file = waiting.pop()
+        own = [own for name in _imported_names(file, content_hash(file)) for own in _files(name, library)]
+        waiting += [each for each in own if each not in found]
+        found |= dict.fromkeys(own)
+    return list(found)
+
+
+@cache
+def _imported_names(file: Path, digest: str) -> tuple[str, ...]:
+    """The modules of the package that a file of this content imports, with names that may be of modules in them."""
+    names: dict[str, None] = {}
+    for node in ast.walk(ast.parse(file.read_bytes())):
+        if isinstance(node, ast.Import):
+            names |= dict.fromkeys(each.name for each in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= dict.fromkeys([node.module, *(f"{node.module}.{each.name}" for each in node.names)])
+    return tuple(name for name in names if name.split(".")[0] == markermend.__name__)
+
+
+@cache
+def _files(name: str, library: Path) -> tuple[Path, ...]:
+    """The files that Python runs to import a module: of the packages around it and its own, as far as they are there."""
+    parts = name.split(".")
+    packages = [library.joinpath(*parts[:depth], "__init__.py") for depth in range(1, len(parts) + 1)]
+    module = library.joinpath(*parts).with_suffix(".py")
+    return tuple(file for file in (*packages, module) if file.is_file())
 
 
 def name_of(file: Path, folders: Iterable[Path]) -> str:

@@ -22,6 +22,7 @@ from markermend.options.flags import write_flags
 from markermend.options.general import EXPERIMENTS
 from markermend.planning import code_hashes, run_facts, run_summary
 from markermend.planning import config as planning_config
+from markermend.planning.code_changes import code_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import ResultFiles
@@ -155,7 +156,7 @@ class Plan:
         """A file of each recording of a subject."""
         return [pattern.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]]
 
-    def code(self, stage: str, *extra: str) -> list[str]:
+    def code(self, stage: str, *extra: str) -> str:
         """Hash the code of a stage: an edit of a module reruns the stages that use it.
 
         Parameters
@@ -167,25 +168,12 @@ class Plan:
 
         Returns
         -------
-        list of str
-            The script and its modules by content, one entry each.
-        """
-        return code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
-
-    def code_hash(self, stage: str) -> str:
-        """Hash the code of a stage as a whole.
-
-        Parameters
-        ----------
-        stage : str
-            Name of its script.
-
-        Returns
-        -------
         str
-            The first 16 hex digits of the sha256 of what `Plan.code` gives.
+            The first 16 hex digits of the sha256 of its script and modules. Snakemake keeps the parameters of every job, and writes them
+            to disk for every file: a hundred hashes each would be most of its memory.
         """
-        return hashlib.sha256("\n".join(self.code(stage)).encode()).hexdigest()[:16]
+        entries = code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
+        return hashlib.sha256("\n".join(entries).encode()).hexdigest()[:16]
 
     def writes_trc(self, suffix: str) -> bool:
         """Whether recordings of a format are written as TRC besides.
@@ -259,7 +247,7 @@ class Plan:
         facts = run_facts.run_facts(
             self.project, config=write_config(self.options), recordings=len(self.data.entries), started=self.started
         )
-        write_json(folder / "provenance.json", facts)
+        write_json(Path(self.files.provenance), facts)
         print(run_summary.summary(map(Path, self.quality_files), folder / "index.html"), file=sys.stderr)
 
 
@@ -290,12 +278,13 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
     planning_config.prepare(config)
     options = planning_config.check({key: config[key] for key in config if key != EXPERIMENTS}, deployed=deployed)
     results = planning_config.folder(options["general"].results)
+    files = ResultFiles(results)
     data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas")
     return Plan(
         options=options,
         project=project,
-        files=ResultFiles(results),
+        files=files,
         data=data,
         failures=planning_config.failures(results),
-        warnings=[*planning_config.warnings(options), *warnings],
+        warnings=[*planning_config.warnings(options), *warnings, *code_changes(project, Path(files.provenance))],
     )

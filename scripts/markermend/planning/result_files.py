@@ -108,6 +108,11 @@ class ResultFiles:
         return f"{self.results}/report"
 
     @property
+    def provenance(self) -> str:
+        """The facts of the last run."""
+        return f"{self.report}/provenance.json"
+
+    @property
     def sources(self) -> str:
         """The record of the original files and their checksums."""
         return f"{self.report}/logs/sources.json"

@@ -27,7 +27,9 @@ def test_without_recordings_each_paper_has_synthetic_ones(paper):
     assert papers.recordings(paper) and set(papers.recordings(paper)) <= set(known)
     assert papers.source(about()) == []
     assert papers.recording_flags(about())[0].startswith('--synthetic={"activities": ')
-    assert all(file.startswith(f"/out/papers/{paper}/") for jobs in papers.jobs[paper].values() for file in jobs.files)
+    assert all(
+        file.startswith(f"/out/papers/{paper}/") for jobs in papers.jobs[paper].values() for file in jobs.files()
+    )
 
 
 @pytest.mark.parametrize("paper", PAPERS)

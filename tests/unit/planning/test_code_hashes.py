@@ -11,6 +11,7 @@ import pytest
 import markermend
 from markermend.core.artifacts import DETECTORS
 from markermend.planning import code_hashes, run_facts
+from support.naive import imports as naive
 from support.paths import PROJECT
 
 SCRIPTS = PROJECT / "scripts"
@@ -41,6 +42,12 @@ def test_code_is_the_script_what_it_imports_and_what_it_reads(project):
     entries = code_hashes.code(project / "scripts/fill.py", [project / "workflow/report"])
     modules = ["markermend/__init__.py", "markermend/ensemble.py", "markermend/weights.py"]
     assert names(entries) == ["fill.py", *modules, "workflow/report/page.html"]
+
+
+@pytest.mark.parametrize("stage", ["fill", "ingest", "mesh", "papers_page"])
+def test_modules_are_those_that_python_itself_finds(stage):
+    script = SCRIPTS / f"{stage}.py"
+    assert set(code_hashes.modules(script, SCRIPTS)) == naive.modules(script, SCRIPTS)
 
 
 def test_an_edit_changes_the_entry_of_its_module_only(project):

@@ -76,12 +76,20 @@ def test_an_option_reaches_the_stages_that_read_it_and_no_other(plan, config):
     assert changed == ["slow", "repair", "fill"]
 
 
-def test_code_is_the_script_its_modules_and_what_else_it_reads(plan):
-    names = {entry.partition(":")[0] for entry in plan.code("qc", "report/templates")}
-    assert {"qc.py", "markermend/report/rendering.py", "markermend/report/templates/page.html.j2"} <= names
-    assert "markermend/report/templates/page.html.j2" not in {
-        entry.partition(":")[0] for entry in plan.code("fill", "report/rendering.py")
-    }
+def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_it_reads(plan):
+    assert len(plan.code("qc")) == 16 and plan.code("qc") == plan.code("qc")
+    assert len({plan.code("qc"), plan.code("qc", "report/templates"), plan.code("fill")}) == 3
+
+
+def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
+    plan.close()
+    assert not make_plan(config, PROJECT, deployed=False).warnings
+    path = tmp_path / "out/report/provenance.json"
+    facts = json.loads(path.read_text())
+    facts["code"]["fill"] = [entry for entry in facts["code"]["fill"] if "filling/fill.py" not in entry]
+    path.write_text(json.dumps(facts))
+    named = "code changed since the last run: markermend/filling/fill.py (of fill)"
+    assert make_plan(config, PROJECT, deployed=False).warnings == [named]
 
 
 def test_a_failure_counts_for_what_the_job_is_about(tmp_path, plan, config):

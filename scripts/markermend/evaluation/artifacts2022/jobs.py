@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 from markermend.evaluation.artifacts2022.options import Artifacts2022Options, ReadingOptions, SlowSweepOptions
 from markermend.evaluation.jobs import Jobs, batches, product
@@ -61,11 +62,16 @@ def jobs(options: Artifacts2022Options, recordings: Sequence[str], folder: str) 
             folder,
             name,
             tuple(own[0]),
-            tuple(row for each in own for row in product(each)),
+            partial(_rows, own),
             write_flag(options, "denoise_hz", *read),
         )
         for name, (own, read) in conditions.items()
     }
+
+
+def _rows(conditions: Sequence[Conditions]) -> Iterator[tuple[str, ...]]:
+    """The values of the wildcards of each job, under one set of conditions after the other."""
+    return (row for each in conditions for row in product(each))
 
 
 def _classified(

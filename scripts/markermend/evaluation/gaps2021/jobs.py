@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 from markermend.evaluation.gaps2021.methods import GROUPS
 from markermend.evaluation.gaps2021.options import Gaps2021Options
@@ -39,26 +40,21 @@ def jobs(options: Gaps2021Options, recordings: Sequence[str], folder: str) -> Ma
     mapping of str to Jobs
         The jobs of each rule, by the name of the folder of its tables: methods have runs of their own number.
     """
-    keys = ("recording", "methods", "batch")
-    rows = [
-        row
-        for group in GROUPS
-        for row in product(
-            {
-                "recording": recordings,
-                "methods": [group],
-                "batch": batches(getattr(options.runs, group), options.batch),
-            }
-        )
-    ]
     flag = write_flag(options, "max_duration_s", "denoise_hz", "mean_lengths", "gaps", "knots", "networks", "low_rank")
     return {
-        "runs": Jobs(folder, "runs", keys, tuple(rows), flag),
+        "runs": Jobs(folder, "runs", ("recording", "methods", "batch"), partial(_rows, options, recordings), flag),
         "descriptors": Jobs(
             folder,
             "descriptors",
             ("recording",),
-            product({"recording": recordings}),
+            partial(product, {"recording": recordings}),
             write_flag(options, "max_duration_s", "denoise_hz"),
         ),
     }
+
+
+def _rows(options: Gaps2021Options, recordings: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """The recording, methods and batch of each job of runs."""
+    for group in GROUPS:
+        numbers = batches(getattr(options.runs, group), options.batch)
+        yield from product({"recording": recordings, "methods": [group], "batch": numbers})

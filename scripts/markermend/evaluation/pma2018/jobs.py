@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 from markermend.evaluation.jobs import Jobs, batches
@@ -128,12 +129,18 @@ def jobs(options: Pma2018Options, recordings: Sequence[str], folder: str) -> Map
     mapping of str to Jobs
         The jobs of each rule, by the name of the folder of its tables.
     """
-    rows = tuple((recording, *row) for recording, row in product(recordings, _rows(options)))
     read = write_flag(options, "models", "averages", "tested_average")
+    rows = partial(_rows, options, recordings)
     return {"runs": Jobs(folder, "runs", ("recording", "procedure", "condition", "batch"), rows, read)}
 
 
-def _rows(options: Pma2018Options) -> Iterator[tuple[str, str, str]]:
+def _rows(options: Pma2018Options, recordings: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """The recording, procedure, condition and batch of each job."""
+    for recording, row in product(recordings, _rows_of_recording(options)):
+        yield recording, *row
+
+
+def _rows_of_recording(options: Pma2018Options) -> Iterator[tuple[str, str, str]]:
     """Procedure, condition and batch of each job of a recording."""
     figures, batch = figure_conditions(options), options.batch
     for procedure in options.procedures:

@@ -12,16 +12,16 @@ OPTIONS = Artifacts2022Options(
 
 def test_our_own_detectors_have_runs_of_their_own():
     own = jobs(OPTIONS, ["walk"], "out")["runs"]
-    assert sorted(own.files) == [
+    assert sorted(own.files()) == [
         "out/runs/walk/default/10/20/0-3.tsv",
         "out/runs/walk/paper/10/20/0-4.tsv",
         "out/runs/walk/paper/10/20/4-6.tsv",
     ]
-    assert all("/paper/" in file for file in jobs(replace(OPTIONS, presets=("paper",)), ["a"], "out")["runs"].files)
+    assert all("/paper/" in file for file in jobs(replace(OPTIONS, presets=("paper",)), ["a"], "out")["runs"].files())
 
 
 def test_our_own_detectors_have_no_more_runs_than_there_are():
-    assert sum("/default/" in file for file in jobs(replace(OPTIONS, runs=2), ["walk"], "out")["runs"].files) == 1
+    assert sum("/default/" in file for file in jobs(replace(OPTIONS, runs=2), ["walk"], "out")["runs"].files()) == 1
 
 
 def test_our_own_repair_is_left_out_of_later_runs():

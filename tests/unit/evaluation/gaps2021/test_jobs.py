@@ -18,7 +18,7 @@ def test_methods_have_runs_of_their_own_number():
         "0-4",
         "4-5",
     ]
-    assert "/out/gaps2021/runs/sit/default/4-5.tsv" in own.files
+    assert "/out/gaps2021/runs/sit/default/4-5.tsv" in own.files()
 
 
 def test_runs_do_not_depend_on_options_of_the_tables_or_on_their_number():

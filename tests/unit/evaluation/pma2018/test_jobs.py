@@ -34,7 +34,7 @@ def test_each_procedure_has_the_conditions_of_its_figures_and_tests():
 
 def test_the_files_of_jobs_follow_the_pattern_of_the_rule():
     own = jobs(Pma2018Options(), ["85_02"], "out")["runs"]
-    assert own.files[0] == "out/runs/85_02/text/g3_L0.5/0-20.tsv"
+    assert own.files()[0] == "out/runs/85_02/text/g3_L0.5/0-20.tsv"
     assert own.pattern.startswith("out/runs/{recording,")
 
 
