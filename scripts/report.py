@@ -12,7 +12,7 @@ from markermend.command.stage import Stage
 from markermend.report import dataset_summary, rendering
 from markermend.storage import atomic
 
-STAGE = Stage("report", __doc__)
+STAGE = Stage("report", __doc__, sets_aside=False)
 STAGE.reads("qc", "recordings in numbers", many=True, optional=True)
 STAGE.writes("index", "the report, as HTML")
 STAGE.writes("summary", "one row per recording, tab-separated")

@@ -3,7 +3,8 @@
 A stage that fails on a recording sets that recording aside: each of its outputs is written as a note with the reason,
 later stages pass the note on, the report lists it, and the run goes on. A BadRecording stays bad until the file, the
 code or an option changes. Any other failure may pass (a disk that went away, memory that ran out), so it is counted in
-failures.tsv, and the next run tries the stage again.
+failures.tsv, and the next run tries the stage again. A stage that cannot write its outputs, and one that is about no recording,
+ends with an error: nobody may take what is missing for done.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
-from markermend.command.failures import count_failure
+from markermend.command.failures import count_failure, describe
 from markermend.command.inputs import checksums
 from markermend.command.kept_outputs import are_current, dependencies_hash
 from markermend.core.recording import BadRecording, SetAside
@@ -29,6 +30,7 @@ from markermend.options.flags import flag, passed, stage_options
 from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
 from markermend.storage import output_checksums, stage_files
+from markermend.storage.atomic import NotWritten
 from markermend.storage.folder_names import printable
 
 log = logging.getLogger("markermend")
@@ -54,10 +56,21 @@ class Stage:
         The class of its options.
     given : type, optional
         A class with what the stage is given in addition to its section of the config.
+    sets_aside : bool, optional
+        Whether the stage sets aside what it fails on; otherwise a failure ends it with an error.
     """
 
-    def __init__(self, name: str, description: str, options: type = NoOptions, given: type = NoOptions) -> None:
+    def __init__(
+        self,
+        name: str,
+        description: str,
+        options: type = NoOptions,
+        given: type = NoOptions,
+        *,
+        sets_aside: bool = True,
+    ) -> None:
         self.name = name
+        self._sets_aside = sets_aside
         self.parser = argparse.ArgumentParser(
             prog=f"{name}.py",
             description=description,
@@ -136,8 +149,26 @@ class Stage:
             The arguments, in place of the command line's.
         set_aside : callable, optional
             How to write the outputs of a recording that was set aside, where a note in their place will not do.
+
+        Raises
+        ------
+        SystemExit
+            With the status 1 where an output cannot be written, and where the stage fails and sets nothing aside.
         """
         logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
+        try:
+            self._run(work, argv, set_aside)
+        except NotWritten as error:
+            log.error("%s: %s", self.name, error)
+            raise SystemExit(1) from error
+
+    def _run(
+        self,
+        work: Callable[[Any], str | None],
+        argv: Sequence[str] | None,
+        set_aside: Callable[[Any, SetAside], None] | None,
+    ) -> None:
+        """As `run`; NotWritten where an output cannot be written."""
         arguments = vars(self.parser.parse_args(argv))
         log.info("%s", shlex.join([sys.executable, *([sys.argv[0], *argv] if argv is not None else sys.argv)]))
         made = [
@@ -155,6 +186,9 @@ class Stage:
 
         result, failure = self._attempt(prepare_and_work, call, arguments)
         if failure is not None:
+            if not self._sets_aside:
+                log.error("%s", failure.reason)
+                raise SystemExit(1)
             if set_aside is not None:
                 set_aside(call, failure)
             else:
@@ -200,11 +234,14 @@ class Stage:
             return f"set aside by {note.stage}: {note.reason}", note
         except BadRecording as bad:
             return f"set aside: {bad}", SetAside(self.name, printable(str(bad)))
+        except NotWritten:
+            raise
         except Exception as error:
             log.error("%s", traceback.format_exc())
-            text = printable(self._without_folders(str(error), arguments))
-            failure = SetAside(self.name, f"{self.name} failed: {type(error).__name__}: {text}")
-            count_failure(getattr(call, self.outputs[0]).parent, self.name, failure.reason)
+            text = printable(self._without_folders(describe(error), arguments))
+            failure = SetAside(self.name, f"{self.name} failed: {text}")
+            if self._sets_aside:
+                count_failure(getattr(call, self.outputs[0]).parent, self.name, failure.reason)
             return f"set aside: {failure.reason}", failure
 
     def _without_folders(self, text: str, arguments: dict[str, Any]) -> str:

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Errors of a disk without room."""
+
+
+class NotWritten(OSError):
+    """A file that could not be written; the message says which, why and what to do."""
 
 
 def sha256(path: Path) -> str:
@@ -41,14 +49,55 @@ def replacing(path: Path) -> Iterator[Path]:
     ------
     Path
         A temporary path beside it to write to, which is renamed when the block succeeds and deleted otherwise.
+
+    Raises
+    ------
+    NotWritten
+        Where the file cannot be written. Other errors of the block, such as those of a file that it reads, are left as they are.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield temporary
         os.replace(temporary, path)
+    except OSError as error:
+        if isinstance(error, NotWritten) or not _concerns(error, path, temporary):
+            raise
+        raise NotWritten(not_written(path, error)) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+
+
+def _concerns(error: OSError, path: Path, temporary: Path) -> bool:
+    """Whether an error is one of writing a file. Copying names the file that it reads even where the disk is full."""
+    if error.errno in (*FULL, errno.EROFS) or error.filename is None:
+        return True
+    return Path(os.fsdecode(error.filename)) in (path, temporary, *path.parents)
+
+
+def not_written(path: Path, error: OSError) -> str:
+    """Say that a file could not be written, why, and what to do.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    error : OSError
+        What went wrong.
+
+    Returns
+    -------
+    str
+        One sentence.
+    """
+    if error.errno in FULL:
+        why, advice = "there is no room", "make room on the disk or choose another folder for the results"
+    elif error.errno in (errno.EROFS, errno.EACCES, errno.EPERM):
+        why, advice = "its folder is read-only", "choose another folder for the results, or allow writing"
+    else:
+        why, advice = error.strerror or str(error), "see to the disk"
+    return f"{path} was not written: {why} ({advice}, and run again)"
 
 
 def write_text(path: Path, text: str) -> None:

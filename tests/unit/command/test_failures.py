@@ -1,9 +1,30 @@
-"""Failures are counted beside the results, one line each."""
+"""Failures are described in one line each, and counted beside the results."""
 
-from markermend.command.failures import count_failure
+import numpy as np
+import pytest
+
+from markermend.command.failures import count_failure, describe
 
 
 def test_each_failure_is_a_line_whatever_its_reason(tmp_path):
     for reason in ("disk full", "a\tb\nc"):
         count_failure(tmp_path / "S01/walk", "fill", reason)
     assert (tmp_path / "S01/walk/failures.tsv").read_text() == "fill\tdisk full\nfill\ta b c\n"
+
+
+
+def test_lack_of_memory_is_named_with_or_without_a_size():
+    assert describe(MemoryError()).startswith("not enough memory: run fewer recordings at once")
+    with pytest.raises(MemoryError) as failure:
+        np.empty(2**57)
+    assert describe(failure.value).startswith("not enough memory (Unable to allocate 1.00 EiB")
+
+
+def test_a_file_that_may_not_be_read_is_named():
+    error = PermissionError(13, "Permission denied", "/data/walk.c3d")
+    assert describe(error) == "/data/walk.c3d cannot be read: permission denied. Allow reading it, and run again"
+
+
+def test_any_other_failure_has_its_kind_and_one_line():
+    assert describe(KeyError("a")) == "KeyError: 'a'"
+    assert describe(ValueError("two\nlines")) == "ValueError: two lines"

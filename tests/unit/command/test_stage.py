@@ -2,6 +2,7 @@
 
 import json
 import logging
+import os
 import shlex
 import sys
 from collections.abc import Mapping
@@ -217,3 +218,43 @@ def test_help_reads(stage, capsys):
         stage.parser.parse_args(["--help"])
     text = capsys.readouterr().out
     assert "100 % of it" in text and "--limit FLOAT|none" in text and "--mesh JSON" in text
+
+
+def test_lack_of_memory_is_a_reason(stage, argv, tmp_path):
+    stage.run(fails_with(MemoryError()), argv)
+    with pytest.raises(SetAside, match="blur failed: not enough memory: run fewer recordings at once"):
+        stage_files.read_json(tmp_path / "out.json")
+
+
+def test_an_output_that_cannot_be_written_ends_the_stage_with_an_error(stage, argv, tmp_path, caplog):
+    def work(call):
+        with atomic.replacing(call.blurred):
+            raise OSError(28, "No space left on device")
+
+    with pytest.raises(SystemExit) as failure:
+        stage.run(work, argv)
+    assert failure.value.code == 1
+    assert not (tmp_path / "out.json").exists()
+    assert caplog.messages[-1].startswith(f"blur: {tmp_path / 'out.json'} was not written: there is no room")
+    assert "Traceback" not in caplog.text
+
+
+def test_a_note_that_cannot_be_written_ends_the_stage_with_an_error(stage, argv, tmp_path, monkeypatch):
+    def refuse(source, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(SystemExit) as failure:
+        stage.run(fails_with(BadRecording("no frames")), argv)
+    assert failure.value.code == 1
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_a_stage_that_sets_nothing_aside_ends_with_an_error(tmp_path, caplog):
+    made = Stage("sum", "Sum.", sets_aside=False)
+    made.writes("total", "out")
+    with pytest.raises(SystemExit) as failure:
+        made.run(fails_with(ValueError("odd")), ["--total", str(tmp_path / "out.html")])
+    assert failure.value.code == 1
+    assert not any(tmp_path.iterdir())
+    assert caplog.messages[-1] == "sum failed: ValueError: odd"

@@ -1,0 +1,66 @@
+"""Files that are written as a whole or not at all, and what is said of those that are not."""
+
+import errno
+import os
+import shutil
+
+import pytest
+
+from markermend.storage import atomic
+from markermend.storage.atomic import NotWritten
+
+
+def test_a_file_that_fails_to_be_written_stays_as_it_was(tmp_path):
+    path = tmp_path / "a" / "b.txt"
+    atomic.write_text(path, "old")
+    with pytest.raises(ValueError), atomic.replacing(path) as temporary:
+        temporary.write_text("new")
+        raise ValueError
+    assert path.read_text() == "old"
+    assert os.listdir(path.parent) == ["b.txt"]
+
+
+@pytest.fixture
+def no_room():
+    """Files of this process may have 1000 bytes."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_disk_without_room_is_named_and_nothing_is_left_on_it(tmp_path, no_room):
+    with pytest.raises(NotWritten, match=r"large.txt was not written: there is no room \(make room"):
+        atomic.write_text(tmp_path / "large.txt", "x" * 2000)
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_copy_onto_a_full_disk_is_not_taken_for_a_bad_original(tmp_path, no_room):
+    (tmp_path / "source").write_bytes(b"x" * 900)
+    with pytest.raises(NotWritten), atomic.replacing(tmp_path / "copy") as temporary:
+        shutil.copyfile(tmp_path / "source", temporary)
+        with open(temporary, "ab") as file:
+            file.write(b"x" * 200)
+
+
+@pytest.mark.parametrize("code", [errno.EROFS, errno.EACCES, errno.EPERM])
+def test_a_folder_that_is_read_only_is_named(tmp_path, monkeypatch, code):
+    def refuse(source, target):
+        raise OSError(code, os.strerror(code), str(source))
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(NotWritten, match=r"a.txt was not written: its folder is read-only"):
+        atomic.write_text(tmp_path / "a.txt", "x")
+
+
+def test_a_file_in_place_of_a_folder_is_named(tmp_path):
+    (tmp_path / "results").touch()
+    with pytest.raises(NotWritten, match=r"a.txt was not written: (Not a directory|File exists)"):
+        atomic.write_text(tmp_path / "results" / "a.txt", "x")
+
+
+def test_a_file_that_the_block_reads_keeps_its_own_error(tmp_path):
+    with pytest.raises(FileNotFoundError) as failure, atomic.replacing(tmp_path / "copy") as temporary:
+        shutil.copyfile(tmp_path / "gone", temporary)
+    assert str(failure.value.filename) == str(tmp_path / "gone")
