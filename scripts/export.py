@@ -22,7 +22,7 @@ from markermend.options.reporting import ExportOptions
 from markermend.storage import atomic, change_file, originals_file, stage_files
 
 STAGE = Stage("export", __doc__, ExportOptions)
-STAGE.reads("source", "the original file")
+STAGE.reads_original("the original file")
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("filled", "trajectories after repair and filling")
 STAGE.reads("record", "what repair and filling did to each stretch")
@@ -52,7 +52,7 @@ def work(call: Any) -> str:
 
 
 def set_aside(call: Any, note: SetAside) -> None:
-    certificate = write_back.pass_through(call.source, call.cleaned, note.stage, note.reason)
+    certificate = write_back.pass_through(call.source, call.cleaned, note, within=call.within)
     nothing = Recording((), np.empty((0, 0, 3)), 1.0)
     atomic.write_text(call.changes, change_table([], nothing))
     stage_files.set_aside(call.originals, note.stage, note.reason)

@@ -11,14 +11,15 @@ from markermend.command.stage import Stage
 from markermend.formats.ingest import check_unchanged, ingest_file
 from markermend.options.general import RecordingOptions
 from markermend.options.ingest import IngestOptions
-from markermend.storage import stage_files
+from markermend.storage import source_file, stage_files
 
 STAGE = Stage("ingest", __doc__, IngestOptions, RecordingOptions)
-STAGE.reads("source", "the original: .c3d, .trc, .csv or .tsv")
+STAGE.reads_original("the original: .c3d, .trc, .csv or .tsv")
 STAGE.writes("markers", "trajectories as ingested")
 
 
 def work(call: Any) -> str:
+    source_file.check(call.source, within=call.within, planned=call.sha256)
     recording = ingest_file(
         call.source,
         subject=call.subject,
@@ -29,11 +30,9 @@ def work(call: Any) -> str:
     )
     check_unchanged(recording, [call.sha256, call.facts["inputs"]["source"]])
     stage_files.write_recording(call.markers, recording, call.facts)
-    return (
-        f"{recording.frames} frames of {len(recording.markers)} markers at {recording.rate:g} Hz, "
-        f"{recording.missing.mean():.1%} missing, "
-        f"{recording.facts['kind']}, {len(recording.facts['warnings'])} warnings"
-    )
+    size = f"{recording.frames} frames of {len(recording.markers)} markers at {recording.rate:g} Hz"
+    facts = f"{recording.facts['kind']}, {len(recording.facts['warnings'])} warnings"
+    return f"{size}, {recording.missing.mean():.1%} missing, {facts}"
 
 
 def main(argv: Sequence[str] | None = None) -> None:

@@ -56,7 +56,18 @@ def run(source, folder, config):
         return shlex.split(write_flags(sections[name]))
 
     recording = ["--recording=walk", "--subject=S01", "--kind=dynamic", "--rate=none", "--sha256=none"]
-    ingest.main(["--source", str(source), "--markers", files["01_markers.parquet"], *recording, *options("ingest")])
+    ingest.main(
+        [
+            "--source",
+            str(source),
+            "--within",
+            "none",
+            "--markers",
+            files["01_markers.parquet"],
+            *recording,
+            *options("ingest"),
+        ]
+    )
     mesh.main(["--markers", files["01_markers.parquet"], "--mesh-files", "--mesh", body, *options("mesh")])
     labels.main([*common, "--earlier", "--events", found[0], *options("labels")])
     frozen.main([*common, "--earlier", found[0], "--events", found[1], *options("frozen")])
@@ -81,7 +92,7 @@ def run(source, folder, config):
     )  # fmt: skip
     written = ["--changes", str(own / "changes.tsv"), "--certificate", str(own / "certificate.json")]
     export.main(
-        ["--source", str(source), "--markers", files["01_markers.parquet"], "--filled", at["07"], "--record", at["07_changes"],
+        ["--source", str(source), "--within", "none", "--markers", files["01_markers.parquet"], "--filled", at["07"], "--record", at["07_changes"],
          "--cleaned", str(own / "cleaned.c3d"), "--originals", at["originals"], *written, "--trc", *options("export")]
     )  # fmt: skip
     qc.main(

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 
 import numpy as np
 import pytest
@@ -30,6 +31,7 @@ def flags(source, target, **more):
         "kind": "auto",
         "rate": "none",
         "sha256": "none",
+        "within": "none",
         "static-motion-mm": 15,
         "min-placeholder-distance-mm": 1000,
         **more,
@@ -74,3 +76,51 @@ def test_the_script_sets_a_bad_recording_aside(tmp_path, name, content, reason):
     run_script(flags(source, target))
     with pytest.raises(SetAside, match=reason):
         stage_files.read_recording(target)
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason"),
+    [
+        ("pipe", "is not a file but a pipe"),
+        ("device", "leads out of the folder"),
+        ("secret", "leads out of the folder"),
+    ],
+)
+def test_the_script_opens_no_pipe_and_no_link_out_of_the_folder(tmp_path, kind, reason):
+    folder, source, target = (
+        tmp_path / "study",
+        tmp_path / "study/walk.c3d",
+        tmp_path / "results" / "01_markers.parquet",
+    )
+    folder.mkdir()
+    if kind == "pipe":
+        os.mkfifo(source)
+    else:
+        source.symlink_to({"device": "/dev/zero", "secret": write(tmp_path / "secret.c3d")}[kind])
+    run_script(flags(source, target, within=folder))
+    with pytest.raises(SetAside, match=reason):
+        stage_files.read_recording(target)
+
+
+def test_the_script_tries_again_where_the_file_is_gone_since_the_run_was_planned(tmp_path):
+    target = tmp_path / "results" / "01_markers.parquet"
+    run_script(flags(tmp_path / "walk.c3d", target, sha256="0" * 64))
+    with pytest.raises(SetAside, match=r"walk.c3d is gone since the run began"):
+        stage_files.read_recording(target)
+    assert (target.parent / "failures.tsv").exists()
+    (target.parent / "failures.tsv").unlink()
+    run_script(flags(tmp_path / "walk.c3d", target, sha256="not there"))
+    assert not (target.parent / "failures.tsv").exists()
+
+
+def test_a_locked_file_is_named_and_tried_again(tmp_path, monkeypatch):
+    source, target = write(tmp_path / "walk.c3d"), tmp_path / "results" / "01_markers.parquet"
+
+    def locked(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(atomic, "sha256", locked)
+    run_script(flags(source, target))
+    with pytest.raises(SetAside, match=r"ingest failed: walk.c3d cannot be read: permission denied"):
+        stage_files.read_recording(target)
+    assert (target.parent / "failures.tsv").exists()

@@ -33,7 +33,12 @@ def test_a_command_has_the_options_of_its_section(name):
     files = {*stage_of(name).inputs, *stage_of(name).outputs}
     own = {option.name for option in stage_options(SECTIONS[name])}
     assert own <= required - files
-    given = {"ingest": {"recording", "subject", "kind", "rate"}, "repair": {"decisions"}, "fill": {"decisions", "code"}}
+    given = {
+        "ingest": {"recording", "subject", "kind", "rate", "sha256", "within"},
+        "repair": {"decisions"},
+        "fill": {"decisions", "code"},
+        "export": {"within"},
+    }
     assert required - files - own == given.get(name, set())
 
 

@@ -25,11 +25,12 @@ rule ingest:
         options=plan.stage_options("ingest"),
         failures=plan.failed("ingest"),
         source=plan.data.original,
+        within=plan.data.within,
         recording=plan.data.recording_flags,
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/ingest.py --source {params.source:q} --markers {output.markers:q}"
+        "{PYTHON:q} {SCRIPTS:q}/ingest.py --source {params.source:q} --within {params.within:q} --markers {output.markers:q}"
         " {params.recording:q} {params.options} 2> {log:q}"
 
 

@@ -138,11 +138,12 @@ for suffix in FORMATS:
             options=plan.stage_options("export"),
             failures=plan.failed("export"),
             source=plan.data.original,
+            within=plan.data.within,
             source_hash=plan.data.source_hash,
         message:
             "Export {wildcards.subject}/{wildcards.recording}"
         shell:
-            "{PYTHON:q} {SCRIPTS:q}/export.py --source {params.source:q} --markers {input.markers:q}"
+            "{PYTHON:q} {SCRIPTS:q}/export.py --source {params.source:q} --within {params.within:q} --markers {input.markers:q}"
             " --filled {input.filled:q} --record {input.record:q} --cleaned {output.cleaned:q} --trc {output.trc:q}"
             " --changes {output.changes:q} --originals {output.originals:q}"
             " --certificate {output.certificate:q} {params.options} 2> {log:q}"

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from markermend.storage.atomic import NotWritten, not_written
 
+from markermend.core.recording import SourceChanged
+
 
 def describe(error: Exception) -> str:
     """Say in one line what went wrong and, where that is known, what to do.
@@ -22,6 +24,8 @@ def describe(error: Exception) -> str:
         The line.
     """
     text = " ".join(str(error).split())
+    if isinstance(error, SourceChanged):
+        return text
     if isinstance(error, MemoryError):
         wanted = f" ({text})" if text else ""
         return f"not enough memory{wanted}: run fewer recordings at once (--cores), or on a machine with more"

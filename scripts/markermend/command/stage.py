@@ -29,7 +29,7 @@ from markermend.options.description import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
 from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
-from markermend.storage import output_checksums, stage_files
+from markermend.storage import atomic, output_checksums, source_file, stage_files
 from markermend.storage.atomic import NotWritten
 from markermend.storage.folder_names import printable
 
@@ -83,6 +83,7 @@ class Stage:
         group = self.parser.add_argument_group("options (defaults: config/config.yaml)")
         self.inputs: list[str] = []
         self.outputs: list[str] = []
+        self._original = False
         self._classes = {cls: stage_options(cls) for cls in (options, given)}
         for option in (option for options in self._classes.values() for option in options):
             group.add_argument(
@@ -110,6 +111,26 @@ class Stage:
         self.inputs.append(name)
         nargs = ("*" if optional else "+") if many else None
         self._reads.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
+
+    def reads_original(self, help: str) -> None:
+        """Declare the original file of a recording as the input `source`, beside the folder that its links may not lead out of.
+
+        What cannot be read or is to be left alone has no checksum; the work function checks it (source_file.check).
+
+        Parameters
+        ----------
+        help : str
+            What it holds.
+        """
+        self.reads("source", help)
+        self._reads.add_argument(
+            "--within",
+            type=_folder_or_none,
+            required=True,
+            metavar="FOLDER|none",
+            help="the folder that links to the original may not lead out of; none where they may",
+        )
+        self._original = True
 
     def writes(self, name: str, help: str, *, many: bool = False) -> None:
         """Declare an output file, or any number of them.
@@ -178,6 +199,7 @@ class Stage:
             **{name: arguments[name] for name in self.inputs + self.outputs}, options=made[0], dependencies=None
         )
         vars(call).update(vars(made[-1]) if len(made) > 1 else {})
+        vars(call).update({"within": arguments["within"]} if self._original else {})
         started = time.perf_counter()
 
         def prepare_and_work() -> str | None:
@@ -221,8 +243,18 @@ class Stage:
         return {
             "stage": self.name,
             "options": {name: own for each in options for name, own in passed(each).items()},
-            "inputs": {name: checksums(arguments[name], own=arguments[self.outputs[0]].parent) for name in self.inputs},
+            "inputs": {name: self._checksum(name, arguments) for name in self.inputs},
         }
+
+    def _checksum(self, name: str, arguments: dict[str, Any]) -> str | list[str] | None:
+        """The checksums of an input; None for an original that is not to be opened, of which no stage of ours has a record."""
+        if not (self._original and name == "source"):
+            return checksums(arguments[name], own=arguments[self.outputs[0]].parent)
+        try:
+            source_file.check(arguments[name], within=arguments["within"])
+        except BadRecording:
+            return None
+        return atomic.sha256(arguments[name])
 
     def _attempt(
         self, work: Callable[[], str | None], call: Any, arguments: dict[str, Any]
@@ -259,6 +291,11 @@ def _parse(option: Option, words: str) -> Any:
         return parse(option, words)
     except BadOptions as problem:
         raise argparse.ArgumentTypeError(str(problem)) from problem
+
+
+def _folder_or_none(words: str) -> Path | None:
+    """A folder, or that there is none."""
+    return None if words == "none" else Path(words)
 
 
 def _metavar(option: Option) -> str:

@@ -6,10 +6,19 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from markermend.core.recording import MEASURED, MISSING, BadRecording, Recording, Restored, SourceChanged, changed
+from markermend.core.recording import (
+    MEASURED,
+    MISSING,
+    BadRecording,
+    Recording,
+    Restored,
+    SetAside,
+    SourceChanged,
+    changed,
+)
 from markermend.formats import comparison, files
 from markermend.formats.reading import PatchResult
-from markermend.storage import atomic
+from markermend.storage import atomic, source_file
 from markermend.storage.folder_names import printable
 
 
@@ -58,12 +67,13 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
     Raises
     ------
     SourceChanged
-        Where the source is not the file that was ingested.
+        Where the source is gone, or not the file that was ingested.
     BadRecording
         Where any other byte would differ.
     """
     check_invariant(measured, restored)
     facts = measured.facts["source"]
+    source_file.check(source, planned=facts["sha256"])
     before = atomic.sha256(source)
     if before != facts["sha256"]:
         raise SourceChanged(f"{source.name} has changed since it was ingested; the next run ingests it again")
@@ -102,40 +112,49 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
     }
 
 
-def pass_through(source: Path, cleaned: Path, stage: str, reason: str) -> dict[str, Any]:
+def pass_through(source: Path, cleaned: Path, note: SetAside, *, within: Path | None = None) -> dict[str, Any]:
     """Copy a file whose recording was set aside, byte for byte.
 
     Parameters
     ----------
     source : Path
-        The original file; where it is gone (a broken link, say) the copy is an empty file.
+        The original file; the copy is an empty file where it cannot be read or is to be left alone (see source_file.check).
     cleaned : Path
         The copy.
-    stage : str
-        Name of the stage that set the recording aside.
-    reason : str
-        Why.
+    note : SetAside
+        The stage that set the recording aside, and why.
+    within : Path, optional
+        The folder that links may not lead out of.
 
     Returns
     -------
     dict
-        A certificate that says so, without a checksum of a file that is gone. JSON values.
+        A certificate that says so, without a checksum of a file that was not read. JSON values.
     """
-    gone = not source.is_file()
+    before = _checksum(source, within)
     with atomic.replacing(cleaned) as temporary:
-        if gone:
+        if before is None:
             temporary.touch()
         else:
             shutil.copyfile(source, temporary)
         after = atomic.sha256(temporary)
     return {
         "source": printable(source.name),
-        "original_sha256": None if gone else atomic.sha256(source),
+        "original_sha256": before,
         "cleaned_sha256": after,
         "changed_samples": 0,
         "blanked_samples": 0,
         "changed_bytes": 0,
         "other_bytes_equal": True,
         "refused": [],
-        "untouched": {"stage": stage, "reason": reason},
+        "untouched": {"stage": note.stage, "reason": note.reason},
     }
+
+
+def _checksum(source: Path, within: Path | None) -> str | None:
+    """The checksum of an original; None where it cannot be read or is to be left alone."""
+    try:
+        source_file.check(source, within=within)
+        return atomic.sha256(source)
+    except (BadRecording, OSError):
+        return None

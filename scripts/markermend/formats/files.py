@@ -10,6 +10,7 @@ import numpy as np
 
 from markermend.core.recording import BadRecording
 from markermend.formats.reading import PatchResult, Reading
+from markermend.storage import source_file
 
 READABLE = (".c3d", ".trc", ".csv", ".tsv")
 """Endings of the files that can be read, in small letters; what a folder of recordings is searched for."""
@@ -37,8 +38,7 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
     BadRecording
         If the file is absent, of an unknown format, or unusable.
     """
-    if not path.is_file():
-        raise BadRecording(f"{path.name} is not there: correct the file in the recordings table")
+    source_file.check(path)
     ending = path.suffix.lower()
     if ending not in READABLE:
         known = ", ".join(READABLE)

@@ -24,6 +24,11 @@ class GeneralOptions:
 
     Change it when you clean your own recordings; it may also be given on the command line."""
 
+    follow_links: Annotated[bool, Laboratory] = False
+    """Whether links in the folder of recordings are followed to files and folders outside of it.
+
+    Change it when your folder of recordings consists of links. A table may name any file, links too."""
+
     results: Annotated[str, NotEmpty, Laboratory] = "results"
     """The folder for the results.
 

@@ -15,7 +15,7 @@ from markermend.planning import discovery
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
 from markermend.planning.result_files import ResultFiles
-from markermend.storage.source_checksums import SourceChecksums
+from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 
 class Wildcards(Protocol):
@@ -78,8 +78,14 @@ class DataSet:
         """Path of the original file; see `DataSet.entry`."""
         return self.entry(wildcards).source
 
+    def within(self, wildcards: Wildcards) -> str:
+        """The folder that links to the original may not lead out of, or `none`; see `DataSet.entry`."""
+        return self.entry(wildcards).within or "none"
+
     def source_hash(self, wildcards: Wildcards) -> str:
         """Checksum of the original file: other content reruns what depends on it, whatever its date; see `DataSet.entry`."""
+        if self.entry(wildcards).leads_out:
+            return ABSENT
         return self.checksums.of(f"{wildcards.subject}/{wildcards.recording}", self.original(wildcards))
 
     def recording_flags(self, wildcards: Wildcards) -> list[str]:
@@ -138,18 +144,20 @@ def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) ->
     BadDataSet
         Where the recordings, the decisions or the mesh files cannot be used.
     """
-    entries, missing = _entries(options["general"].recordings, results, schemas)
+    entries, missing, left_out = _entries(options["general"], results, schemas)
     meshes = discovery.supplied_meshes(entries, options["mesh"].files)
     decisions, warnings = discovery.find_decisions(options, list(entries.values()))
     checksums = SourceChecksums(Path(ResultFiles(results).sources))
-    return DataSet(entries, checksums, meshes, decisions, missing), warnings
+    return DataSet(entries, checksums, meshes, decisions, missing), [*left_out, *warnings]
 
 
-def _entries(name: str, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str]:
-    """The recordings; none, and why, where the config does not name any."""
+def _entries(general: GeneralOptions, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str, list[str]]:
+    """The recordings; why there are none, where the config does not name any; and warnings."""
+    name = general.recordings
     try:
-        return discovery.find_recordings(name, results, schemas=schemas), ""
+        found, warnings = discovery.find_recordings(name, results, schemas=schemas, follow_links=general.follow_links)
     except NoRecordings as error:
         if name != GeneralOptions().recordings:
             raise
-        return {}, str(error)
+        return {}, str(error), []
+    return found, "", warnings

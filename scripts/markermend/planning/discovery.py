@@ -20,7 +20,9 @@ Folders = tuple[str, str]
 """Names of the folders of a subject and a recording."""
 
 
-def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, Entry]:
+def find_recordings(
+    name: str, results: str, *, schemas: Path, follow_links: bool = False
+) -> tuple[dict[Folders, Entry], list[str]]:
     """Find the recordings below a folder or in a table.
 
     Parameters
@@ -31,11 +33,15 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
         Absolute path of the folder of results, which holds no recordings.
     schemas : Path
         The folder of the schemas.
+    follow_links : bool, optional
+        Whether links that lead out of a folder of recordings are followed; those that a table names always are.
 
     Returns
     -------
-    dict of (str, str) to Entry
+    entries : dict of (str, str) to Entry
         The recordings by the names of their folders.
+    warnings : list of str
+        What was left out, and why.
 
     Raises
     ------
@@ -45,8 +51,9 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
         Where it cannot be used.
     """
     path = os.path.abspath(os.path.expanduser(name))
+    warnings: list[str] = []
     if os.path.isdir(path):
-        found = recordings.find(path, results)
+        found, warnings = recordings.find(path, results, follow_links=follow_links)
     elif path.lower().endswith((".c3d", ".trc")) and os.path.isfile(path):
         raise BadDataSet(f"recordings: {path} is a recording itself: name the folder that holds it, or a table")
     elif os.path.isfile(path):
@@ -59,7 +66,7 @@ def find_recordings(name: str, results: str, *, schemas: Path) -> dict[Folders, 
             "Name the folder that holds them: --config recordings=FOLDER results=FOLDER\n"
             "or a table of them (config/README.md); `make demo` shows both on made-up recordings"
         )
-    return {entry.folders: entry for entry in found}
+    return {entry.folders: entry for entry in found}, warnings
 
 
 def find_decisions(

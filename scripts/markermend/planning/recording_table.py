@@ -73,7 +73,11 @@ def from_rows(rows: list[dict[str, Any]], path: str) -> list[Entry]:
         more = {name: row[name] for name in ("kind", "rate") if name in row}
         entries.append(Entry(row["subject"], row["recording"], places["file"], mesh=places.get("mesh"), **more))
     wanted = [entry.source for entry in entries] + [entry.mesh for entry in entries if entry.mesh]
-    problems = [f"no such file: {file}" for file in dict.fromkeys(wanted) if not os.path.isfile(file)]
+    problems = [
+        f"{'not a file' if os.path.exists(file) else 'no such file'}: {file}"
+        for file in dict.fromkeys(wanted)
+        if not os.path.isfile(file)
+    ]
     problems += [
         f"not a known format ({', '.join(FORMATS)}): {entry.source}" for entry in entries if entry.format not in FORMATS
     ]

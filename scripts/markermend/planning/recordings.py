@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from markermend.formats.files import READABLE
 from markermend.storage.folder_names import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode, printable
+from markermend.storage.source_file import leads_out
 
 FORMATS = tuple(ending[1:] for ending in READABLE)
 """Suffixes of the files that can be read. Of two files with one stem, the first in this order keeps it as its name."""
@@ -38,6 +39,8 @@ class Entry:
         Frame rate that replaces the file's, Hz.
     mesh : str or None
         Absolute path of a mesh file for the subject.
+    within : str or None
+        Absolute path of the folder that the original, a link, may not lead out of.
     """
 
     subject: str
@@ -46,6 +49,12 @@ class Entry:
     kind: str = "auto"
     rate: float | None = None
     mesh: str | None = None
+    within: str | None = None
+
+    @property
+    def leads_out(self) -> bool:
+        """Whether the original is a link to a file that is to be left alone."""
+        return self.within is not None and leads_out(self.source, self.within)
 
     @property
     def folders(self) -> tuple[str, str]:
@@ -74,7 +83,7 @@ def suffix(path: str) -> str:
     return os.path.splitext(path)[1].lower()[1:]
 
 
-def find(folder: str, results: str) -> list[Entry]:
+def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list[Entry], list[str]]:
     """Find every recording below a folder, at whatever depth.
 
     The subject is the folder that holds the file: its name or, where several folders share it, their paths below
@@ -88,11 +97,15 @@ def find(folder: str, results: str) -> list[Entry]:
         The folder.
     results : str
         The folder of results.
+    follow_links : bool, optional
+        Whether links that lead out of the folder are followed. Those to files are else recordings that are set aside.
 
     Returns
     -------
-    list of Entry
+    entries : list of Entry
         The recordings by subject and name.
+    warnings : list of str
+        The folders below that were not searched, and why.
 
     Raises
     ------
@@ -106,10 +119,11 @@ def find(folder: str, results: str) -> list[Entry]:
             f"results: {results} holds the recordings ({folder}), so that the next run would take results for "
             "recordings. Choose a folder of its own: --config results=FOLDER"
         )
-    found = {path: files for path, files in _walk(top, os.path.realpath(results)) if files}
+    warnings: list[str] = []
+    found = {path: files for path, files in _walk(top, os.path.realpath(results), follow_links, warnings) if files}
     if not found:
         kinds = ", ".join(f".{name}" for name in FORMATS)
-        raise BadDataSet(f"recordings: no recording ({kinds}) in {top} or below")
+        raise BadDataSet("\n".join([f"recordings: no recording ({kinds}) in {top} or below", *warnings]))
     shared = Counter(os.path.basename(path) for path in found)
     entries = []
     for path, files in sorted(found.items()):
@@ -118,19 +132,35 @@ def find(folder: str, results: str) -> list[Entry]:
         if path != top and top in found and inner == os.path.basename(top):
             subject = f"{inner}/{inner}"
         names = _name_files(files)
-        entries += [Entry(printable(subject), printable(names[file]), os.path.join(path, file)) for file in files]
+        for file in files:
+            source = os.path.join(path, file)
+            within = top if os.path.islink(source) and not follow_links else None
+            entries.append(Entry(printable(subject), printable(names[file]), source, within=within))
     named = Counter(entry.folders for entry in entries)
     same_name = [printable(entry.source) for entry in entries if named[entry.folders] > 1]
     if same_name:
         raise BadDataSet("recordings: these cannot be distinguished by name; rename one:\n" + "\n".join(same_name))
-    return sorted(entries, key=lambda entry: (entry.subject, entry.recording))
+    return sorted(entries, key=lambda entry: (entry.subject, entry.recording)), warnings
 
 
-def _walk(top: str, results: str) -> Iterator[tuple[str, list[str]]]:
-    """Walk the folders below `top`, links too but none twice, and give the recordings' file names in each."""
+def _walk(top: str, results: str, follow_links: bool, warnings: list[str]) -> Iterator[tuple[str, list[str]]]:
+    """Walk the folders below `top`, links too but none twice, and give the recordings' file names in each; warn of those left out."""
+
+    def unreadable(error: OSError) -> None:
+        warnings.append(
+            f"recordings: {printable(error.filename)} cannot be searched ({error.strerror}): it is left out"
+        )
+
     seen = set()
-    for path, folders, files in os.walk(top, followlinks=True):
+    for path, folders, files in os.walk(top, followlinks=True, onerror=unreadable):
         real = os.path.realpath(path)
+        if not follow_links and path != top and os.path.islink(path) and leads_out(path, top):
+            warnings.append(
+                f"recordings: {printable(path)} is a link that leads out of the folder of recordings: it is left out "
+                "(follow_links: true follows it)"
+            )
+            folders.clear()
+            continue
         if real in seen or real == results or "01_markers.parquet" in files:
             folders.clear()
             continue

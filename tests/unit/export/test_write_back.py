@@ -10,6 +10,7 @@ from markermend.core.recording import (
     BadRecording,
     Recording,
     Restored,
+    SetAside,
     SourceChanged,
     changed,
 )
@@ -153,7 +154,39 @@ def test_a_text_file_keeps_every_other_cell(tmp_path):
 
 def test_a_recording_set_aside_is_passed_through(tmp_path):
     (tmp_path / "bad.c3d").write_bytes(b"not a C3D file")
-    certificate = write_back.pass_through(tmp_path / "bad.c3d", tmp_path / "cleaned.c3d", "ingest", "no C3D")
+    certificate = write_back.pass_through(tmp_path / "bad.c3d", tmp_path / "cleaned.c3d", SetAside("ingest", "no C3D"))
     assert (tmp_path / "cleaned.c3d").read_bytes() == b"not a C3D file"
     assert certificate["original_sha256"] == certificate["cleaned_sha256"]
     assert certificate["untouched"] == {"stage": "ingest", "reason": "no C3D"}
+
+
+@pytest.mark.parametrize("kind", ["gone", "link", "locked"])
+def test_what_cannot_or_must_not_be_read_is_not_copied(tmp_path, monkeypatch, kind):
+    folder, source = tmp_path / "study", tmp_path / "study/bad.c3d"
+    folder.mkdir()
+    (tmp_path / "secret").write_text("secret")
+    if kind == "link":
+        source.symlink_to("../secret")
+    elif kind == "locked":
+        source.touch()
+
+        checksum = atomic.sha256
+
+        def locked(path):
+            if path == source:
+                raise PermissionError(13, "Permission denied", str(path))
+            return checksum(path)
+
+        monkeypatch.setattr(atomic, "sha256", locked)
+    certificate = write_back.pass_through(source, tmp_path / "cleaned.c3d", SetAside("ingest", "x"), within=folder)
+    assert (tmp_path / "cleaned.c3d").read_bytes() == b""
+    assert certificate["original_sha256"] is None and certificate["untouched"]["reason"] == "x"
+
+
+def test_an_original_that_is_gone_since_it_was_ingested_is_looked_for_again(tmp_path):
+    facts = {"source": {"name": "walk.c3d", "sha256": "0" * 64, "format": "c3d", "columns": [0]}}
+    measured = Recording(("A",), np.ones((3, 1, 3)), 100.0, 1, facts)
+    zeros = np.zeros((3, 1))
+    result = Restored(("A",), np.ones((3, 1, 3)), 100.0, 1, facts, zeros.astype(np.uint8), zeros, zeros)
+    with pytest.raises(SourceChanged, match=r"walk.c3d is gone since the run began"):
+        write_back.write_cleaned(tmp_path / "walk.c3d", tmp_path / "cleaned.c3d", measured, result)

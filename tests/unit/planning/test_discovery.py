@@ -24,11 +24,11 @@ def by_folders(*entries):
 def test_recordings_come_from_a_folder_or_a_table(tmp_path):
     (tmp_path / "S01").mkdir()
     (tmp_path / "S01/walk.c3d").touch()
-    found = discovery.find_recordings(str(tmp_path), str(tmp_path / "out"), schemas=SCHEMAS)
+    found, _ = discovery.find_recordings(str(tmp_path), str(tmp_path / "out"), schemas=SCHEMAS)
     assert list(found) == [("S01", "walk")] and found["S01", "walk"].source == str(tmp_path / "S01/walk.c3d")
     table = tmp_path / "recordings.tsv"
     table.write_text("recording\tsubject\tfile\trate\nwalk 1\tBob\tS01/walk.c3d\t50\n")
-    found = discovery.find_recordings(str(table), str(tmp_path / "out"), schemas=SCHEMAS)
+    found, _ = discovery.find_recordings(str(table), str(tmp_path / "out"), schemas=SCHEMAS)
     assert list(found) == [("Bob", "walk%201")] and found["Bob", "walk%201"].rate == 50
 
 
@@ -36,7 +36,7 @@ def test_the_home_folder_may_be_written_as_a_tilde(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     (tmp_path / "S01").mkdir()
     (tmp_path / "S01/walk.c3d").touch()
-    assert discovery.find_recordings("~", str(tmp_path / "out"), schemas=SCHEMAS)
+    assert discovery.find_recordings("~", str(tmp_path / "out"), schemas=SCHEMAS)[0]
 
 
 def test_recordings_that_are_not_there_are_named(tmp_path):

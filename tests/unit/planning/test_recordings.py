@@ -15,7 +15,7 @@ def make(folder, *names):
 
 
 def found(folder, results="elsewhere"):
-    return {(entry.subject, entry.recording): entry.source for entry in recordings.find(str(folder), str(results))}
+    return {(entry.subject, entry.recording): entry.source for entry in recordings.find(str(folder), str(results))[0]}
 
 
 def test_every_recording_below_a_folder_belongs_to_the_folder_that_holds_it(tmp_path):
@@ -30,11 +30,64 @@ def test_hidden_files_and_results_are_left_out(tmp_path):
 
 
 def test_links_are_followed_once(tmp_path):
-    make(tmp_path / "store", "walk.c3d")
+    make(tmp_path / "study", "store/walk.c3d")
+    (tmp_path / "study/a").symlink_to(tmp_path / "study/store")
+    (tmp_path / "study/store/loop").symlink_to(tmp_path / "study")
+    assert set(found(tmp_path / "study")) == {("a", "walk")}
+
+
+@pytest.fixture
+def linked(tmp_path):
+    """A folder of recordings with links: to a folder and a file outside, and to a file inside."""
+    make(tmp_path, "study/S01/walk.c3d", "store/run.c3d", "secret.c3d")
+    (tmp_path / "study/S02").symlink_to("../store")
+    (tmp_path / "study/S01/out.c3d").symlink_to("../../secret.c3d")
+    (tmp_path / "study/S01/in.c3d").symlink_to("walk.c3d")
+    return tmp_path / "study"
+
+
+def test_links_that_lead_out_of_the_folder_are_not_followed(linked):
+    entries, warnings = recordings.find(str(linked), "elsewhere")
+    assert {entry.recording: entry.leads_out for entry in entries} == {"walk": False, "in": False, "out": True}
+    assert warnings == [
+        f"recordings: {linked}/S02 is a link that leads out of the folder of recordings: it is left out "
+        "(follow_links: true follows it)"
+    ]
+
+
+def test_links_that_lead_out_of_the_folder_are_followed_on_request(linked):
+    entries, warnings = recordings.find(str(linked), "elsewhere", follow_links=True)
+    assert {entry.recording for entry in entries} == {"walk", "in", "out", "run"}
+    assert not any(entry.leads_out for entry in entries) and warnings == []
+
+
+def test_a_folder_that_is_itself_a_link_holds_what_is_in_it(linked, tmp_path):
+    (tmp_path / "link").symlink_to(linked)
+    entries, _ = recordings.find(str(tmp_path / "link"), "elsewhere")
+    assert {entry.recording for entry in entries if entry.leads_out} == {"out"}
+
+
+def test_a_folder_of_nothing_but_links_out_says_so(tmp_path):
+    make(tmp_path, "store/run.c3d")
     (tmp_path / "study").mkdir()
-    (tmp_path / "study" / "S01").symlink_to(tmp_path / "store")
-    (tmp_path / "store" / "loop").symlink_to(tmp_path / "study")
-    assert set(found(tmp_path / "study")) == {("S01", "walk")}
+    (tmp_path / "study/S02").symlink_to("../store")
+    with pytest.raises(BadDataSet, match=r"no recording .*\n.*follow_links: true follows it"):
+        recordings.find(str(tmp_path / "study"), "elsewhere")
+
+
+def test_a_folder_that_cannot_be_searched_is_named(tmp_path, monkeypatch):
+    make(tmp_path, "S01/walk.c3d", "S02/walk.c3d")
+    scandir = os.scandir
+
+    def locked(path):
+        if str(path).endswith("S02"):
+            raise PermissionError(13, "Permission denied", path)
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", locked)
+    entries, warnings = recordings.find(str(tmp_path), "elsewhere")
+    assert [entry.subject for entry in entries] == ["S01"]
+    assert warnings == [f"recordings: {tmp_path}/S02 cannot be searched (Permission denied): it is left out"]
 
 
 def test_files_of_one_stem_are_distinguished(tmp_path):
@@ -88,7 +141,7 @@ def test_bytes_that_are_no_text_are_shown(tmp_path):
 def test_a_broken_link_is_a_recording_and_equal_names_are_refused(tmp_path):
     (tmp_path / "S").mkdir()
     (tmp_path / "S" / "gone.c3d").symlink_to(tmp_path / "nowhere.c3d")
-    (entry,) = recordings.find(str(tmp_path), str(tmp_path / "out"))
+    ((entry,), _) = recordings.find(str(tmp_path), str(tmp_path / "out"))
     assert entry.recording == "gone"
     (tmp_path / "S" / os.fsdecode(b"\xff.c3d")).touch()
     (tmp_path / "S" / r"\xff.c3d").touch()
