@@ -46,14 +46,16 @@ onstart:
     if repeats_papers():
         papers.write_lists()
     if cleans():
-        plan.write_lists()
+        in_one_line(plan.write_lists)
+        # However the run ends: an exception within Snakemake calls neither of the hooks below.
+        atexit.register(plan.close)
 
 
 onsuccess:
     if cleans():
-        atexit.register(plan.close)
+        in_one_line(plan.write_facts)
 
 
 onerror:
     if cleans():
-        atexit.register(plan.close)
+        in_one_line(plan.write_facts)

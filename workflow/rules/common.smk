@@ -32,6 +32,14 @@ if workflow.is_main_process:
 files = plan.files
 
 
+def in_one_line(write):
+    """Call what writes; where a file cannot be written, end the run with one line that says so."""
+    try:
+        write()
+    except OSError as error:
+        raise WorkflowError(str(error))
+
+
 wildcard_constraints:
     subject="[^/]+",
     recording="[^/]+",

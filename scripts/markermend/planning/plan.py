@@ -241,14 +241,18 @@ class Plan:
                 lines = [f"{path}\n" for path in self._of_subject(pattern, subject)]
                 write_text(Path(listed.format(subject=subject)), "".join(lines))
 
-    def close(self) -> None:
-        """Write the facts of the run, and print its summary."""
-        folder = Path(self.files.report)
+    def write_facts(self) -> None:
+        """Write the facts of the run."""
         facts = run_facts.run_facts(
             self.project, config=write_config(self.options), recordings=len(self.data.entries), started=self.started
         )
         write_json(Path(self.files.provenance), facts)
-        print(run_summary.summary(map(Path, self.quality_files), folder / "index.html"), file=sys.stderr)
+
+    def close(self) -> None:
+        """Print the summary of the run, whatever became of it; warnings again, which a long run has hidden."""
+        index = Path(self.files.report) / "index.html"
+        lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index)]
+        print(*lines, sep="\n", file=sys.stderr)
 
 
 def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:

@@ -4,32 +4,36 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 STATUSES = ("cleaned", "unchanged", "static", "set aside")
 """The possible outcomes of a recording, in the order in which a summary counts them."""
 
 LISTED = 10
-"""Largest number of recordings set aside that a terminal names; the report names all."""
+"""Largest number of recordings set aside, and of those not finished, that a terminal names; the report names all."""
+
+ERROR = "ERROR "
+"""Beginning of a line of a log that says why a stage failed."""
 
 
-def summary(paths: Iterable[Path], report: Path) -> str:
-    """Sum up a run: recordings by outcome, changed samples, what was set aside and why.
+def summary(paths: Sequence[Path], report: Path) -> str:
+    """Sum up a run: recordings by outcome, changed samples, what was set aside or not finished and why.
 
     Parameters
     ----------
-    paths : iterable of Path
-        Quality files of the recordings; those that do not exist count as unfinished.
+    paths : sequence of Path
+        Quality files of the recordings; those that do not exist or cannot be read count as unfinished.
     report : Path
-        First page of the report; the last line names it where it exists.
+        First page of the report; the last line names it, or says that it was not written or is older than the results.
 
     Returns
     -------
     str
         The lines.
     """
-    found = [json.loads(path.read_text(encoding="utf-8")) if path.exists() else {} for path in paths]
+    found = [_read(path) for path in paths]
     counts = Counter(quality.get("status", "unfinished") for quality in found)
     lines = [", ".join(f"{counts[status]} {status}" for status in (*STATUSES, "unfinished") if counts[status])]
     lines[0] = (
@@ -39,4 +43,42 @@ def summary(paths: Iterable[Path], report: Path) -> str:
     lines += [f"  set aside: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in aside[:LISTED]]
     if len(aside) > LISTED:
         lines.append(f"  and {len(aside) - LISTED} more, all in the report")
-    return "\n".join([*lines, *([f"Report: {report}"] if report.exists() else [])])
+    unfinished = [path.parent for path, quality in zip(paths, found, strict=True) if not quality]
+    lines += [
+        f"  not finished: {'/'.join(folder.parts[-2:])}: {_last_error(folder / 'logs')}"
+        for folder in unfinished[:LISTED]
+    ]
+    if len(unfinished) > LISTED:
+        lines.append(f"  and {len(unfinished) - LISTED} more that were not finished")
+    return "\n".join(
+        [*lines, _of_report(report, [path for path, quality in zip(paths, found, strict=True) if quality])]
+    )
+
+
+def _read(path: Path) -> dict[str, Any]:
+    """A quality file; empty where there is none that can be read."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) and "status" in found else {}
+
+
+def _last_error(logs: Path) -> str:
+    """The last error in the logs of a recording; where they have none, the place to look at."""
+    for path in sorted(logs.glob("*.log"), key=lambda path: path.stat().st_mtime, reverse=True):
+        errors = [
+            line for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if line.startswith(ERROR)
+        ]
+        if errors:
+            return errors[-1].removeprefix(ERROR)
+    return f"see {logs}"
+
+
+def _of_report(report: Path, judged: Sequence[Path]) -> str:
+    """Where the report is, or that it was not written."""
+    if not report.exists():
+        return f"The report was not written: {report}"
+    if any(path.stat().st_mtime_ns > report.stat().st_mtime_ns for path in judged):
+        return f"The report was not written again: {report} is older than the results"
+    return f"Report: {report}"

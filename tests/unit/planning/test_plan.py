@@ -2,6 +2,7 @@
 
 import json
 import shlex
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -115,9 +116,13 @@ def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan
     path = tmp_path / "out/S%201/run/08_qc.json"
     path.parent.mkdir(parents=True)
     path.write_text(json.dumps(quality))
-    plan.close()
+    plan.write_facts()
+    replace(plan, warnings=["decisions: line 2 is about none"]).close()
     text = capsys.readouterr().err
-    assert text.startswith("3 recordings: 1 set aside, 2 unfinished") and "set aside: S 1/run: empty" in text
+    assert (
+        text.startswith("decisions: line 2 is about none\n3 recordings: 1 set aside, 2 unfinished")
+        and "set aside: S 1/run: empty" in text
+    )
     facts = json.loads((tmp_path / "out/report/provenance.json").read_text())
     assert facts["recordings"] == 3 and facts["config"]["results"] == str(tmp_path / "out")
     assert "markermend/filling/fill.py" in str(facts["code"]["fill"])
