@@ -78,7 +78,7 @@ def _last_error(logs: Path) -> str:
 def _of_report(report: Path, judged: Sequence[Path]) -> str:
     """Where the report is, or that it was not written."""
     if not report.exists():
-        return f"The report was not written: {report}"
+        return f"The report was not written: {report}: {_last_error(report.parent / 'logs')}"
     if any(path.stat().st_mtime_ns > report.stat().st_mtime_ns for path in judged):
         return f"The report was not written again: {report} is older than the results"
     return f"Report: {report}"

@@ -16,7 +16,7 @@ def test_the_summary_counts_lists_and_ends_with_the_report(tmp_path):
         path.write_text(json.dumps(quality))
     report = tmp_path / "index.html"
     text = "4 recordings: 2 cleaned, 1 static, 1 set aside; 15 samples changed\n  set aside: S02/d: no markers"
-    assert run_summary.summary(paths, report) == f"{text}\nThe report was not written: {report}"
+    assert run_summary.summary(paths, report) == f"{text}\nThe report was not written: {report}: see {tmp_path}/logs"
     report.touch()
     assert run_summary.summary(paths, report) == f"{text}\nReport: {report}"
     os.utime(report, (1e9, 1e9))
@@ -37,7 +37,7 @@ def test_what_was_not_finished_is_named_with_its_last_error(tmp_path):
         f"  not finished: S01/killed: see {paths[0].parent}/logs",
         "  not finished: S01/full: fill: x was not written",
         f"  not finished: S01/torn: see {paths[2].parent}/logs",
-        f"The report was not written: {tmp_path}/none",
+        f"The report was not written: {tmp_path}/none: see {tmp_path}/logs",
     ]
 
 
