@@ -5,9 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from markermend.storage.atomic import NotWritten, not_written
-
 from markermend.core.recording import SourceChanged
+from markermend.storage.atomic import NotWritten, not_written
 
 
 def describe(error: Exception) -> str:

@@ -12,7 +12,6 @@ def test_each_failure_is_a_line_whatever_its_reason(tmp_path):
     assert (tmp_path / "S01/walk/failures.tsv").read_text() == "fill\tdisk full\nfill\ta b c\n"
 
 
-
 def test_lack_of_memory_is_named_with_or_without_a_size():
     assert describe(MemoryError()).startswith("not enough memory: run fewer recordings at once")
     with pytest.raises(MemoryError) as failure:
