@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import json
 import sys
 from collections.abc import Iterator, Sequence
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from markermend.command.failures import count_failure
-from markermend.storage import output_checksums
+from markermend.storage import output_checksums, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
 from markermend.storage.source_checksums import SourceChecksums
@@ -134,9 +133,8 @@ def main(arguments: Sequence[str]) -> int:
         return 2
     different = [one for one in checked if one.differs]
     if different:
-        table = csv.writer(sys.stdout, delimiter="\t", lineterminator="\n")
-        table.writerow(["file", "expected", "found"])
-        table.writerows([printable(one.file), one.expected, one.found] for one in different)
+        rows = [[printable(one.file), one.expected, one.found] for one in different]
+        print(tab_separated.lines([["file", "expected", "found"], *rows]), end="")
     for folder, stage in {((flags.results / one.file).parent, one.stage) for one in different if one.stage}:
         if flags.remake:
             count_failure(folder, stage, "its outputs are not as it wrote them")

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
+from pandas.api.types import is_numeric_dtype
 
 from markermend.storage import atomic
+from markermend.storage.tab_separated import guarded, plain
 
 NAMES = ("recording", "sequence", "marker", "operator")
 """Columns of names, which stay text: a recording may be called 001."""
@@ -23,7 +26,9 @@ def write_table(path: Path, table: pd.DataFrame) -> None:
     table : DataFrame
         The columns; the index is left out.
     """
-    atomic.write_text(path, table.to_csv(sep="\t", index=False, float_format="%.6g", lineterminator="\n"))
+    atomic.write_text(
+        path, _map_texts(table, guarded).to_csv(sep="\t", index=False, float_format="%.6g", lineterminator="\n")
+    )
 
 
 def read_table(path: Path) -> pd.DataFrame:
@@ -39,8 +44,7 @@ def read_table(path: Path) -> pd.DataFrame:
     DataFrame
         Numbers where a column has nothing else, NaN where they are missing; other columns, and NAMES, as text, "" where there is none.
     """
-    text = pd.read_csv(path, sep="\t", dtype=str, keep_default_na=False)
-    return text.apply(_numbers)
+    return read_tables([path])
 
 
 def read_tables(paths: Iterable[Path]) -> pd.DataFrame:
@@ -56,9 +60,13 @@ def read_tables(paths: Iterable[Path]) -> pd.DataFrame:
     DataFrame
         See read_table.
     """
-    return pd.concat(
-        [pd.read_csv(path, sep="\t", dtype=str, keep_default_na=False) for path in paths], ignore_index=True
-    ).apply(_numbers)
+    texts = [pd.read_csv(path, sep="\t", dtype=str, keep_default_na=False) for path in paths]
+    return _map_texts(pd.concat(texts, ignore_index=True), plain).apply(_numbers)
+
+
+def _map_texts(table: pd.DataFrame, function: Callable[[Any], Any]) -> pd.DataFrame:
+    """A table with its cells of text changed."""
+    return table.apply(lambda column: column if is_numeric_dtype(column) else column.map(function))
 
 
 def _numbers(column: pd.Series) -> pd.Series:

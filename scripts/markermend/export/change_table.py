@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable
 from typing import Any
 
 from markermend.core.changes import DECIMALS, Change, Outcome
 from markermend.core.recording import Recording
 from markermend.core.written import is_reported
+from markermend.storage import tab_separated
 
 COLUMNS = (
     "recording", "marker", "first_frame", "last_frame", "start_s", "stop_s", "class", "score", "axes", "partner",
@@ -45,11 +44,7 @@ def change_table(changes: Iterable[Change], recording: Recording) -> str:
         Tab-separated text with a header. The column `decision` has what a person decided, `alternatives` what each
         method was expected to err by at worst, by name.
     """
-    text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(_row(change, recording) for change in changes)
-    return text.getvalue()
+    return tab_separated.table(COLUMNS, (_row(change, recording) for change in changes))
 
 
 def _row(change: Change, recording: Recording) -> dict[str, Any]:

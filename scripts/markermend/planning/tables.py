@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from markermend.planning.recordings import BadDataSet
+from markermend.storage.tab_separated import plain
 
 
 def read_table(
@@ -28,7 +29,8 @@ def read_table(
     Returns
     -------
     list of (int, dict of str to str)
-        Line number and filled cells, by their columns, of each row that has any.
+        Line number and filled cells, by their columns, of each row that has any; an apostrophe in front of what a spreadsheet would take
+        for a formula is left out.
 
     Raises
     ------
@@ -41,7 +43,7 @@ def read_table(
             separator = next((mark for mark in "\t,;" if mark in header), "\t")
             file.seek(0)
             reader = csv.reader(file, delimiter=separator)
-            table = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+            table = [(reader.line_num, [plain(cell.strip()) for cell in cells]) for cells in reader]
     except OSError as error:
         raise BadDataSet(f"{what}: {path} cannot be read ({error.strerror})") from error
     except (UnicodeDecodeError, csv.Error) as error:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from markermend.planning.run_summary import STATUSES
+from markermend.storage import tab_separated
 
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
@@ -33,9 +34,8 @@ def table(summaries: Sequence[Mapping[str, Any]]) -> str:
     str
         One row per recording, worst first; counts in place of lists, empty cells for what is unknown.
     """
-    rows = ["\t".join(COLUMNS)]
-    rows += ["\t".join(cell(summary.get(column)) for column in COLUMNS) for summary in ordered(summaries)]
-    return "\n".join(rows) + "\n"
+    rows = [{column: cell(summary.get(column)) for column in COLUMNS} for summary in ordered(summaries)]
+    return tab_separated.table(COLUMNS, rows)
 
 
 def cell(value: Any) -> str:

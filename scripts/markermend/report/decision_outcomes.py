@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -12,6 +10,7 @@ from typing import Any
 from markermend.core.changes import GAP, Change
 from markermend.core.decisions import EVER, Decision, read
 from markermend.core.recording import Recording
+from markermend.storage import tab_separated
 
 
 @dataclass(frozen=True)
@@ -110,11 +109,10 @@ def drafts(findings: Sequence[Change], recording: Recording) -> str:
     str
         One line for each finding, in the format of the table.
     """
-    text = io.StringIO()
-    writer = csv.writer(text, delimiter="\t", lineterminator="\n")
+    rows = []
     name, subject = recording.facts.get("recording", ""), recording.facts.get("subject", "")
     for finding in findings:
         first, last = finding.start + recording.first_frame, finding.stop + recording.first_frame - 1
         value = GAP if finding.is_gap else ""
-        writer.writerow([name, finding.marker, first, last, "", value, "", subject])
-    return text.getvalue()
+        rows.append([name, finding.marker, first, last, "", value, "", subject])
+    return tab_separated.lines(rows)

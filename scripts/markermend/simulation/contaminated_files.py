@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +13,7 @@ from markermend.formats import files
 from markermend.formats.reading import Reading
 from markermend.planning.recordings import Entry
 from markermend.simulation.contamination import Contamination
-from markermend.storage import atomic, stage_files
+from markermend.storage import atomic, stage_files, tab_separated
 
 COLUMNS = (
     "subject", "recording", "class", "marker", "first_frame", "last_frame", "axes", "partner", "x_mm", "y_mm", "z_mm",
@@ -131,8 +129,4 @@ def table(rows: Iterable[Mapping[str, Any]]) -> str:
     str
         Tab-separated text with a header.
     """
-    text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, delimiter="\t", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+    return tab_separated.table(COLUMNS, rows)

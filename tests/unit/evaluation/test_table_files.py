@@ -24,3 +24,10 @@ def test_names_of_digits_stay_names(tmp_path):
     write_table(tmp_path / "one.tsv", pd.DataFrame({"recording": ["001", "1"], "marker": ["2", "3"], "run": [0, 1]}))
     for read in (read_table(tmp_path / "one.tsv"), read_tables([tmp_path / "one.tsv"])):
         assert read["recording"].tolist() == ["001", "1"] and read["marker"].tolist() == ["2", "3"]
+
+
+def test_no_name_is_a_formula_and_each_comes_back(tmp_path):
+    table = pd.DataFrame({"recording": ["=1+1", "-2"], "error": [-0.5, 1.0], "note": ["@x", "-1"]})
+    write_table(tmp_path / "one.tsv", table)
+    assert (tmp_path / "one.tsv").read_text() == "recording\terror\tnote\n'=1+1\t-0.5\t'@x\n-2\t1\t-1\n"
+    pd.testing.assert_frame_equal(read_table(tmp_path / "one.tsv"), table, check_dtype=False)

@@ -36,3 +36,9 @@ def test_a_repeated_column_is_refused(tmp_path):
     (tmp_path / "t.tsv").write_text("recording\tsubject\tfile\tsubject\na\tS\ta.c3d\tT\n")
     with pytest.raises(BadDataSet, match="column subject more than once"):
         tables.read_table(str(tmp_path / "t.tsv"), what="recordings", columns=COLUMNS, required=COLUMNS)
+
+
+def test_an_apostrophe_that_guards_a_cell_is_left_out(tmp_path):
+    (tmp_path / "t.tsv").write_text("recording\tsubject\tfile\n'=walk\t'-S\t'x.c3d\n")
+    ((_, row),) = tables.read_table(str(tmp_path / "t.tsv"), what="recordings", columns=COLUMNS, required=COLUMNS)
+    assert row == {"recording": "=walk", "subject": "-S", "file": "'x.c3d"}

@@ -38,6 +38,12 @@ def test_cells_of_the_table_stay_on_their_line():
     assert dataset_summary.cell({"events": 3, "samples": 9}) == "3"
 
 
+def test_no_name_in_the_table_is_a_formula(made):
+    summary = {**made.summary, "recording": "=cmd|' /C calc'!A0", "subject": "-1.5"}
+    row = dataset_summary.table([summary]).splitlines()[1].split("\t")
+    assert row[:2] == ["'=cmd|' /C calc'!A0", "-1.5"]
+
+
 def test_methods_are_listed_once_for_equal_steps(made):
     base = made.summary
     static = {**base, "methods": {"text": "Only checked.", "references": []}}

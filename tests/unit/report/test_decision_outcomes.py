@@ -13,6 +13,7 @@ from markermend.core.events import Event
 from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import Recording
 from markermend.planning.decision_table import COLUMNS
+from markermend.planning.tables import read_table
 from markermend.report.decision_outcomes import drafts, outcomes
 from support import report_files
 from support.html_pages import HOSTILE, Page
@@ -82,6 +83,14 @@ def test_lines_for_new_decisions_fit_the_table():
         ("LANK", "705", "706", ""),
         ('R"A\tNK', "701", "701", "gap"),
     ]
+
+
+def test_a_draft_is_read_back_whatever_the_names(tmp_path):
+    made = drafts([Change("=A+1", 4, 6, ("peak",), Outcome.LEFT)], result(recording="-walk", subject="@Bob"))
+    assert "\t'=A+1\t" in made
+    (tmp_path / "decisions.tsv").write_text("\t".join(COLUMNS) + "\n" + made)
+    ((_, row),) = read_table(str(tmp_path / "decisions.tsv"), what="decisions", columns=COLUMNS, required=COLUMNS[:2])
+    assert (row["recording"], row["marker"], row["subject"]) == ("-walk", "=A+1", "@Bob")
 
 
 FOUND = {"peaks": [Event("A", 30, 32, 2.0), Event("B", 40, 42, 3.0)]}
