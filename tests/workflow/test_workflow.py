@@ -10,9 +10,11 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
+from markermend.planning.recordings import FORMATS
 from support.workflow_runs import PROJECT, Project, write_recording
 
 STAGES = (
@@ -56,6 +58,14 @@ def test_a_folder_of_every_format_is_planned_whole(project):
     exports = dict.fromkeys(["export_c3d", "export_trc", "export_csv", "export_tsv"], 1)
     assert plan.jobs == {**every, **exports, "mesh": 2, "poses": 2, "report": 1, "all": 1}
     assert "OMP_NUM_THREADS" not in plan.text
+
+
+def test_on_a_cluster_every_stage_but_the_report_travels_in_a_group():
+    profile = yaml.safe_load((PROJECT / "profiles/slurm/profile.yaml").read_text())
+    groups = dict(entry.split("=") for entry in profile["groups"])
+    assert {rule.split("_")[0] for rule in groups} == {*STAGES} - {"report"}
+    assert {f"export_{suffix}" for suffix in FORMATS} < set(groups)
+    assert {entry.split("=")[0] for entry in profile["group-components"]} == set(groups.values())
 
 
 @pytest.mark.parametrize("missing", ["recordings", "table", "row"])

@@ -19,8 +19,6 @@ for stage in plan.detectors:
             f"{files.logs}/{stage}.log",
         benchmark:
             f"{files.logs}/{stage}.tsv"
-        group:
-            "recording"
         conda:
             "../../envs/base.yaml"
         threads: 1

@@ -12,8 +12,6 @@ rule ingest:
         f"{files.logs}/ingest.log",
     benchmark:
         f"{files.logs}/ingest.tsv"
-    group:
-        "subject"
     conda:
         "../../envs/base.yaml"
     threads: 1
@@ -44,8 +42,6 @@ rule mesh:
         f"{files.subject}/logs/mesh.log",
     benchmark:
         f"{files.subject}/logs/mesh.tsv"
-    group:
-        "subject"
     conda:
         "../../envs/base.yaml"
     threads: 1

@@ -21,8 +21,6 @@ rule qc:
         f"{files.logs}/qc.log",
     benchmark:
         f"{files.logs}/qc.tsv"
-    group:
-        plan.filling_group
     conda:
         "../../envs/base.yaml"
     threads: 1

@@ -18,8 +18,6 @@ rule repair:
         f"{files.logs}/repair.log",
     benchmark:
         f"{files.logs}/repair.tsv"
-    group:
-        "recording"
     conda:
         "../../envs/base.yaml"
     threads: 1
@@ -49,8 +47,6 @@ rule poses:
         f"{files.subject}/logs/poses.log",
     benchmark:
         f"{files.subject}/logs/poses.tsv"
-    group:
-        "poses"
     conda:
         "../../envs/base.yaml"
     threads: 1
@@ -83,8 +79,6 @@ rule fill:
         f"{files.logs}/fill.log",
     benchmark:
         f"{files.logs}/fill.tsv"
-    group:
-        plan.filling_group
     conda:
         "../../envs/torch.yaml" if plan.trains_networks else "../../envs/base.yaml"
     threads: 1
@@ -125,8 +119,6 @@ for suffix in FORMATS:
             f"{files.logs}/export.tsv"
         wildcard_constraints:
             subject=plan.data.subjects_of(suffix),
-        group:
-            plan.filling_group
         conda:
             "../../envs/base.yaml"
         threads: 1

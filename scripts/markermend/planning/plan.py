@@ -136,22 +136,6 @@ class Plan:
         pools = pools and len(self.data.subjects[wildcards.subject]) > 1
         return [self.files.poses.format(subject=wildcards.subject)] if pools else []
 
-    def filling_group(self, wildcards: Wildcards) -> str:
-        """The group of the jobs from filling on, which wait for the subject's other recordings where these are pooled.
-
-        Parameters
-        ----------
-        wildcards : Wildcards
-            The names of the recording's folders.
-
-        Returns
-        -------
-        str
-            A group other than that of the stages before, where a job of the whole subject lies in between: else the one
-            job on a cluster would wait for the other, which waits for it.
-        """
-        return "filling" if self.poses(wildcards) else "recording"
-
     def _of_subject(self, pattern: str, subject: str) -> list[str]:
         """A file of each recording of a subject."""
         return [pattern.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]]

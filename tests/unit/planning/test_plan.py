@@ -42,11 +42,6 @@ def test_a_subject_has_poses_where_its_recordings_are_filled_from_each_other(pla
         assert make_plan(other, PROJECT, deployed=False).poses(job()) == []
 
 
-def test_a_group_of_jobs_does_not_wait_for_one_that_waits_for_it(plan):
-    assert plan.filling_group(job()) == "filling"
-    assert plan.filling_group(job("S2", "%7Bx%7D")) == "recording"
-
-
 def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
     assert plan.detectors == list(DETECTORS)
     assert plan.events() == [plan.files.events[stage] for stage in DETECTORS]
