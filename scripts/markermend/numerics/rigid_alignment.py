@@ -7,7 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 NEWTON_STEPS = 40
-"""Largest number of Newton steps to an eigenvalue; a handful is usual."""
+"""Largest number of Newton steps to a root; one to four are usual."""
+
+MIN_DISTINCT = 1e-3
+"""Product of the sums of two singular values each, from which on rotations are as accurate as by decompositions."""
+
+_NEXT, _LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,17 +86,16 @@ def align(points: np.ndarray, template: np.ndarray) -> LocalFrames:
     ----------
     Kabsch (1976), Acta Crystallographica A 32(5).
     """
-    origin = points.mean(axis=1)
-    return LocalFrames(nearest_rotations((points - origin[:, None]).swapaxes(1, 2) @ template), origin)
+    # Coordinates first: each operation runs through whole columns of frames.
+    columns = np.ascontiguousarray(points.transpose(1, 2, 0))
+    origin = columns.mean(axis=0)
+    products = template.T @ (columns - origin).reshape(len(template), -1)
+    rotations = _nearest(products.reshape(3, 3, -1).swapaxes(0, 1))
+    return LocalFrames(np.ascontiguousarray(rotations.transpose(2, 0, 1)), np.ascontiguousarray(origin.T))
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """Find the rotations nearest to matrices, by unit quaternions.
-
-    The quaternion is the dominant eigenvector of a symmetric, traceless 4 x 4 matrix. Its eigenvalue, the largest root
-    of the characteristic polynomial, is found by Newton's method from above, and the eigenvector is a column of the
-    adjugate. This takes a tenth of the time of singular value decompositions, which remain for the few matrices of
-    nearly rank 1.
+    """Find the rotations nearest to matrices.
 
     Parameters
     ----------
@@ -102,52 +106,45 @@ def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
     -------
     np.ndarray
         Rotations (n, 3, 3) that maximise the trace of their transposes times the matrices.
+    """
+    return np.ascontiguousarray(_nearest(matrices.transpose(1, 2, 0)).transpose(2, 0, 1))
 
-    References
-    ----------
-    Horn (1987), "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4(4).
+
+def _nearest(matrices: np.ndarray) -> np.ndarray:
+    """The rotations (3, 3, n) nearest to matrices (3, 3, n), from the sum of their singular values (that of the smallest has the sign of
+    the determinant).
+
+    The sum is the largest root of a polynomial of the fourth degree, found by Newton's method; the rotation is an expression in
+    it and the matrix. This takes a small part of the time of singular value decompositions, which remain for the few matrices
+    of nearly rank 1. See Markley (1993), "Attitude determination using vector observations: a fast optimal matrix algorithm",
+    J. Astronaut. Sci. 41(2).
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        key = _quaternion_matrices(matrices / np.linalg.norm(matrices, axis=(1, 2), keepdims=True))
-        square = key @ key
-        # Coefficients of the polynomial by Newton's identities: the powers of its roots sum to 0, 4, ...
-        linear = -(square * key).sum(axis=(1, 2)) / 3
-        constant = 2 - (square**2).sum(axis=(1, 2)) / 4
-        root = np.full(len(matrices), np.sqrt(3.0))
+        scaled = matrices / np.sqrt(np.einsum("ijn,ijn->n", matrices, matrices))
+        cofactors = (
+            scaled[_NEXT][:, _NEXT] * scaled[_LAST][:, _LAST] - scaled[_NEXT][:, _LAST] * scaled[_LAST][:, _NEXT]
+        )
+        determinant = (scaled[0] * cofactors[0]).sum(axis=0)
+        square = np.einsum("ijn,ijn->n", cofactors, cofactors)
+        # The root where the smallest singular value is 0; the polynomial is convex from there on.
+        root = np.sqrt(1 + 2 * np.sqrt(square))
         for _ in range(NEWTON_STEPS):
-            step = (((root**2 - 2) * root + linear) * root + constant) / (4 * root**3 - 4 * root + linear)
+            above = root**2 - 1
+            step = (above**2 - 8 * determinant * root - 4 * square) / (4 * (above * root - 2 * determinant))
             root = root - step
             if not (np.abs(step) > 1e-12).any():
                 break
-    r = root[:, None, None]
-    adjugate = square @ key + r * square + (r**2 - 2) * key + (r**3 - 2 * r + linear[:, None, None]) * np.eye(4)
-    diagonal = np.diagonal(adjugate, axis1=1, axis2=2)
-    quaternion = np.take_along_axis(adjugate, np.argmax(diagonal, axis=1)[:, None, None], axis=2)[..., 0]
-    degenerate = ~(diagonal.sum(axis=1) > 1e-3)
-    rotations = _from_quaternions(quaternion)
+        half = (root**2 - 1) / 2
+        product = np.einsum("kin,kjn->ijn", scaled, scaled)
+        # Of singular values a, b, c: (a + b) (b + c) (c + a).
+        distinct = half * root - determinant
+        numerator = (half + 1) * scaled + root * cofactors - np.einsum("ikn,kjn->ijn", scaled, product)
+        rotations: np.ndarray = numerator / distinct
+    degenerate = ~((distinct > MIN_DISTINCT) & (square > MIN_DISTINCT**2))
     if degenerate.any():
-        rotations[degenerate] = _by_singular_values(matrices[degenerate])
+        exact = _by_singular_values(matrices[..., degenerate].transpose(2, 0, 1))
+        rotations[..., degenerate] = exact.transpose(1, 2, 0)
     return rotations
-
-
-def _quaternion_matrices(matrices: np.ndarray) -> np.ndarray:
-    """Horn's symmetric matrices (n, 4, 4), whose dominant eigenvectors are the quaternions of matrices (n, 3, 3)."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.moveaxis(matrices, 0, -1)
-    upper = [xx + yy + zz, zy - yz, xz - zx, yx - xy, xx - yy - zz, xy + yx, xz + zx, yy - xx - zz, yz + zy]
-    key = np.stack([*upper, zz - xx - yy], axis=-1)[:, [0, 1, 2, 3, 1, 4, 5, 6, 2, 5, 7, 8, 3, 6, 8, 9]]
-    return key.reshape(-1, 4, 4)
-
-
-def _from_quaternions(quaternions: np.ndarray) -> np.ndarray:
-    """Rotation matrices (n, 3, 3) of quaternions (n, 4), scalar first, of any length."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    rows = [
-        [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=1)
 
 
 def _by_singular_values(matrices: np.ndarray) -> np.ndarray:
@@ -173,7 +170,9 @@ def mean_shape(points: np.ndarray) -> np.ndarray:
         Shape (k, 3), mm, centred: the median of the aligned frames, which outliers hardly move.
     """
     centred = points - points.mean(axis=1, keepdims=True)
-    distances = np.linalg.norm(points[:, :, None] - points[:, None], axis=3).reshape(len(points), -1)
+    first, second = np.triu_indices(points.shape[1], 1)
+    between = points[:, first] - points[:, second]
+    distances = np.sqrt(np.einsum("npi,npi->np", between, between))
     typical = int(np.argmin(np.abs(distances - np.median(distances, axis=0)).sum(axis=1)))
     shape: np.ndarray = centred[typical]
     for _ in range(2):

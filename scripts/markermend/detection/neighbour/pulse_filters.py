@@ -23,15 +23,13 @@ class PulseFilters(WindowFilters):
 
     inside: np.ndarray
 
-    def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
-        """Compute what samples of any size in place of the half wave explain; see `WindowFilters.explained`."""
-        used, which = np.unique(filters, return_inverse=True)
-        inside = self.inside[used]
-        root = np.linalg.cholesky(self.precision[inside[:, :, None], inside[:, None]])
-        maps = np.linalg.solve(root, self.precision[inside])
-        each = maps if len(used) == 1 else maps[which]
-        square: np.ndarray = ((windows @ each.swapaxes(1, 2)) ** 2).sum(axis=(1, 2))
-        return square
+    @property
+    def explained(self) -> np.ndarray:
+        """What samples of any size in place of the half wave explain; see `WindowFilters.explained`."""
+        across = self.precision[self.inside]
+        block = self.precision[self.inside[:, :, None], self.inside[:, None]]
+        forms: np.ndarray = across.swapaxes(1, 2) @ np.linalg.solve(block, across)
+        return forms
 
 
 @lru_cache(maxsize=512)

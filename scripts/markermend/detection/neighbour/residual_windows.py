@@ -9,6 +9,7 @@ a neighbour is in the residual alone.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -47,24 +48,54 @@ class WindowFilters:
         """Samples in a window."""
         return int(self.weights.shape[1])
 
-    def explained(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
-        """Compute what the fit of the pattern explains of windows.
+    @property
+    def explained(self) -> np.ndarray:
+        """Quadratic forms (c, n, n) of what the fits of the pattern explain of a window, in units of the residual mean square."""
+        scaled = self.weights / self.deviation[:, None]
+        forms: np.ndarray = scaled[:, :, None] * scaled[:, None]
+        return forms
+
+    @cached_property
+    def _unexplained(self) -> np.ndarray:
+        """Quadratic forms (c, n, n) of what remains of a window after the fit."""
+        forms: np.ndarray = self.precision - self.explained
+        return forms
+
+    @cached_property
+    def _band(self) -> np.ndarray:
+        """The weights of the only filter at each of as many places as it has samples, in a window of twice that: a banded matrix."""
+        length = self.length
+        band = np.zeros((2 * length - 1, length))
+        for place in range(length):
+            band[place : place + length, place] = self.weights[0]
+        return band
+
+    def amplitudes(self, signal: np.ndarray) -> np.ndarray:
+        """Estimate the amplitude of the pattern in each window of a signal.
 
         Parameters
         ----------
-        windows : np.ndarray
-            Windows (i, axes, n), mm.
-        filters : np.ndarray
-            Index of the filter (i,) of each.
+        signal : np.ndarray
+            Signal (frames, axes), mm, of n frames at least.
 
         Returns
         -------
         np.ndarray
-            Square (i,) in units of the residual mean square.
+            Amplitudes (axes, frames - n + 1, c), mm.
         """
-        amplitude = np.einsum("ian,in->ia", windows, self.weights[filters])
-        square: np.ndarray = ((amplitude / self.deviation[filters, None]) ** 2).sum(axis=1)
-        return square
+        length, count = self.length, len(signal) - self.length + 1
+        if len(self.weights) > 1:
+            each: np.ndarray = sliding_windows(signal, length).swapaxes(0, 1) @ self.weights.T
+            return each
+        # Overlapping blocks of the signal times a banded matrix: the product is fast, and hardly anything is copied.
+        blocks = -(-count // length)
+        padded = np.zeros((signal.shape[1], (blocks + 1) * length - 1))
+        padded[:, : len(signal)] = signal.T
+        step = padded.strides[1]
+        shape, strides = (len(padded), blocks, 2 * length - 1), (padded.strides[0], length * step, step)
+        cut = np.lib.stride_tricks.as_strided(padded, shape, strides, writeable=False)
+        product: np.ndarray = cut.reshape(-1, 2 * length - 1) @ self._band
+        return product.reshape(len(padded), -1, 1)[:, :count]
 
     def misfit(self, windows: np.ndarray, filters: np.ndarray) -> np.ndarray:
         """Compute what remains of windows after the fit of the pattern.
@@ -81,7 +112,12 @@ class WindowFilters:
         np.ndarray
             Root mean square (i,), mm.
         """
-        rest = ((windows @ self.precision) * windows).sum(axis=(1, 2)) - self.explained(windows, filters)
+        flat = np.ascontiguousarray(windows)
+        if len(self.weights) == 1:
+            mapped = (flat.reshape(-1, self.length) @ self._unexplained[0]).reshape(windows.shape)
+        else:
+            mapped = flat @ self._unexplained[filters]
+        rest = np.einsum("ian,ian->i", mapped, flat)
         misfit: np.ndarray = np.sqrt(np.maximum(rest, 0) / (windows.shape[1] * self.degrees_of_freedom))
         return misfit
 
@@ -265,19 +301,20 @@ def exceedances(
     ----------
     Conte, Lops, Ricci (1995), "Asymptotically optimum radar detection in compound-Gaussian clutter".
     """
-    residual, positions = (
-        sliding_windows(values[span, marker], filters.length) for values in (statistics.residual, statistics.positions)
-    )
-    amplitude = (residual @ filters.weights.T).transpose(0, 2, 1)
+    amplitude = filters.amplitudes(statistics.residual[span, marker])
     # The noise is at least the local scale: most windows are below the threshold whatever their misfit.
     deviation = options.threshold_sigmas * filters.deviation
-    frames = np.arange(span.start, span.start + len(amplitude))[:, None] + filters.offsets
+    frames = np.arange(span.start, span.start + amplitude.shape[1])[:, None] + filters.offsets
     least = fraction * np.maximum(deviation * statistics.local_scale[frames, marker], options.floor_mm)
-    at, which = np.nonzero((amplitude**2).sum(axis=2) > least**2)
-    amplitude, frame = amplitude[at, which], frames[at, which]
-    own = recorded_part(np.einsum("ian,in->ia", positions[at], filters.weights[which]), amplitude)
-    misfit = filters.misfit(residual[at], which) if len(at) else np.zeros(0)
+    at, which = np.nonzero(np.einsum("aic,aic->ic", amplitude, amplitude) > least**2)
+    amplitude, frame = amplitude[:, at, which].T, frames[at, which]
+    residual, positions = (
+        sliding_windows(values[span, marker], filters.length)[at]
+        for values in (statistics.residual, statistics.positions)
+    )
+    own = recorded_part(np.einsum("ian,in->ia", positions, filters.weights[which]), amplitude)
+    misfit = filters.misfit(residual, which) if len(at) else np.zeros(0)
     noise = np.hypot(misfit, statistics.local_scale[frame, marker])
     score = own / np.maximum(deviation[which] * noise, options.floor_mm)
     k = score > fraction
-    return Exceedances(residual[at[k]], positions[at[k]], which[k], frame[k], amplitude[k], score[k], misfit[k])
+    return Exceedances(residual[k], positions[k], which[k], frame[k], amplitude[k], score[k], misfit[k])

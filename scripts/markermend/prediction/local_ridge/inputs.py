@@ -10,6 +10,7 @@ import numpy as np
 
 from markermend.numerics.patterns import group_rows
 from markermend.numerics.rigid_alignment import align, mean_shape, width
+from markermend.numerics.selection import cells
 from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.local_ridge.pooled_rows import SHAPE_ROWS, PooledRows, pooled_rows
@@ -146,7 +147,7 @@ class InputSelection:
             if not self._enough(scene, observed, [marker, *markers.tolist()]):
                 return None
             sample = evenly_spaced(joint, SHAPE_ROWS)
-            return _Anchors(markers, observed, mean_shape(scene.positions[np.ix_(sample, markers)]))
+            return _Anchors(markers, observed, mean_shape(cells(scene.positions, sample, markers)))
 
         return scene.cached((self, "anchors", marker, markers.tobytes()), compute)
 
@@ -180,11 +181,11 @@ class InputSelection:
         training = pseudo_random_subset(joint, options.max_training_frames)
         pooled = self._pooled(scene, marker, anchors.markers, inputs)
         shape = anchors.shape if pooled is None else pooled.turned(anchors.shape)
-        frames = align(scene.positions[np.ix_(training, anchors.markers)], shape)
-        points = scene.positions[np.ix_(training, np.append(inputs, marker))]
+        frames = align(cells(scene.positions, training, anchors.markers), shape)
+        points = cells(scene.positions, training, np.append(inputs, marker))
         local = frames.local(points).reshape(len(training), -1)
-        centre = np.median(local, axis=0)
-        local = local - centre
+        centre = np.median(evenly_spaced(local, SHAPE_ROWS), axis=0)
+        local -= centre
         weights = robust_weights(local, ridge=options.ridge_mm2, sigmas=options.outlier_sigmas)
         return TrainingSet(anchors.markers, inputs, shape, centre, local, weights, training, pooled)
 

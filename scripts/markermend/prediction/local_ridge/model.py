@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from markermend.numerics.rigid_alignment import LocalFrames, align
+from markermend.numerics.selection import cells
 from markermend.prediction.local_ridge.pooled_rows import PooledRows
 
 
@@ -76,6 +77,8 @@ class TrainingSet:
         np.ndarray
             Local coordinates (n, 3 u), mm.
         """
+        if used.all():
+            return self.local[:, :-3]
         columns: np.ndarray = self.local[:, np.flatnonzero(np.repeat(used, 3))]
         return columns
 
@@ -96,10 +99,10 @@ class TrainingSet:
         LocalInputs
             The inputs at these frames.
         """
-        frames = align(positions[np.ix_(rows, self.anchors)], self.template)
-        columns = np.flatnonzero(np.repeat(used, 3))
-        local = frames.local(positions[np.ix_(rows, self.inputs[used])]).reshape(len(rows), -1)
-        return LocalInputs(local - self.centre[columns], frames)
+        frames = align(cells(positions, rows, self.anchors), self.template)
+        local = frames.local(cells(positions, rows, self.inputs[used])).reshape(len(rows), -1)
+        local -= self.centre[np.flatnonzero(np.repeat(used, 3))]
+        return LocalInputs(local, frames)
 
 
 class Regression(Protocol):

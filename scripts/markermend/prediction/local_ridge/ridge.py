@@ -10,13 +10,13 @@ REWEIGHTINGS = 2
 """Rounds of the robust weights."""
 
 
-def ridge_coefficients(design: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
+def ridge_coefficients(columns: np.ndarray, target: np.ndarray, weights: np.ndarray, ridge: float) -> np.ndarray:
     """Solve a weighted ridge regression with an unpenalised intercept.
 
     Parameters
     ----------
-    design : np.ndarray
-        Inputs (n, columns).
+    columns : np.ndarray
+        Intercept and inputs (n, 1 + inputs), see `with_intercept`.
     target : np.ndarray
         Targets (n, targets).
     weights : np.ndarray
@@ -27,15 +27,15 @@ def ridge_coefficients(design: np.ndarray, target: np.ndarray, weights: np.ndarr
     Returns
     -------
     np.ndarray
-        Intercept and coefficients (1 + columns, targets).
+        Intercept and coefficients (1 + inputs, targets).
 
     References
     ----------
     Hoerl & Kennard (1970), Technometrics 12(1).
     """
-    full = with_intercept(design)
-    weighted = full * weights[:, None]
-    return solve(weighted.T @ full, weighted.T @ target, weights.sum(), penalties(design.shape[1], ridge))
+    weighted = columns * weights[:, None]
+    penalty = penalties(columns.shape[1] - 1, ridge)
+    return solve(weighted.T @ columns, weighted.T @ target, weights.sum(), penalty)
 
 
 def with_intercept(inputs: np.ndarray) -> np.ndarray:
@@ -112,10 +112,11 @@ def robust_weights(local: np.ndarray, *, ridge: float, sigmas: float) -> np.ndar
         Weights (n,): 1 within the limit, beyond it the squared ratio of limit and residual.
     """
     weights = np.ones(len(local))
-    design, target = local[:, :-3], local[:, -3:]
-    full = with_intercept(design)
+    full = with_intercept(local)
+    columns, target = full[:, :-3], full[:, -3:]
     for _ in range(REWEIGHTINGS):
-        residual = np.linalg.norm(target - full @ ridge_coefficients(design, target, weights, ridge), axis=1)
+        rest = target - columns @ ridge_coefficients(columns, target, weights, ridge)
+        residual = np.sqrt(np.einsum("ij,ij->i", rest, rest))
         sigma = MAD_TO_STD * np.median(residual) + 1e-9
         weights = np.minimum(1.0, (sigmas * sigma / np.maximum(residual, 1e-9)) ** 2)
     return weights

@@ -114,3 +114,11 @@ def test_the_artifact_of_a_neighbour_is_in_the_residual_alone_and_does_not_excee
     size = 2 * residual_windows.context_samples(100.0, STEPS, min_samples=edges.MIN_CONTEXT)
     filters = edges.step_filters(statistics.covariance, size, (size // 2,))
     assert not len(residual_windows.exceedances(statistics, 0, slice(0, 200), filters, STEPS).frame)
+
+
+@pytest.mark.parametrize("frames", [12, 13, 24, 150])
+def test_amplitudes_of_one_filter_are_those_of_each_window(frames):
+    signal = coloured(150, 4)[:frames]
+    filters = edges.step_filters(WindowCovariance(np.eye(12), 2), 12, (6,))
+    expected = [[window @ filters.weights[0] for window in signal[k : k + 12].T] for k in range(frames - 11)]
+    np.testing.assert_allclose(filters.amplitudes(signal)[..., 0].T, expected, atol=1e-12)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from markermend.prediction.local_ridge.ridge import ridge_coefficients, robust_weights
+from markermend.prediction.local_ridge.ridge import ridge_coefficients, robust_weights, with_intercept
 
 
 def test_the_coefficients_are_those_of_least_squares_with_penalty_rows():
@@ -13,15 +13,15 @@ def test_the_coefficients_are_those_of_least_squares_with_penalty_rows():
     root = np.sqrt(weights)[:, None]
     rows = np.concatenate([root * np.insert(design, 0, 1.0, axis=1), np.eye(4)[1:] * np.sqrt(0.7 * weights.sum())])
     expected = np.linalg.lstsq(rows, np.concatenate([root * target, np.zeros((3, 2))]), rcond=None)[0]
-    assert np.allclose(ridge_coefficients(design, target, weights, 0.7), expected)
+    assert np.allclose(ridge_coefficients(with_intercept(design), target, weights, 0.7), expected)
 
 
 @pytest.mark.parametrize("ridge", [1, 1.0])
 def test_a_whole_number_as_penalty_leaves_the_intercept_free(ridge):
     rng = np.random.default_rng(2)
     design = rng.normal(size=(50, 2))
-    found = ridge_coefficients(design, 1e6 + design[:, :1], np.ones(50), ridge)
-    shifted = ridge_coefficients(design, design[:, :1], np.ones(50), ridge)
+    found = ridge_coefficients(with_intercept(design), 1e6 + design[:, :1], np.ones(50), ridge)
+    shifted = ridge_coefficients(with_intercept(design), design[:, :1], np.ones(50), ridge)
     assert np.allclose(found[0] - 1e6, shifted[0]) and np.allclose(found[1:], shifted[1:])
 
 

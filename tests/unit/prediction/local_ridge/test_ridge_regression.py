@@ -5,7 +5,7 @@ import pytest
 
 from markermend.prediction.local_ridge.model import TrainingSet
 from markermend.prediction.local_ridge.pooled_rows import PooledRows, about_mean
-from markermend.prediction.local_ridge.ridge import ridge_coefficients
+from markermend.prediction.local_ridge.ridge import ridge_coefficients, with_intercept
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from support.naive.prediction import pooled_ridge
 
@@ -39,7 +39,7 @@ def test_residuals_left_out_equal_training_again_without_the_block():
     found = regression.left_out(block)
     for b in range(5):
         kept, rows = block != b, block == b
-        beta = ridge_coefficients(local[kept, :6], local[kept, 6:], weights[kept], 0.1)
+        beta = ridge_coefficients(with_intercept(local[kept, :6]), local[kept, 6:], weights[kept], 0.1)
         expected = local[rows, 6:] - np.concatenate([np.ones((rows.sum(), 1)), local[rows, :6]], axis=1) @ beta
         assert np.allclose(found[rows], expected)
     assert np.isnan(regression.left_out(np.zeros(90, int))).all()
