@@ -43,9 +43,7 @@ def ensemble_options(**changed):
 
 def ensemble(names=None, **changed):
     """The default ensemble, with other members or some options changed."""
-    names, options = names or DEFAULTS.members, predictor_options()
-    brief = members(names, options, max_training_frames=DEFAULTS.pseudo_gap_training_frames)
-    return Ensemble(members(names, options), brief, ensemble_options(**changed))
+    return Ensemble(members(names or DEFAULTS.members, predictor_options()), ensemble_options(**changed))
 
 
 def fill_options(averaging=None, **changed):

@@ -19,7 +19,7 @@ from markermend.filling.member_weights import Evaluation, MemberWeights, deviati
 from markermend.filling.motion import motion_ratio, neighbour_motion
 from markermend.filling.pseudo_gaps import PseudoGap, pseudo_gaps
 from markermend.options.filling import EnsembleOptions
-from markermend.prediction.interface import Predictor, Trainable
+from markermend.prediction.interface import Abridgeable, Predictor, Trainable
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
@@ -65,24 +65,13 @@ class Ensemble:
     ----------
     members : sequence of Predictor
         The predictors.
-    trial_members : sequence of Predictor
-        The substitute of each member on pseudo-gaps, such as the same predictor with less training; names as in members.
     options : EnsembleOptions
         How they are weighted.
-
-    Raises
-    ------
-    ValueError
-        Where the names of the trial members differ from those of the members.
     """
 
-    def __init__(
-        self, members: Sequence[Predictor], trial_members: Sequence[Predictor], options: EnsembleOptions
-    ) -> None:
-        if [member.name for member in members] != [member.name for member in trial_members]:
-            raise ValueError("trial members differ from the members")
-        self.members, self.trial_members = tuple(members), tuple(trial_members)
-        self.options = options
+    def __init__(self, members: Sequence[Predictor], options: EnsembleOptions) -> None:
+        self.members, self.options = tuple(members), options
+        self.trial_members = tuple(each.abridged() if isinstance(each, Abridgeable) else each for each in members)
         self._averaging = Averaging(options)
         self._motion_powers = np.array([options.motion_power_of_member.get(member.name, 0.0) for member in members])
         self._use_neighbours = np.array([member.name not in KINDS for member in members], bool)

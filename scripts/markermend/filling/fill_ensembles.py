@@ -57,6 +57,5 @@ def make_ensembles(options: FillOptions, decisions: Collection[Decision] = ()) -
 
 
 def _make(names: Sequence[str], options: FillOptions, averaging: EnsembleOptions) -> Ensemble:
-    """One ensemble, whose members learn from fewer frames on pseudo-gaps."""
-    brief = members(names, options.predictors, max_training_frames=options.pseudo_gap_training_frames)
-    return Ensemble(members(names, options.predictors), brief, averaging)
+    """One ensemble."""
+    return Ensemble(members(names, options.predictors), averaging)

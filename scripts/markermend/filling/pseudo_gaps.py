@@ -197,4 +197,4 @@ def _hide(scene: Scene, pattern: _Pattern, starts: np.ndarray, directions: np.nd
         positions[start:stop] += pattern.deviation[..., None] * direction
         positions[start:stop][pattern.absent] = np.nan
         positions[max(start - pattern.before, 0) : stop + pattern.after, pattern.marker] = np.nan
-    return replace(scene, positions=positions, measured=None, inherited_std=None)
+    return replace(scene, positions=positions, measured=None, inherited_std=None, whole=scene)

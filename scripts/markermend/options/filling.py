@@ -266,8 +266,5 @@ class FillOptions:
     smoothing_s: Seconds = 0
     """Window of a moving median, then a moving mean, over what was filled; 0 for none (0.07 in the program released with tits2018)."""
 
-    pseudo_gap_training_frames: CountOrNone = 400
-    """Training frames of local_ridge, local_gp and their variants on pseudo-gaps, at most."""
-
     ensemble: EnsembleOptions = field(default_factory=EnsembleOptions)
     """Averaging of the members, and expected error."""

@@ -237,7 +237,6 @@ RENAMED: dict[str, tuple[str, dict[str, str]]] = {
             "ends": "fill_ends",
             "seen_share": "min_seen_share",
             "reuse": "reuse_filled",
-            "trial_frames": "pseudo_gap_training_frames",
             "variants": "predictors.local_ridge_variants",
         },
     ),

@@ -98,6 +98,21 @@ class Trainable(Protocol):
 
 
 @runtime_checkable
+class Abridgeable(Protocol):
+    """A predictor that trains so long that pseudo-gaps have to do with less."""
+
+    def abridged(self) -> Predictor:
+        """Make the same predictor with less training.
+
+        Returns
+        -------
+        Predictor
+            What is tried on pseudo-gaps in place of this one.
+        """
+        ...
+
+
+@runtime_checkable
 class LocallyContinuous(Protocol):
     """A predictor in a local frame of reference, in which its predictions can be made to meet the observed samples."""
 

@@ -169,9 +169,7 @@ def _variant(kind: str, name: str, changes: Mapping[str, Any]) -> Maker:
     return make
 
 
-def members(
-    names: Sequence[str], options: PredictorOptions, *, max_training_frames: int | None = None
-) -> list[Predictor]:
+def members(names: Sequence[str], options: PredictorOptions) -> list[Predictor]:
     """Make the named predictors.
 
     Parameters
@@ -180,9 +178,6 @@ def members(
         Names of predictors and of variants of local_ridge and local_gp.
     options : PredictorOptions
         Their options.
-    max_training_frames : int, optional
-        For pseudo-gaps, with less training: training frames of local_ridge, local_gp and their variants, at most; the networks
-        have their `pseudo_gap_epochs`.
 
     Returns
     -------
@@ -194,13 +189,6 @@ def members(
     ValueError
         For a name that is neither known nor a variant, or that is there twice.
     """
-    if max_training_frames is not None:
-        ridge, networks = options.local_ridge, options.neural_networks
-        options = replace(
-            options,
-            local_ridge=replace(ridge, max_training_frames=min(ridge.max_training_frames, max_training_frames)),
-            neural_networks=replace(networks, epochs=networks.pseudo_gap_epochs),
-        )
     known = known_members(options)
     unknown = [name for name in names if name not in known]
     if unknown:

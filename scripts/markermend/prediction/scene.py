@@ -45,6 +45,9 @@ class Scene(CachesResults):
         left; None where nothing was left.
     pool : Pool | None
         Poses from the subject's other recordings, from which predictors learn besides; None where there are none.
+    whole : Scene | None
+        The scene of which this one hides pseudo-gaps for trial; None where it is no trial. A predictor may train on it once
+        for all trials, if what it uses for each is as if it had been trained without the hidden frames.
     """
 
     positions: np.ndarray
@@ -58,6 +61,7 @@ class Scene(CachesResults):
     unlabelled: Mapping[str, np.ndarray] | None = None
     near_jumps: np.ndarray | None = None
     pool: Pool | None = None
+    whole: Scene | None = None
 
     @classmethod
     def of(cls, recording: Recording, mesh: Mesh, positions: np.ndarray | None = None) -> Scene:

@@ -95,7 +95,7 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
         Noisy("eeeee", truth, 0.3, misses=0.3),
     ]
     options = ensemble_options(fallback_members=(), max_gap_s_of_member={}, motion_power_of_member={"a": 0.5})
-    own = Ensemble(members, members, options)
+    own = Ensemble(members, options)
     gap = Gap(2, 120 + seed, 150)
     positions = truth.copy()
     positions[115:155] += 5 * np.sin(np.arange(40) / 2)[:, None, None]
@@ -127,7 +127,7 @@ def test_the_weighted_mean_and_its_deviation_equal_the_naive_twin(seed):
 
 def test_the_deviation_inherits_that_of_filled_neighbours():
     truth = rigid_body()
-    own = Ensemble([Noisy("a", truth, 0.5)], [Noisy("a", truth, 0.5)], ensemble_options(max_gap_s_of_member={}))
+    own = Ensemble([Noisy("a", truth, 0.5)], ensemble_options(max_gap_s_of_member={}))
     gap, rng = Gap(2, 120, 150), np.random.default_rng(1)
     seen = scene(truth)
     inherited = np.where(rng.random(truth.shape[:2]) < 0.3, rng.uniform(0, 5, truth.shape[:2]), 0.0)
@@ -224,9 +224,6 @@ def test_a_rigid_body_is_filled_exactly():
 def test_wrong_options_are_refused():
     with pytest.raises(ValueError, match="unknown weights"):
         ensemble(weights="best")
-    own = ensemble(["spline"])
-    with pytest.raises(ValueError, match="differ"):
-        Ensemble([predictor("spline")], [predictor("linear")], own.options)
 
 
 def test_a_foot_that_stands_nearly_always_and_steps_during_the_gap():

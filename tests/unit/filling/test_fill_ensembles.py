@@ -4,7 +4,6 @@ import pytest
 
 from markermend.core.decisions import Decision
 from markermend.filling.fill_ensembles import make_ensembles
-from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from support.fillings import fill_options
 
 
@@ -12,11 +11,10 @@ def decided(verb, value):
     return Decision("*", 0, 10, verb, value)
 
 
-def test_the_default_ensemble_has_the_members_of_the_options_and_less_training_on_pseudo_gaps():
-    made = make_ensembles(fill_options(members=["local_ridge", "spline"], pseudo_gap_training_frames=50))
+def test_the_default_ensemble_has_the_members_of_the_options():
+    made = make_ensembles(fill_options(members=["local_ridge", "spline"]))
     assert [member.name for member in made.default.members] == ["local_ridge", "spline"]
-    ridge, brief = made.default.members[0].options, made.default.trial_members[0].options
-    assert (ridge.max_training_frames, brief.max_training_frames) == (LocalRidgeOptions().max_training_frames, 50)
+    assert made.default.trial_members == made.default.members
     assert not made.single
 
 

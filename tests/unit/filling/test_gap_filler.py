@@ -39,7 +39,7 @@ def filled(
 ):
     member = Recorder(errors or {}, name)
     # Without pseudo-gaps the prior radii stand.
-    ensemble = Ensemble([member], [member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
+    ensemble = Ensemble([member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
     positions = rigid_body()
     for gap in gaps:
         positions[gap.samples] = np.nan

@@ -91,7 +91,7 @@ class InducedFeatures:
             The features.
         """
         data, used = ridge.data, ridge.used
-        use = np.linalg.norm(ridge.coefficients[1:], axis=1)
+        use = np.linalg.norm(ridge.function.coefficients[1:], axis=1)
         poses = _poses(data, used, options.inducing_points)
         sample = poses * use
         typical = max(float(np.sqrt(np.median(squared_distances(sample, sample)))), 1e-6)

@@ -43,11 +43,14 @@ class Assignment:
         Which of the inputs are observed in these frames, bool (k,).
     rows : np.ndarray
         The frames (n,), ascending.
+    hidden : np.ndarray | None
+        Places of the training frames (h,) that the scene hides for trial; None where it hides none.
     """
 
     data: TrainingSet
     used: np.ndarray
     rows: np.ndarray
+    hidden: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +91,8 @@ class InputSelection:
         Assignment
             Each frame that can be predicted is in one of them.
         """
-        candidates = self._candidates(scene, marker, frames)
+        whole = scene.whole or scene
+        candidates = self._candidates(whole, marker, scene.present, frames)
         if len(candidates) < MIN_ANCHORS or len(frames) == 0:
             return
         present = scene.present[np.ix_(frames, candidates)]
@@ -97,22 +101,40 @@ class InputSelection:
         for first, rows in group_rows(leading):
             if first.sum() < MIN_ANCHORS:
                 continue
-            data = self._training_set(scene, marker, candidates, np.flatnonzero(first), present[rows])
+            data = self._training_set(whole, marker, candidates, np.flatnonzero(first), present[rows])
             if data is None:
+                continue
+            hidden = None if scene.whole is None else self._hidden(scene, marker, data)
+            if hidden is not None and not self._enough(whole, len(data.training) - len(hidden), [marker, *data.inputs]):
                 continue
             observed = scene.present[np.ix_(frames[rows], data.inputs)]
             for used, members in group_rows(observed):
-                yield Assignment(data, used, frames[rows][members])
+                yield Assignment(data, used, frames[rows][members], hidden)
 
-    def _candidates(self, scene: Scene, marker: int, frames: np.ndarray) -> np.ndarray:
-        """Neighbours to use for these frames: in the mesh's order, but those that are often missing come last."""
-        ranked: np.ndarray = np.asarray(scene.neighbours[marker], int)
-        ranked = ranked[[self._enough(scene, scene.present[:, other], [marker, other]) for other in ranked.tolist()]]
+    def _candidates(self, whole: Scene, marker: int, present: np.ndarray, frames: np.ndarray) -> np.ndarray:
+        """Neighbours to use for these frames: in the mesh's order, but those that are often missing come last.
+
+        present: bool (frames of the recording, markers), in the scene with these frames.
+        """
+        ranked = whole.cached((self, "seen enough", marker), partial(self._seen_enough, whole, marker))
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
-        share = scene.present[np.ix_(frames, ranked)].mean(axis=0)
+        share = present[np.ix_(frames, ranked)].mean(axis=0)
         ranked = ranked[np.argsort(share < OFTEN, kind="stable")]
         return ranked[: 2 * self.options.inputs]
+
+    def _seen_enough(self, scene: Scene, marker: int) -> np.ndarray:
+        """Neighbours that are seen in enough frames, in the mesh's order."""
+        ranked = np.asarray(scene.neighbours[marker], int)
+        counts = np.count_nonzero(scene.present[:, ranked], axis=0).tolist()
+        enough = [self._enough(scene, n, [marker, other]) for n, other in zip(counts, ranked.tolist(), strict=True)]
+        seen: np.ndarray = ranked[enough]
+        return seen
+
+    def _hidden(self, scene: Scene, marker: int, data: TrainingSet) -> np.ndarray:
+        """Places of the training frames in which a scene shows not all that is learned from."""
+        needed = [*data.anchors, *data.inputs, marker]
+        return np.flatnonzero(~scene.present[np.ix_(data.training, needed)].all(axis=1))
 
     def _training_set(
         self, scene: Scene, marker: int, candidates: np.ndarray, first: np.ndarray, present: np.ndarray
@@ -144,7 +166,7 @@ class InputSelection:
         def compute() -> _Anchors | None:
             observed = scene.present[:, marker] & scene.present[:, markers].all(axis=1)
             joint = np.flatnonzero(observed)
-            if not self._enough(scene, observed, [marker, *markers.tolist()]):
+            if not self._enough(scene, len(joint), [marker, *markers.tolist()]):
                 return None
             sample = evenly_spaced(joint, SHAPE_ROWS)
             return _Anchors(markers, observed, mean_shape(cells(scene.positions, sample, markers)))
@@ -154,19 +176,20 @@ class InputSelection:
     def _inputs(self, scene: Scene, marker: int, anchors: _Anchors, others: np.ndarray) -> np.ndarray:
         """The anchors, and of the other candidates the first that leave enough joint training frames."""
         inputs, observed = anchors.markers.tolist(), anchors.observed
-        required = int(MIN_JOINT_SHARE * observed.sum())
+        required = int(MIN_JOINT_SHARE * np.count_nonzero(observed))
         for candidate in others.tolist():
             if len(inputs) >= self.options.inputs:
                 break
             joint = observed & scene.present[:, candidate]
-            if joint.sum() >= required and self._enough(scene, joint, [marker, *inputs, candidate]):
+            count = int(np.count_nonzero(joint))
+            if count >= required and self._enough(scene, count, [marker, *inputs, candidate]):
                 inputs.append(candidate)
                 observed = joint
         return np.array(inputs)
 
-    def _enough(self, scene: Scene, observed: np.ndarray, markers: list[int]) -> bool:
-        """Whether frames (mask) that show markers are enough to learn from: fewer are where other recordings show them, too."""
-        count, options = int(np.count_nonzero(observed)), self.options
+    def _enough(self, scene: Scene, count: int, markers: list[int]) -> bool:
+        """Whether so many frames that show markers are enough: fewer are where other recordings show these, too."""
+        options = self.options
         if count >= options.min_training_frames:
             return True
         if scene.pool is None or count < options.min_own_frames:

@@ -6,11 +6,12 @@ The variance of an error is modelled as proportional to ``1 + growth * h / (1 + 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from markermend.prediction.local_ridge.ridge import with_intercept
+from markermend.prediction.local_ridge.ridge import penalties, with_intercept
 
 GROWTHS = np.concatenate([[0.0], np.geomspace(0.01, 100, 25)])
 """Growths of the error's variance with the leverage that are tried."""
@@ -22,17 +23,26 @@ class LeverageScale:
 
     Attributes
     ----------
-    inverse : np.ndarray
-        Matrix (1 + columns, 1 + columns) of the quadratic form that is the relative leverage.
+    gram : np.ndarray
+        Weighted sum of products of the inputs with intercept (1 + columns, 1 + columns).
+    total : float
+        Sum of the weights.
+    ridge : float
+        Penalty of the regression, mm^2.
+    mean : float
+        Mean leverage of the training frames.
     max_leverage : float
         Limit that the bounded leverage approaches: errors are bounded, as motion is.
     growth : float
         Growth of the variance of an error with the bounded leverage.
     """
 
-    inverse: np.ndarray
+    gram: np.ndarray
+    total: float
+    ridge: float
+    mean: float
     max_leverage: float
-    growth: float
+    growth: float = 0.0
 
     def factor(self, inputs: np.ndarray) -> np.ndarray:
         """Compute the relative standard deviation of errors.
@@ -47,9 +57,58 @@ class LeverageScale:
         np.ndarray
             Factors (n,), at least 1.
         """
-        leverage = _bounded_leverage(with_intercept(inputs), self.inverse, self.max_leverage)
-        factor: np.ndarray = np.sqrt(1 + self.growth * leverage)
+        factor: np.ndarray = np.sqrt(1 + self.growth * self.leverage(with_intercept(inputs)))
         return factor
+
+    def without(self, full: np.ndarray, weights: np.ndarray) -> LeverageScale:
+        """Take a part of the training frames away.
+
+        Parameters
+        ----------
+        full : np.ndarray
+            Inputs with intercept (h, 1 + columns), mm, of these frames.
+        weights : np.ndarray
+            Their weights (h,).
+
+        Returns
+        -------
+        LeverageScale
+            The scale for a regression on the others.
+        """
+        gram = self.gram - (full * weights[:, None]).T @ full
+        return replace(self, gram=gram, total=float(self.total - weights.sum()))
+
+    def leverage(self, full: np.ndarray) -> np.ndarray:
+        """Compute the bounded leverage.
+
+        Parameters
+        ----------
+        full : np.ndarray
+            Inputs with intercept (n, 1 + columns), mm.
+
+        Returns
+        -------
+        np.ndarray
+            Leverages (n,) in units of the mean, which approach the limit.
+        """
+        leverage = ((full @ self._inverse) * full).sum(axis=1) / self.mean
+        bounded: np.ndarray = leverage / (1 + leverage / self.max_leverage)
+        return bounded
+
+    def mean_leverage(self) -> float:
+        """Compute the mean leverage of the training frames.
+
+        Returns
+        -------
+        float
+            The mean, not bounded, per unit of weight.
+        """
+        return float((self.gram * self._inverse).sum() / self.total)
+
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        """Inverse of the mean product of inputs, penalised but for the intercept."""
+        return np.linalg.inv(self.gram / self.total + np.diag(penalties(len(self.gram) - 1, self.ridge)))
 
 
 def fit_leverage_scale(
@@ -87,20 +146,17 @@ def fit_leverage_scale(
         is left to train on.
     """
     full = with_intercept(inputs)
-    weighted = full * weights[:, None]
-    gram, total = weighted.T @ full, weights.sum()
-    inverse = _inverse(gram, total, ridge)
-    mean = float((gram * inverse).sum() / total)
+    scale = LeverageScale((full * weights[:, None]).T @ full, float(weights.sum()), ridge, 1.0, max_leverage)
+    scale = replace(scale, mean=scale.mean_leverage())
     leverage = np.full(len(full), np.nan)
     for number in np.unique(block):
         own = block == number
-        rest = total - weights[own].sum()
-        if rest > 0:
-            inverse_of_rest = _inverse(gram - weighted[own].T @ full[own], rest, ridge)
-            leverage[own] = _bounded_leverage(full[own], inverse_of_rest / mean, max_leverage)
+        rest = scale.without(full[own], weights[own])
+        if rest.total > 0:
+            leverage[own] = rest.leverage(full[own])
     known = np.isfinite(leverage) & ~np.isnan(residual).any(axis=1)
     growth = likeliest_growth(leverage[known], (residual[known] ** 2).mean(axis=1))
-    return LeverageScale(inverse / mean, max_leverage, growth), np.sqrt(1 + growth * leverage)
+    return replace(scale, growth=growth), np.sqrt(1 + growth * leverage)
 
 
 def likeliest_growth(leverage: np.ndarray, square: np.ndarray) -> float:
@@ -123,17 +179,3 @@ def likeliest_growth(leverage: np.ndarray, square: np.ndarray) -> float:
     variance = 1 + GROWTHS[:, None] * leverage
     deviance = np.log((square / variance).mean(axis=1)) + np.log(variance).mean(axis=1)
     return float(GROWTHS[np.argmin(deviance)])
-
-
-def _inverse(gram: np.ndarray, total: float, ridge: float) -> np.ndarray:
-    """Inverse of the mean product of inputs, penalised but for the intercept."""
-    penalty = np.full(len(gram), float(ridge))
-    penalty[0] = 0.0  # the intercept
-    return np.linalg.inv(gram / total + np.diag(penalty))
-
-
-def _bounded_leverage(full: np.ndarray, inverse: np.ndarray, limit: float) -> np.ndarray:
-    """Leverages (n,) of rows with intercept (n, 1 + columns), which approach the limit."""
-    leverage = ((full @ inverse) * full).sum(axis=1)
-    bounded: np.ndarray = leverage / (1 + leverage / limit)
-    return bounded

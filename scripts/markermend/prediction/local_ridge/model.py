@@ -105,8 +105,8 @@ class TrainingSet:
         return LocalInputs(local, frames)
 
 
-class Regression(Protocol):
-    """A regression of a marker's local position on those of the used inputs, trained on a TrainingSet."""
+class PoseFunction(Protocol):
+    """The local position of a marker as a function of those of the used inputs."""
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Predict the local position of the marker.
@@ -120,6 +120,25 @@ class Regression(Protocol):
         -------
         np.ndarray
             Local positions (n, 3), mm.
+        """
+        ...
+
+
+class Regression(PoseFunction, Protocol):
+    """Such a function, trained on a TrainingSet."""
+
+    def without(self, rows: np.ndarray) -> PoseFunction:
+        """Train the function without some of the training frames.
+
+        Parameters
+        ----------
+        rows : np.ndarray
+            Places of these frames in the training set (h,).
+
+        Returns
+        -------
+        PoseFunction
+            What is left to learn.
         """
         ...
 

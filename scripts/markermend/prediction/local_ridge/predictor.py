@@ -18,7 +18,8 @@ from markermend.options.prediction.local_ridge import LocalRidgeOptions
 from markermend.prediction.interface import LocalRegression, Prediction
 from markermend.prediction.local_ridge.inputs import Assignment, InputSelection
 from markermend.prediction.local_ridge.leverage import LeverageScale, fit_leverage_scale
-from markermend.prediction.local_ridge.model import LocalInputs, Regression, TrainingSet
+from markermend.prediction.local_ridge.model import LocalInputs, PoseFunction, Regression, TrainingSet
+from markermend.prediction.local_ridge.ridge import with_intercept
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from markermend.prediction.scene import Scene
 
@@ -34,11 +35,15 @@ TRUSTED_WEIGHT = 0.5
 
 @dataclass(frozen=True, eq=False)
 class _Fit:
-    """A regression of a marker, fitted to the training data of an assignment."""
+    """A regression of a marker, fitted to the training data of an assignment.
+
+    function: what the regression learned without what the scene hides for trial.
+    """
 
     marker: int
     assignment: Assignment
     regression: Regression
+    function: PoseFunction
 
     def inputs_at(self, scene: Scene, rows: np.ndarray) -> LocalInputs:
         """The inputs of the regression at frames that show them."""
@@ -76,15 +81,14 @@ class LocalRidge:
         hidden = scene.without(marker, start, stop)
         prediction, first = Prediction.empty(start, stop), start - 1
         for assignment in self._selection.assignments(hidden, marker, hidden.bordered(start, stop)):
-            data, used, rows = assignment.data, assignment.used, assignment.rows
-            regression = hidden.cached((self, data, used.tobytes()), partial(self._fit, data, used))
-            fit = _Fit(marker, assignment, regression)
+            rows = assignment.rows
+            fit = self._fit_to(hidden, marker, assignment)
             covariance, scale = self._error_model(hidden, fit, stop - start)
             # Frames of the gap and those with observations share one alignment: its cost hardly depends on their number.
             observed = self._observed_nearby(hidden, fit)
             both = np.union1d(rows, observed)
             inputs = fit.inputs_at(hidden, both)
-            expected, target = regression.predict(inputs.values), np.searchsorted(both, rows)
+            expected, target = fit.function.predict(inputs.values), np.searchsorted(both, rows)
             residual = inputs.frames.local(hidden.positions[both, marker]) - expected
             mean, variance = krige(
                 covariance,
@@ -127,7 +131,8 @@ class LocalRidge:
         for marker in range(scene.positions.shape[1]) if markers is None else markers:
             frames = np.flatnonzero(scene.present[:, marker])
             for assignment in self._selection.assignments(scene, marker, frames):
-                fit = _Fit(marker, assignment, self._fit(assignment.data, assignment.used))
+                regression = self._fit(assignment.data, assignment.used)
+                fit = _Fit(marker, assignment, regression, regression)
                 inputs = fit.inputs_at(scene, assignment.rows)
                 predicted = inputs.frames.laboratory(fit.regression.predict(inputs.values))
                 yield _Residuals(fit, inputs, scene.positions[assignment.rows, marker] - predicted)
@@ -136,12 +141,25 @@ class LocalRidge:
         """The regression on the used inputs (mask)."""
         return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
 
+    def _fit_to(self, scene: Scene, marker: int, assignment: Assignment) -> _Fit:
+        """The regression, trained once for a scene and all trials on it."""
+        data, used = assignment.data, assignment.used
+        key = self, data, used.tobytes()
+        regression: Regression = (scene.whole or scene).cached(key, partial(self._fit, data, used))
+        if assignment.hidden is None:
+            return _Fit(marker, assignment, regression, regression)
+        return _Fit(marker, assignment, regression, scene.cached(key, partial(regression.without, assignment.hidden)))
+
     def _error_model(self, scene: Scene, fit: _Fit, length: int) -> tuple[Covariance, LeverageScale]:
         """Covariance of the residuals in typical poses, and how they grow with leverage; length: of the gap, frames."""
-        data, used = fit.assignment.data, fit.assignment.used
+        data, used, hidden = fit.assignment.data, fit.assignment.used, fit.assignment.hidden
         blocks = int(np.clip(len(scene.positions) // max(length, 1), 2, MAX_BLOCKS))
-        key = self, data, used.tobytes(), blocks
-        return scene.cached(key, partial(self._covariance, scene, fit, blocks))
+        key, whole = (self, data, used.tobytes(), blocks), scene.whole or scene
+        covariance, scale = whole.cached(key, partial(self._covariance, whole, fit, blocks))
+        if hidden is None:
+            return covariance, scale
+        part = with_intercept(data.design(used)[hidden]), data.weights[hidden]
+        return covariance, scene.cached(key, partial(scale.without, *part))
 
     def _observed_nearby(self, scene: Scene, fit: _Fit) -> np.ndarray:
         """Frames (k,) about those of the assignment that show the marker and its inputs, ascending."""

@@ -31,6 +31,26 @@ class Products:
     total: np.ndarray
 
     @classmethod
+    def of(cls, columns: np.ndarray, target: np.ndarray, weights: np.ndarray) -> Products:
+        """Sum over rows.
+
+        Parameters
+        ----------
+        columns, target : np.ndarray
+            Columns (n, c) and targets (n, 3) of the rows.
+        weights : np.ndarray
+            Weights of the rows (n,).
+
+        Returns
+        -------
+        Products
+            The sums.
+        """
+        weighted = (columns * weights[:, None]).T
+        square = (weights[:, None] * target**2).sum()
+        return cls(weighted @ columns, weighted @ target, square, weights.sum())
+
+    @classmethod
     def by_block(cls, columns: np.ndarray, target: np.ndarray, weights: np.ndarray, block: np.ndarray) -> Products:
         """Sum over each block of rows.
 
@@ -49,11 +69,8 @@ class Products:
             The sums, first axis: blocks.
         """
         cuts = starts_of(block)[1:]
-        parts = [np.split(each, cuts) for each in (columns, columns * weights[:, None], target, weights)]
-        sums = [
-            (weighted.T @ rows, weighted.T @ goal, (own[:, None] * goal**2).sum(), own.sum())
-            for rows, weighted, goal, own in zip(*parts, strict=True)
-        ]
+        parts = zip(*(np.split(each, cuts) for each in (columns, target, weights)), strict=True)
+        sums = [vars(cls.of(*part)).values() for part in parts]
         return cls(*(np.stack(each) for each in zip(*sums, strict=True)))
 
     def sum(self) -> Products:
@@ -75,6 +92,21 @@ class Products:
             The sums, first axis: blocks.
         """
         return Products(*(each.sum(axis=0) - each for each in vars(self).values()))
+
+    def less(self, part: Products) -> Products:
+        """Take a part of the rows away.
+
+        Parameters
+        ----------
+        part : Products
+            Sums over these rows.
+
+        Returns
+        -------
+        Products
+            Sums over the others.
+        """
+        return Products(*(whole - own for whole, own in zip(vars(self).values(), vars(part).values(), strict=True)))
 
     def coefficients(self, penalty: np.ndarray, pooled: Products | None = None, weight: float = 0.0) -> np.ndarray:
         """Solve for the coefficients of a ridge regression.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -89,6 +90,30 @@ class Pooling:
 
 
 @dataclass(frozen=True, eq=False)
+class LinearFunction:
+    """A local position that is linear in the inputs and in functions of them.
+
+    Attributes
+    ----------
+    coefficients : np.ndarray
+        Coefficients (c, 3) of the intercept, the inputs and the features.
+    features : Features | None
+        Functions of the inputs; None for none.
+    centre : np.ndarray
+        Typical local position (3,), mm, about which they predict.
+    """
+
+    coefficients: np.ndarray
+    features: Features | None
+    centre: np.ndarray
+
+    def predict(self, inputs: np.ndarray) -> np.ndarray:
+        """Predict the local position of the marker. See `PoseFunction.predict`."""
+        local: np.ndarray = _columns(inputs, self.features) @ self.coefficients + self.centre
+        return local
+
+
+@dataclass(frozen=True, eq=False)
 class RidgeRegression:
     """A weighted ridge regression with an unpenalised intercept.
 
@@ -108,8 +133,8 @@ class RidgeRegression:
         Mean products of the pooled rows; None where they do not count.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
-    coefficients : np.ndarray
-        Coefficients of the columns (c, 3).
+    own : Products
+        Products of the training frames.
     """
 
     data: TrainingSet
@@ -119,7 +144,12 @@ class RidgeRegression:
     penalty: np.ndarray
     pooled: Products | None
     pool_weight: float
-    coefficients: np.ndarray
+    own: Products
+
+    @cached_property
+    def function(self) -> LinearFunction:
+        """What was learned from all training frames."""
+        return self._learned(self.own)
 
     @classmethod
     def fit(cls, data: TrainingSet, used: np.ndarray, ridge: float, pooling: Pooling | None = None) -> RidgeRegression:
@@ -151,7 +181,7 @@ class RidgeRegression:
             errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
             weight = weights[int(np.argmin(errors))]
         pooled = pooled if weight > 0 else None
-        return cls(data, used, None, columns, penalty, pooled, weight, own.sum().coefficients(penalty, pooled, weight))
+        return cls(data, used, None, columns, penalty, pooled, weight, own.sum())
 
     def extended(self, features: Features, *, max_pooled_rows: int) -> RidgeRegression:
         """Train the regression on the inputs and functions of them, with pooled rows of the same weight.
@@ -171,21 +201,23 @@ class RidgeRegression:
         columns = _columns(self.data.design(self.used), features)
         extra = np.full(columns.shape[1] - len(self.penalty), features.penalty)
         penalty = np.append(self.penalty, extra)
-        own = Products.by_block(columns, self.data.target, self.data.weights, np.zeros(len(columns), int)).sum()
         pooled = self.pooled and _extended_products(self.data, self.used, features, max_pooled_rows)
-        return replace(
-            self,
-            features=features,
-            columns=columns,
-            penalty=penalty,
-            pooled=pooled,
-            coefficients=own.coefficients(penalty, pooled, self.pool_weight),
-        )
+        own = Products.of(columns, self.data.target, self.data.weights)
+        return replace(self, features=features, columns=columns, penalty=penalty, pooled=pooled, own=own)
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
-        """Predict the local position of the marker. See `Regression.predict`."""
-        local: np.ndarray = _columns(inputs, self.features) @ self.coefficients + self.data.centre[-3:]
-        return local
+        """Predict the local position of the marker. See `PoseFunction.predict`."""
+        return self.function.predict(inputs)
+
+    def without(self, rows: np.ndarray) -> LinearFunction:
+        """Train the function without some of the training frames. See `Regression.without`."""
+        part = Products.of(self.columns[rows], self.data.target[rows], self.data.weights[rows])
+        return self._learned(self.own.less(part))
+
+    def _learned(self, own: Products) -> LinearFunction:
+        """What was learned from training frames of these products."""
+        coefficients = own.coefficients(self.penalty, self.pooled, self.pool_weight)
+        return LinearFunction(coefficients, self.features, self.data.centre[-3:])
 
     def left_out(self, block: np.ndarray) -> np.ndarray:
         """Compute residuals left out by blocks, from sums over all blocks less those over one. See `Regression.left_out`."""

@@ -7,7 +7,7 @@ by side, whatever their markers and scenes; torch is imported when the first one
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
@@ -108,6 +108,10 @@ class Network:
         if reason := cannot_train([name]):
             raise ValueError(reason)
         self.name, self.kind, self.options = name, KINDS[name], options
+
+    def abridged(self) -> Network:
+        """Make the same network, trained for fewer epochs. See `Abridgeable.abridged`."""
+        return Network(self.name, replace(self.options, epochs=self.options.pseudo_gap_epochs))
 
     def train(self, jobs: Sequence[tuple[Scene, int]]) -> None:
         """Train networks, further ones for gaps in which too few of the usual inputs are observed. See `Trainable.train`."""

@@ -105,7 +105,7 @@ def test_features_of_pooled_rows_have_an_offset_for_each_recording():
         ridge=RIDGE,
         pool_weight=0.1,
     )
-    assert np.allclose(regression.coefficients, expected)
+    assert np.allclose(regression.function.coefficients, expected)
 
 
 def test_poses_of_other_recordings_are_inducing_points_too():

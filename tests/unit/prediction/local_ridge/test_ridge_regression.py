@@ -42,6 +42,8 @@ def test_residuals_left_out_equal_training_again_without_the_block():
         beta = ridge_coefficients(with_intercept(local[kept, :6]), local[kept, 6:], weights[kept], 0.1)
         expected = local[rows, 6:] - np.concatenate([np.ones((rows.sum(), 1)), local[rows, :6]], axis=1) @ beta
         assert np.allclose(found[rows], expected)
+        rest = regression.without(np.flatnonzero(rows))
+        assert np.allclose(local[rows, 6:] - rest.predict(local[rows, :6]), expected)
     assert np.isnan(regression.left_out(np.zeros(90, int))).all()
 
 
@@ -65,11 +67,12 @@ def test_pooled_rows_have_an_offset_for_each_recording(used):
         )
 
     regression = RidgeRegression.fit(data, used, 0.2, Pooling((0.7,), 4))
-    assert np.allclose(regression.coefficients, naive(np.ones(60, bool)))
+    assert np.allclose(regression.function.coefficients, naive(np.ones(60, bool)))
     block = np.repeat([0, 1, 2], 20)
     left = regression.left_out(block)
     for b in range(3):
         beta, rows = naive(block != b), own[block == b]
+        assert np.allclose(regression.without(np.flatnonzero(block == b)).coefficients, beta)
         assert np.allclose(left[block == b], rows[:, 6:] - beta[0] - rows[:, columns[:-3]] @ beta[1:])
 
 
@@ -110,7 +113,7 @@ def test_without_pooling_the_pool_does_not_count():
     rng = np.random.default_rng(11)
     own, pooled = rng.normal(size=(60, 9)), pooled_rows(rng.normal(size=(80, 9)), np.ones(80), np.zeros(80, int))
     alone, ignoring = (
-        RidgeRegression.fit(training_set(own, np.ones(60), rows), BOTH, 0.2).coefficients for rows in (None, pooled)
+        RidgeRegression.fit(training_set(own, np.ones(60), rows), BOTH, 0.2).function.coefficients for rows in (None, pooled)
     )
     assert np.array_equal(alone, ignoring)
 

@@ -185,7 +185,7 @@ def test_as_published_a_network_learns_from_all_frames_but_the_gap(name, person)
 
 def test_trials_train_for_fewer_epochs():
     full = members(["network_gru"], predictor_options())[0]
-    brief = members(["network_gru"], predictor_options(), max_training_frames=100)[0]
+    brief = full.abridged()
     assert (full.options.epochs, brief.options.epochs) == (OPTIONS.epochs, OPTIONS.pseudo_gap_epochs)
     assert replace(brief.options, epochs=full.options.epochs) == full.options
 
