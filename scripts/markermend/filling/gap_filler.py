@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -64,6 +64,7 @@ class GapFiller:
         self._piece_tolerance = piece_tolerance
         self._radius_options = ensemble.options.radius
         self._evaluations: dict[GapKind, Evaluation] = {}
+        self._kinds: dict[Gap, GapKind] = {}
 
     def fill(self, scene: GrowingScene, gaps: Sequence[Gap], stretches: Mapping[Gap, Gap] = NO_STRETCHES) -> FilledGaps:
         """Fill gaps in their order.
@@ -102,7 +103,25 @@ class GapFiller:
                 _report_progress(len(filled) + len(refused), len(gaps))
             for gap in inputs:
                 scene.add(gap, filled[gap])
+        self._fill_again(scene, filled, [gap for gap in gaps if gap not in stretches])
         return self._calibrate(filled, refused)
+
+    def _fill_again(self, scene: GrowingScene, filled: dict[Gap, Filling], gaps: Iterable[Gap]) -> None:
+        """Fill gaps once more of which near neighbours were filled later; weights and expected errors remain."""
+        complete = scene.current()
+        seen_better = [gap for gap in gaps if gap in filled and self._seen_since(complete, gap)]
+        for marker, of_marker in groupby(seen_better, key=lambda gap: gap.marker):
+            current = scene.without(marker)
+            for gap in of_marker:
+                again = self._ensemble.fill(current, gap, self._evaluations[self._kinds[gap]])
+                if _failure(current, gap, again) is None:
+                    filled[gap] = replace(again, deviation=filled[gap].deviation)
+                    if self._is_input(filled[gap]):
+                        scene.add(gap, filled[gap])
+
+    def _seen_since(self, scene: Scene, gap: Gap) -> frozenset[int]:
+        """Near neighbours that a scene shows throughout a gap, but did not when it was filled."""
+        return self._kinds[gap].absent - self._ensemble.kind(scene, gap, ()).absent
 
     def _without_doubtful_pieces(self, scene: Scene, stretches: Sequence[Gap]) -> Scene:
         """The scene without the short pieces that contradict what is predicted for their stretches."""
@@ -119,6 +138,7 @@ class GapFiller:
     def _evaluation(self, scene: Scene, gap: Gap) -> Evaluation:
         """Errors on pseudo-gaps, measured once for all gaps of a kind."""
         kind = self._ensemble.kind(scene, gap, self._evaluations)
+        self._kinds[gap] = kind
         if kind not in self._evaluations:
             self._evaluations[kind] = self._ensemble.evaluate(scene, gap)
         return self._evaluations[kind]

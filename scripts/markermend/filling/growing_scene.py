@@ -50,6 +50,23 @@ class GrowingScene:
             self._measured, positions=self._positions, measured=self._measured, inherited_std=self._deviation
         )
 
+    def without(self, marker: int) -> Scene:
+        """Give the scene as it is now, but with all gaps of a marker open.
+
+        Parameters
+        ----------
+        marker : int
+            Index of the marker.
+
+        Returns
+        -------
+        Scene
+            Measured samples, and filled ones of the other markers.
+        """
+        positions, deviation = self._positions.copy(), self._deviation.copy()
+        positions[:, marker], deviation[:, marker] = self._measured.positions[:, marker], 0.0
+        return replace(self._measured, positions=positions, measured=self._measured, inherited_std=deviation)
+
     def add(self, gap: Gap, filling: Filling) -> None:
         """Add a filled gap as an input for later ones.
 
