@@ -109,3 +109,18 @@ def test_a_short_piece_away_from_its_prediction_is_not_used(place, widened):
     asked = [(start, bool(present[110, 1])) for _, start, present in member.scenes]
     assert asked == [(100, False), *([(100, False)] * 2 if widened else [(100, True), (111, True)])]
     assert [len(filling.positions) for filling in result.accepted.values()] == [10, 10]
+
+
+def test_gaps_of_which_neighbours_were_filled_later_are_filled_again_with_the_same_expected_error():
+    result, member, growing = filled({1: 2.0})
+    assert [(marker, start) for marker, start, _ in member.scenes] == [(1, 100), (1, 150), (4, 100), (1, 100)]
+    first, again = member.scenes[0][2], member.scenes[-1][2]
+    assert not first[OTHER.samples].any() and again[OTHER.samples].all()
+    assert not again[FIRST.samples].any() and not again[SECOND.samples].any()
+    assert result.accepted[FIRST].deviation == pytest.approx(np.full(10, 2.0))
+    assert growing.current().present.all()
+
+
+def test_without_filled_inputs_nothing_is_filled_again():
+    _, member, _ = filled(reuse=False)
+    assert [(marker, start) for marker, start, _ in member.scenes] == [(1, 100), (1, 150), (4, 100)]

@@ -38,3 +38,15 @@ def test_a_copy_grows_by_itself():
     assert (other.current().positions[GAP.samples] == 5).all()
     assert (growing.current().inherited_std[10:30, 3] == 0).all()
     assert (other.current().inherited_std[10:30, 3] == 2).all()
+
+
+def test_without_a_marker_its_own_gaps_are_open_and_those_of_others_filled():
+    positions = rigid_body()
+    positions[GAP.samples] = positions[10:30, 3] = np.nan
+    growing = GrowingScene(scene(positions))
+    growing.add(GAP, FILLING)
+    growing.add(Gap(3, 10, 30), FILLING)
+    seen = growing.without(2)
+    assert np.isnan(seen.positions[GAP.samples]).all() and (seen.inherited_std[GAP.samples] == 0).all()
+    assert (seen.positions[10:30, 3] == 5).all() and (seen.inherited_std[10:30, 3] == 2).all()
+    assert growing.current().present.all()

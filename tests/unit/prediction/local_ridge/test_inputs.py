@@ -89,3 +89,23 @@ def test_recordings_that_show_the_markers_too_briefly_do_not_make_up_for_it():
         pool = Pool(elsewhere, np.arange(80) // rows, tuple(map(str, range(80 // rows))))
         found = InputSelection(OPTIONS).assignments(replace(scene(body), pool=pool), 0, np.arange(20, 60))
         assert len(list(found)) == count
+
+
+def test_on_a_trial_training_data_are_those_of_the_whole_scene_and_what_it_hides_is_named():
+    whole = scene(rigid_body(frames=300, markers=8))
+    positions = whole.positions.copy()
+    positions[20:40, 0] = positions[25:45, 2] = np.nan
+    trial, selection = replace(whole, positions=positions, whole=whole), InputSelection(OPTIONS)
+    (entire,) = selection.assignments(whole, 0, np.arange(60, 80))
+    (found,) = selection.assignments(trial, 0, np.arange(60, 80))
+    assert entire.hidden is None and found.data is entire.data
+    assert 2 in found.data.inputs
+    assert found.data.training[found.hidden].tolist() == list(range(20, 45))
+
+
+def test_a_trial_that_leaves_too_few_frames_predicts_nothing():
+    whole = scene(rigid_body(frames=100, markers=8))
+    positions = whole.positions.copy()
+    positions[30:71, 0] = np.nan
+    trial = replace(whole, positions=positions, whole=whole)
+    assert not list(InputSelection(OPTIONS).assignments(trial, 0, np.arange(30, 71)))

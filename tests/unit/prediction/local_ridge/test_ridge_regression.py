@@ -113,7 +113,8 @@ def test_without_pooling_the_pool_does_not_count():
     rng = np.random.default_rng(11)
     own, pooled = rng.normal(size=(60, 9)), pooled_rows(rng.normal(size=(80, 9)), np.ones(80), np.zeros(80, int))
     alone, ignoring = (
-        RidgeRegression.fit(training_set(own, np.ones(60), rows), BOTH, 0.2).function.coefficients for rows in (None, pooled)
+        RidgeRegression.fit(training_set(own, np.ones(60), rows), BOTH, 0.2).function.coefficients
+        for rows in (None, pooled)
     )
     assert np.array_equal(alone, ignoring)
 
