@@ -26,6 +26,14 @@ include: "workflow/rules/pma2018.smk"
 include: "workflow/rules/artifacts2022.smk"
 
 
+# Snakemake's records of what results were made from (.snakemake) lie with the results: a run started in another folder, or of another
+# copy of the code, must notice what has changed, too. Environments, which many results share, stay where Snakemake puts them.
+workflow.deployment_settings.conda_prefix = workflow.deployment_settings.conda_prefix or Path.cwd() / ".snakemake/conda"
+
+
+workdir: plan.files.results
+
+
 localrules:
     all,
 

@@ -24,8 +24,8 @@ def checksums(results: Path) -> dict[str, str]:
 
 
 def is_result(name: Path) -> bool:
-    """Whether a path below the results is a result of a stage: not of a log, nor of the report on the run."""
-    return name.parts[0] != "report" and "logs" not in name.parts and name.name != "failures.tsv"
+    """Whether a path below the results is a result of a stage: not of a log, of Snakemake, nor of the report on the run."""
+    return name.parts[0] not in ("report", ".snakemake") and "logs" not in name.parts and name.name != "failures.tsv"
 
 
 def differences(first: dict[str, str], second: dict[str, str]) -> Iterator[str]:

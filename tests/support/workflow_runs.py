@@ -94,9 +94,11 @@ class Project:
         return Plan(jobs, set(changed[1].split(", ")) if changed else set(), text)
 
     def outputs(self, results: Path | None = None) -> dict[str, bytes]:
-        """Every result, by its path; not logs and the facts of the run, which have clocks."""
+        """Every result, by its path; not logs, Snakemake's records and the facts of the run, which have clocks."""
         top = results or self.results
         files = (
-            path for path in top.rglob("*") if path.is_file() and not {"logs", "provenance.json"} & set(path.parts)
+            path
+            for path in top.rglob("*")
+            if path.is_file() and not {"logs", "provenance.json", ".snakemake"} & set(path.parts)
         )
         return {path.relative_to(top).as_posix(): path.read_bytes() for path in files}

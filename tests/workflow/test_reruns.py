@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -135,6 +136,19 @@ def test_an_option_reruns_its_stage_and_what_follows(finished, stage, change, tm
     plan = finished.plan("--configfile", str(tmp_path / "study.yaml"))
     assert plan.parameters_changed == {stage}
     assert plan.jobs == {**dict.fromkeys(CHAIN[CHAIN.index(stage) : -1], 2), "report": 1, "all": 1}
+
+
+def test_a_run_that_is_started_in_another_folder_notices_the_same(finished, tmp_path):
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"steps": {"threshold_sigmas": 7.5}}))
+    here = finished.command("--dry-run", "--snakefile", str(finished.folder / "Snakefile"))
+    for arguments, expected in (
+        ((), NOTHING),
+        (("--configfile", "study.yaml"), r"changed since last execution:\n\s+steps"),
+    ):
+        done = subprocess.run(
+            [*here, *arguments], cwd=tmp_path, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True, check=True
+        )
+        assert re.search(expected, done.stdout)
 
 
 def test_an_added_recording_reruns_what_its_subject_shares_and_the_report(finished):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cached_property
 from types import ModuleType
@@ -227,7 +227,8 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
         Where the options cannot be used.
     """
     moving = [entry for entry in entries if entry.kind != "static"]
-    made = Experiments(read_options(config.get(EXPERIMENTS)), folder, moving, len(entries))
+    options = _with_absolute_tables(read_options(config.get(EXPERIMENTS)))
+    made = Experiments(options, folder, moving, len(entries))
     if unused := [
         f"{EXPERIMENTS}.{paper}.recordings: no recording has such a name"
         for paper in PAPERS
@@ -235,6 +236,13 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
     ]:
         raise BadOptions("\n".join(unused))
     return made
+
+
+def _with_absolute_tables(options: EvaluationOptions) -> EvaluationOptions:
+    """The options with absolute paths of persons' tables: jobs run in another folder than that of the user."""
+    paper = options.artifacts2022
+    tables = {name: os.path.abspath(path) for name, path in paper.operators.tables.items()}
+    return replace(options, artifacts2022=replace(paper, operators=replace(paper.operators, tables=tables)))
 
 
 def only_experiments(targets: Collection[Any], folder: str) -> bool:

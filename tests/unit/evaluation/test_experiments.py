@@ -62,6 +62,14 @@ def test_a_paper_may_use_some_of_the_given_recordings():
         make_experiments({"evaluate": {"pma2018": {"recordings": ["run"]}}}, GIVEN, "/out/papers")
 
 
+def test_tables_of_persons_are_found_from_the_folder_of_the_jobs(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    tables = {"Ann": "ann.tsv", "Bob": "/data/bob.tsv"}
+    made = make_experiments({"evaluate": {"artifacts2022": {"operators": {"tables": tables}}}}, GIVEN, "/out/papers")
+    found = made.options.artifacts2022.operators.tables
+    assert found == {"Ann": str(tmp_path / "ann.tsv"), "Bob": "/data/bob.tsv"}
+
+
 @pytest.mark.parametrize(
     ("targets", "expected"),
     [
