@@ -13,7 +13,7 @@ from markermend.report import rendering
 from markermend.storage import stage_files
 from markermend.storage.folder_names import encode
 from support import report_files
-from support.html_pages import HOSTILE, Page, links_of
+from support.html_pages import HOSTILE, Page, assert_one_program, links_of
 from support.report_files import Results
 
 
@@ -53,6 +53,13 @@ def test_hostile_names_are_text(tmp_path):
     for text in Page(made.page).data.values():
         assert not set("<>&") & set(text)
         json.loads(text)
+
+
+def test_pages_allow_their_own_program_alone(tmp_path):
+    made = hostile(tmp_path)
+    aside = Page(rendering.page_aside(made.summary | {"stage": "ingest", "reason": HOSTILE}))
+    for page in (Page(made.page), run_report(tmp_path, [made.folder / "08_qc.json"]), aside):
+        assert_one_program(page)
 
 
 def test_links_lead_to_files_whatever_the_names(tmp_path):

@@ -18,16 +18,18 @@ function themed(layout) {
 function draw(place) {
   if (place.dataset.drawn) return;
   place.dataset.drawn = "yes";
-  const figure = FIGURES[Number(place.dataset.figure)];
+  const figure = figures[Number(place.dataset.figure)];
   Plotly.newPlot(place, figure.data, themed(figure.layout), { displaylogo: false, displayModeBar: false, responsive: true });
 }
+const figures = JSON.parse(document.getElementById("figures").textContent);
 const places = [...document.querySelectorAll(".chart")];
-if (!window.Plotly) {
-  places.forEach((place) => { place.textContent = "plotly.min.js is missing: keep the folders of the papers together"; });
-} else {
+function watch() {
   const near = new IntersectionObserver((entries) => {
     entries.filter((entry) => entry.isIntersecting).forEach((entry) => draw(entry.target));
   }, { rootMargin: "800px" });
   places.forEach((place) => near.observe(place));
   window.addEventListener("beforeprint", () => places.forEach(draw));
 }
+loadLibrary("../plotly.min.js", "plotly.min.js is missing: keep the folders of the papers together").then(watch, (error) => {
+  places.forEach((place) => { place.textContent = error.message; });
+});

@@ -1,16 +1,5 @@
 // Plots are drawn on demand, from data that the page holds compactly.
 const drawing = document.body;
-let library = null;
-function loadLibrary() {
-  library ??= new Promise((resolve, reject) => {
-    const script = document.createElement("script");
-    script.src = "../../report/plotly.min.js";
-    script.onload = resolve;
-    script.onerror = () => reject(new Error("report/plotly.min.js is missing: finish the run, or keep the report folder next to the subjects' folders"));
-    document.head.append(script);
-  });
-  return library;
-}
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); }
 // Each run is [offset, differences of x, of y, of z, ...] in hundredths of a mm; runs are separated by null.
 function unpack(runs, finding) {
@@ -141,7 +130,7 @@ async function toggle(button) {
   below.className = "drawn"; cell.colSpan = row.cells.length; place.className = "plot";
   cell.append(place); below.append(cell); row.after(below);
   try {
-    await loadLibrary();
+    await loadLibrary("../../report/plotly.min.js", "report/plotly.min.js is missing: finish the run, or keep the report folder next to the subjects' folders");
     if (place.isConnected) draw(place, JSON.parse(document.getElementById(button.dataset.finding).textContent));
   } catch (error) { place.className = "note bad"; place.textContent = error.message; }
 }
