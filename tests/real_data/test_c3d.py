@@ -10,6 +10,7 @@ from markermend.core.recording import BadRecording
 from markermend.formats import files
 from markermend.formats.c3d.data_layout import locate
 from support.c3d_files import STORAGES, UNLABELLED, section_of
+from support.ezc3d_strings import strings_by_ezc3d
 
 pytestmark = [pytest.mark.data, pytest.mark.filterwarnings("ignore::UserWarning:c3d")]
 
@@ -160,3 +161,22 @@ def test_a_long_recording_is_read_by_arrays_not_by_samples(data):
     finally:
         sys.setprofile(None)
     assert len(calls) < reading.recording.positions.size / 50
+
+
+def test_ezc3d_reads_the_same_strings(data):
+    """Of every parameter that holds any; ezc3d adds empty ones, and blank strings where the file has room for none.
+
+    Odd files are left out, since ezc3d may end the process on them.
+    """
+    compared = 0
+    for path in sorted(path for path in data.rglob("*.c3d") if path.parent.name != "odd"):
+        try:
+            section, theirs = section_of(path), strings_by_ezc3d(path)
+        except (BadRecording, OSError, RuntimeError, ValueError):
+            continue
+        for group, parameters in theirs.items():
+            for name, strings in parameters.items():
+                if section.sound and any(strings):
+                    assert list(section.groups[group][name]) == strings or group == "EZC3D", (path.name, group, name)
+                    compared += 1
+    assert compared > 100

@@ -13,7 +13,7 @@ from typing import Any
 from markermend import __version__
 from markermend.planning.code_hashes import code
 
-PACKAGES = ("numpy", "scipy", "pyarrow", "ezc3d", "jinja2", "plotly", "snakemake")
+PACKAGES = ("numpy", "scipy", "pyarrow", "jinja2", "plotly", "snakemake")
 """The third-party packages that results may depend on."""
 
 

@@ -12,9 +12,6 @@ from markermend.formats.c3d.encoding import Coding
 TEXT, BYTE, INTEGER, FLOAT = -1, 1, 2, 4
 """Types of parameters: bytes per value, negative for text."""
 
-LONGEST_DESCRIPTION = 127
-"""Characters of a description."""
-
 MOST_DIMENSIONS = 7
 """Of a parameter."""
 
@@ -88,7 +85,7 @@ def decode_record(head: bytes, position: int, limit: int, coding: Coding) -> Rec
     return Record(identity, name, head[at + 2 : at + offset], at + offset)
 
 
-def decode_values(body: bytes, coding: Coding) -> tuple[Values, int]:
+def decode_values(body: bytes, coding: Coding) -> Values:
     """Decode the values of a parameter.
 
     Parameters
@@ -100,10 +97,8 @@ def decode_values(body: bytes, coding: Coding) -> tuple[Values, int]:
 
     Returns
     -------
-    values : sequence of str or of float
+    sequence of str or of float
         Strings along the first dimension, or numbers, integers unsigned.
-    length : int
-        How many bytes of the body they take.
 
     Raises
     ------
@@ -117,35 +112,14 @@ def decode_values(body: bytes, coding: Coding) -> tuple[Values, int]:
     if kind not in (TEXT, BYTE, INTEGER, FLOAT) or len(dimensions) > MOST_DIMENSIONS:
         raise UnsoundRecordError
     size = math.prod(dimensions) * abs(kind)
-    length = 2 + len(dimensions) + size
-    data = body[2 + len(dimensions) : length]
+    data = body[2 + len(dimensions) :][:size]
     if len(data) < size:
         raise UnsoundRecordError
     if kind == TEXT:
-        return list(_texts(data, dimensions[0] if dimensions else 1)), length
+        return list(_texts(data, dimensions[0] if dimensions else 1))
     if kind == BYTE:
-        return list(data), length
-    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist(), length
-
-
-def is_description(rest: bytes, *, complete: bool) -> bool:
-    """Decide whether what follows the contents of a record is a description.
-
-    Parameters
-    ----------
-    rest : bytes
-        What follows.
-    complete : bool
-        Whether nothing else may follow.
-
-    Returns
-    -------
-    bool
-        Whether it is one.
-    """
-    if not rest or rest[0] > LONGEST_DESCRIPTION:
-        return False
-    return len(rest) == 1 + rest[0] if complete else len(rest) >= 1 + rest[0]
+        return list(data)
+    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist()  # type: ignore[no-any-return]
 
 
 def decode_text(data: bytes) -> str:

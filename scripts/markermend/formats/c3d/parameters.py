@@ -1,7 +1,6 @@
 """The header and the parameter section of a C3D file; neither is assumed to be right.
 
-Our own parser checks every length against the bytes that are present. Only a section that it finds sound is handed to
-ezc3d, and without the data, since ezc3d reads whole files and relies on what they declare. It cannot read MIPS files.
+Every length is checked against the bytes that are present.
 """
 
 from __future__ import annotations
@@ -10,17 +9,13 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from markermend.core.recording import BadRecording
 from markermend.formats.c3d.encoding import Coding, Processor
-from markermend.formats.c3d.isolated_reader import strings_by_ezc3d
 from markermend.formats.c3d.parameter_records import (
     UnsoundRecordError,
     Values,
     decode_record,
     decode_values,
-    is_description,
 )
 
 BLOCK = 512
@@ -75,8 +70,6 @@ class Section:
         Parameters by group and name, both in capitals; integers are unsigned.
     sound : bool
         Whether every record fits the section.
-    exact : bool
-        Whether, besides, each is as long as its contents, and no longer.
     end : int
         Where the records end, in bytes.
     """
@@ -85,7 +78,6 @@ class Section:
     header: Header
     groups: dict[str, dict[str, Values]] = field(default_factory=dict)
     sound: bool = True
-    exact: bool = True
     end: int = 0
 
     def texts(self, group: str, name: str) -> list[str]:
@@ -166,10 +158,6 @@ def read_section(path: Path) -> Section:
     coding = Coding(Processor(head[start + 3]))
     section = Section(coding, _header(head, coding))
     _parse(head, start + 4, section)
-    readable = section.coding.processor is not Processor.MIPS
-    if section.sound and section.exact and readable:
-        for group, parameters in strings_by_ezc3d(_without_data(head, section)).items():
-            section.groups.setdefault(group, {}).update(parameters)
     return section
 
 
@@ -200,24 +188,10 @@ def _parse(head: bytes, start: int, section: Section) -> None:
         try:
             if record.identity < 0:
                 names[-record.identity] = record.name
-                length = 0
             elif record.identity > 0:
-                values, length = decode_values(record.body, section.coding)
-                found.append((record.identity, record.name, values))
-            section.exact &= record.identity == 0 or is_description(record.body[length:], complete=position is not None)
+                found.append((record.identity, record.name, decode_values(record.body, section.coding)))
         except UnsoundRecordError:
             section.sound = False
     for identity, name, values in found:
         section.sound &= identity in names
         section.groups.setdefault(names.get(identity, ""), {}).setdefault(name, values)
-
-
-def _without_data(head: bytes, section: Section) -> bytes:
-    """A C3D file with the parameter section and nothing behind it, under a header that declares no data."""
-    start = (section.header.parameter_block - 1) * BLOCK
-    parameters = bytearray(head[start : section.end]) + bytes(2)
-    parameters += bytes(-len(parameters) % BLOCK)
-    parameters[2] = min(len(parameters) // BLOCK, 255)
-    words = np.zeros(BLOCK // 2, f"{section.coding.order}u2")
-    words[3], words[4], words[8] = 1, 0, len(parameters) // BLOCK + 2
-    return bytes((2, KEY)) + words.tobytes()[2:] + bytes(parameters)

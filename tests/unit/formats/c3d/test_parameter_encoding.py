@@ -5,11 +5,7 @@ import pytest
 
 from markermend.formats.c3d.encoding import Coding, Processor
 from markermend.formats.c3d.parameter_encoding import encode_record, encode_section, encode_values, padded
-from markermend.formats.c3d.parameter_records import (
-    decode_record,
-    decode_values,
-    is_description,
-)
+from markermend.formats.c3d.parameter_records import decode_record, decode_values
 from markermend.formats.c3d.parameters import BLOCK
 
 VALUES = {
@@ -30,9 +26,8 @@ def test_values_and_records_come_back(processor, name):
     record = encode_record("LABELS", 3, content, coding)
     decoded = decode_record(record + b"\0\0", 0, len(record) + 2, coding)
     assert (decoded.identity, decoded.name, decoded.following) == (3, "LABELS", len(record))
-    values, length = decode_values(decoded.body, coding)
-    assert list(values) == expected and length == len(content)
-    assert is_description(decoded.body[length:], complete=True)
+    assert list(decode_values(decoded.body, coding)) == expected
+    assert decoded.body == content + b"\0"
 
 
 def test_long_lists_go_on_in_further_parameters_and_data_start_after_the_section():

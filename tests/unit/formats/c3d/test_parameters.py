@@ -1,10 +1,10 @@
-"""Header and parameters are read with every length checked; ezc3d sees only sound sections."""
+"""Header and parameters are read with every length checked, and as ezc3d reads them."""
 
 import pytest
 
 from markermend.core.recording import BadRecording
-from markermend.formats.c3d import parameters
 from support.c3d_files import assert_read_whole, read, section_of, trajectories, write
+from support.ezc3d_strings import strings_by_ezc3d
 
 
 @pytest.fixture
@@ -28,23 +28,18 @@ def test_what_is_no_c3d_file(tmp_path, content, reason):
         read(path)
 
 
-def test_a_damaged_parameter_is_left_out_and_never_reaches_ezc3d(path, monkeypatch):
+def test_a_damaged_parameter_is_left_out(path):
     content = bytearray(path.read_bytes())
     at = content.index(b"DESCRIPTIONS") + len("DESCRIPTIONS") + 4
     content[at] = 200
     path.write_bytes(content)
-    monkeypatch.setattr(parameters, "strings_by_ezc3d", lambda *_: pytest.fail("ezc3d got a damaged section"))
     assert_read_whole(path, "parameter section is damaged")
 
 
-def test_ezc3d_reads_sound_sections_as_our_parser_does(path, monkeypatch):
-    both = section_of(path)
-    monkeypatch.setattr(parameters, "strings_by_ezc3d", lambda *_: {})
-    ours = section_of(path)
-    assert ours.groups["POINT"] == both.groups["POINT"]
-    assert "EZC3D" not in ours.groups
-
-
-def test_labels_come_from_ezc3d_where_it_can_read_the_file(path, monkeypatch):
-    monkeypatch.setattr(parameters, "strings_by_ezc3d", lambda *_: {"POINT": {"LABELS": ["W", "X", "Y", "Z"]}})
-    assert read(path).recording.markers == tuple("WXYZ")
+def test_ezc3d_reads_the_same_strings(tmp_path):
+    path = write(tmp_path / "walk.c3d", labels=["LASI", "Knie innen", "Gürtel", "C7  "])
+    for content in (path.read_bytes(), path.read_bytes().replace("Gü".encode(), b"G\xfc ")):
+        path.write_bytes(content)
+        theirs, ours = strings_by_ezc3d(path)["POINT"], section_of(path).groups["POINT"]
+        assert theirs["LABELS"] == ours["LABELS"] and theirs["UNITS"] == ours["UNITS"]
+    assert ours["LABELS"] == ["LASI", "Knie innen", "Gü rtel", "C7"]
