@@ -119,7 +119,8 @@ def decode_values(body: bytes, coding: Coding) -> Values:
         return list(_texts(data, dimensions[0] if dimensions else 1))
     if kind == BYTE:
         return list(data)
-    return (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist()  # type: ignore[no-any-return]
+    numbers: list[float] = (coding.integers(data) if kind == INTEGER else coding.floats(data)).tolist()
+    return numbers
 
 
 def decode_text(data: bytes) -> str:
