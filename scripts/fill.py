@@ -28,7 +28,7 @@ STAGE.keeps_outputs()
 def work(call: Any) -> str:
     restored = stage_files.read_recording(call.repaired)
     assert isinstance(restored, Restored)
-    mesh = mesh_file.read(call.mesh, restored.facts["recording"])
+    mesh = mesh_file.read(call.mesh, restored.facts["recording"], restored.markers)
     decided = decisions.read(call.decisions, restored.first_frame)
     repairs = change_file.read(call.repairs)
     poses = next(map(poses_file.read, call.poses), None)

@@ -18,7 +18,7 @@ STAGE = detector_stage.command("labels", __doc__, LabelsOptions, finds="faults o
 
 def work(call: Any) -> str:
     recording = stage_files.read_recording(call.markers)
-    mesh = mesh_file.read(call.mesh, recording.facts["recording"])
+    mesh = mesh_file.read(call.mesh, recording.facts["recording"], recording.markers)
     found, warnings = detect_labels(**detector.labels_arguments(recording, mesh, call.options))
     stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
     return detector_stage.result(found)

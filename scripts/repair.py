@@ -27,7 +27,7 @@ def work(call: Any) -> str:
     found = {stage_files.read_facts(path)["stage"]: stage_files.read_events(path) for path in call.events}
     repaired = repair(
         recording,
-        mesh_file.read(call.mesh, recording.facts["recording"]),
+        mesh_file.read(call.mesh, recording.facts["recording"], recording.markers),
         found=found,
         options=call.options,
         decisions=decisions.read(call.decisions, recording.first_frame),

@@ -90,7 +90,7 @@ def arguments(call: DetectorCall) -> tuple[dict[str, Any], list[Event]]:
         If an earlier stage set the recording aside.
     """
     recording = stage_files.read_recording(call.markers)
-    mesh = mesh_file.read(call.mesh, recording.facts["recording"])
+    mesh = mesh_file.read(call.mesh, recording.facts["recording"], recording.markers)
     earlier = [event for path in call.earlier for event in stage_files.read_events(path)]
     return detector_arguments(recording, mesh, earlier, options=call.options)
 

@@ -189,6 +189,32 @@ class Mesh:
             self, markers=present(self.markers), segments=segments, predictors=predictors, neighbours=neighbours
         )
 
+    def fitted(self, markers: Collection[str]) -> Mesh:
+        """Give the mesh of a recording that it was not inferred from.
+
+        Parameters
+        ----------
+        markers : collection of str
+            All markers of the recording.
+
+        Returns
+        -------
+        Mesh
+            The mesh of these markers. Those that it lacks are in no segment, and their lists are empty.
+        """
+        mesh = self.without({*self.markers} - {*markers})
+        unknown = {marker: () for marker in sorted({*markers} - {*self.markers})}
+        if not unknown:
+            return mesh
+        missed = f"the recordings that the mesh was inferred from lack {', '.join(unknown)}"
+        return replace(
+            mesh,
+            markers=tuple(sorted({*mesh.markers, *unknown})),
+            predictors={**mesh.predictors, **unknown},
+            neighbours={**mesh.neighbours, **unknown},
+            warnings=(*mesh.warnings, missed),
+        )
+
     def as_json(self) -> dict[str, Any]:
         """Give the mesh as JSON values.
 

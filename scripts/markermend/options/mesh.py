@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from markermend.options.declaration import (
+    Count,
     CountOrNone,
     Factor,
     Laboratory,
@@ -26,6 +27,10 @@ class MeshOptions:
     """Mesh files that replace the inferred mesh, for subjects for whom the table of recordings names none.
 
     Change it when the motion is too small to infer the body from: draw the mesh yourself."""
+
+    max_recordings: Annotated[Count, Planned] = 250
+    """Recordings of a subject from which its mesh is inferred and its poses are sampled, at most. Of more, those are taken whose names have
+    the smallest checksums: an unsystematic choice, which another recording hardly ever changes."""
 
     max_frames: CountOrNone = 2500
     """Frames of a recording that are used, at most; they are evenly spaced."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import heapq
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -58,6 +60,27 @@ class DataSet:
         for subject, recording in self.entries:
             found.setdefault(subject, []).append(recording)
         return found
+
+    def chosen(self, subject: str, *, at_most: int) -> list[str]:
+        """Choose recordings that stand for their subject.
+
+        Parameters
+        ----------
+        subject : str
+            Folder name of the subject.
+        at_most : int
+            Their number; of more recordings, those whose names have the smallest checksums are chosen.
+
+        Returns
+        -------
+        list of str
+            Folder names of the recordings, in the order of `subjects`.
+        """
+        names = self.subjects[subject]
+        if len(names) <= at_most:
+            return names
+        smallest = set(heapq.nsmallest(at_most, names, key=lambda name: hashlib.sha256(name.encode()).digest()))
+        return [name for name in names if name in smallest]
 
     def entry(self, wildcards: Wildcards) -> Entry:
         """Find the recording that a job is about.

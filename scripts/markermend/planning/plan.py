@@ -122,11 +122,11 @@ class Plan:
         return [self.files.events[stage] for stage in stages]
 
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
-        """The ingested trajectories of each recording of the subject; see `DataSet.entry`."""
+        """The ingested trajectories of the recordings that the mesh of the subject is inferred from; see `DataSet.entry`."""
         return self._of_subject(self.files.markers, wildcards.subject)
 
     def subject_repaired(self, wildcards: Wildcards) -> list[str]:
-        """The repaired trajectories of each recording of the subject; see `DataSet.entry`."""
+        """The repaired trajectories of these recordings; see `DataSet.entry`."""
         return self._of_subject(self.files.repaired, wildcards.subject)
 
     def poses(self, wildcards: Wildcards) -> list[str]:
@@ -137,8 +137,9 @@ class Plan:
         return [self.files.poses.format(subject=wildcards.subject)] if pools else []
 
     def _of_subject(self, pattern: str, subject: str) -> list[str]:
-        """A file of each recording of a subject."""
-        return [pattern.format(subject=subject, recording=recording) for recording in self.data.subjects[subject]]
+        """A file of each of the recordings that stand for a subject."""
+        chosen = self.data.chosen(subject, at_most=self.options["mesh"].max_recordings)
+        return [pattern.format(subject=subject, recording=recording) for recording in chosen]
 
     def code(self, stage: str, *extra: str) -> str:
         """Hash the code of a stage: an edit of a module reruns the stages that use it.

@@ -169,7 +169,7 @@ def read_evidence(call: QcCall) -> Evidence:
     return Evidence(
         before=before,
         after=after,
-        mesh=for_recording(meshes, before.facts["recording"]),
+        mesh=for_recording(meshes, before.facts["recording"], before.markers),
         found=found,
         record=record,
         changes=changes,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +12,8 @@ from markermend.core.recording import BadRecording
 from markermend.storage import atomic, stage_files
 
 
-def for_recording(value: dict[str, Any], name: str) -> Mesh:
-    """Pick the mesh of a recording.
+def for_recording(value: dict[str, Any], name: str, markers: Collection[str] = ()) -> Mesh:
+    """Pick the mesh of a recording: the one that was inferred from it, else the one that shares most markers with it.
 
     Parameters
     ----------
@@ -21,6 +21,8 @@ def for_recording(value: dict[str, Any], name: str) -> Mesh:
         The content of mesh.json.
     name : str
         Name of the recording.
+    markers : collection of str, optional
+        Markers of the recording. Without them only a mesh that was inferred from it is picked.
 
     Returns
     -------
@@ -36,11 +38,14 @@ def for_recording(value: dict[str, Any], name: str) -> Mesh:
         if name in entry["recordings"]:
             mesh = from_json(entry)
             return mesh.without(mesh.absent.get(name, ()))
+    shared = [len({*markers} & {*entry["markers"]}) for entry in value["meshes"]]
+    if any(shared):
+        return from_json(value["meshes"][shared.index(max(shared))]).fitted(markers)
     raise BadRecording(f"no mesh for recording {name!r} in mesh.json: run the mesh stage again with its markers")
 
 
-def read(path: Path, name: str) -> Mesh:
-    """Read the mesh of a recording.
+def read(path: Path, name: str, markers: Collection[str] = ()) -> Mesh:
+    """Read the mesh of a recording; see `for_recording`.
 
     Parameters
     ----------
@@ -48,6 +53,8 @@ def read(path: Path, name: str) -> Mesh:
         The file.
     name : str
         Name of the recording.
+    markers : collection of str, optional
+        Markers of the recording.
 
     Returns
     -------
@@ -59,7 +66,7 @@ def read(path: Path, name: str) -> Mesh:
     SetAside
         Where the mesh stage set the subject aside.
     """
-    return for_recording(stage_files.read_json(path), name)
+    return for_recording(stage_files.read_json(path), name, markers)
 
 
 def read_groups(path: Path) -> list[tuple[str, ...]]:

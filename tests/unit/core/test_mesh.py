@@ -2,6 +2,7 @@ import importlib
 import itertools
 import json
 import shlex
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -72,6 +73,22 @@ def test_a_recording_sees_no_marker_that_it_does_not_hold(body, pooled):
         assert len(names_left) == len(pooled.predictors[marker])
         assert len(set(names_left)) == len(names_left)
         assert marker not in names_left
+
+
+def test_a_recording_that_no_mesh_was_inferred_from_has_the_one_of_its_markers(body, pooled):
+    names, _ = body
+    value = {"meshes": [json.loads(json.dumps(replace(pooled, markers=("p1", "p2")).as_json())), pooled.as_json()]}
+    same = mesh_file.for_recording(value, "other", names)
+    assert replace(same, absent={}) == replace(pooled, absent={})
+    mine = mesh_file.for_recording(value, "other", [*names[1:], "new"])
+    fewer = pooled.without({names[0]})
+    assert mine.markers == tuple(sorted([*names[1:], "new"]))
+    assert mine.predictors == {**fewer.predictors, "new": ()} and mine.neighbours == {**fewer.neighbours, "new": ()}
+    assert mine.segments == fewer.segments
+    assert mine.warnings == ("the recordings that the mesh was inferred from lack new",)
+    assert np.isnan(mine.shape(mine.markers).distance[mine.markers.index("new")]).sum() == len(names) - 1
+    with pytest.raises(BadRecording, match="'other'"):
+        mesh_file.for_recording(value, "other", ["q"])
 
 
 def test_the_stage_pools_a_subject_and_does_not_depend_on_order(body, run):

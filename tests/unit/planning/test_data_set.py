@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from markermend.options.config import read_config
-from markermend.planning.data_set import find_data_set
+from markermend.planning.data_set import DataSet, find_data_set
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
 from markermend.storage.atomic import sha256
@@ -23,6 +23,21 @@ def test_recordings_are_identified_by_their_folders(plan):
     assert plan.data.subjects == {"S%201": ["run", "walk"], "S2": ["%7Bx%7D"]}
     assert plan.data.entry(job()).recording == "walk"
     assert plan.data.mesh_files(SimpleNamespace(subject="S%201")) == []
+
+
+def test_of_many_recordings_a_bounded_choice_stands_for_the_subject_and_hardly_moves_with_another():
+    entries = {("S", f"r{number:04}"): None for number in range(1000)}
+    data = DataSet(entries, None)
+    chosen = data.chosen("S", at_most=100)
+    assert len(chosen) == 100 and chosen == sorted(chosen)
+    tenths = [sum(name.startswith(f"r0{digit}") for name in chosen) for digit in range(10)]
+    assert min(tenths) >= 3 and max(tenths) <= 20
+    assert data.chosen("S", at_most=1000) == data.chosen("S", at_most=2000) == [name for _, name in entries]
+    changed = [
+        len({*chosen} - {*DataSet({**entries, ("S", f"new{number}"): None}, None).chosen("S", at_most=100)})
+        for number in range(50)
+    ]
+    assert max(changed) == 1 and sum(changed) <= 15
 
 
 def test_an_original_is_identified_by_its_content(plan, config, tmp_path):

@@ -32,6 +32,14 @@ def test_a_mesh_is_made_of_all_recordings_of_its_subject(plan, tmp_path):
     assert markers == [f"{tmp_path}/out/S%201/{name}/01_markers.parquet" for name in ("run", "walk")]
 
 
+def test_a_mesh_and_poses_are_made_of_a_bounded_number_of_recordings(plan, config):
+    config["advanced"]["mesh"]["max_recordings"] = 1
+    few, subject = make_plan(config, PROJECT, deployed=False), SimpleNamespace(subject="S%201")
+    (markers,), (repaired,) = few.subject_markers(subject), few.subject_repaired(subject)
+    assert markers in plan.subject_markers(subject) and markers.rpartition("/")[0] == repaired.rpartition("/")[0]
+    assert few.poses(job()) == plan.poses(job())
+
+
 def test_a_subject_has_poses_where_its_recordings_are_filled_from_each_other(plan, config, tmp_path):
     assert plan.poses(job()) == [f"{tmp_path}/out/S%201/poses.parquet"]
     repaired = plan.subject_repaired(SimpleNamespace(subject="S%201"))
