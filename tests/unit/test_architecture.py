@@ -118,5 +118,6 @@ def test_there_is_a_script_for_every_stage():
         "fill",
         "export",
         "qc",
+        "collect",
         "report",
     }

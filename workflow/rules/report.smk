@@ -1,7 +1,8 @@
 """Judge every recording, and put the data set into one report.
 
 Reads: everything that the stages wrote.
-Writes: 08_qc.json and page.html for each recording; report/ with index.html, summary.tsv and plotly.min.js.
+Writes: 08_qc.json and page.html for each recording; report/ with index.html, summary.tsv and plotly.min.js, and a folder for each
+batch of recordings where these are many.
 """
 
 
@@ -37,6 +38,30 @@ rule qc:
         "{PYTHON:q} {SCRIPTS:q}/qc.py --markers {input.markers:q} --mesh {input.mesh:q} --events {input.events:q}"
         " --repaired {input.repaired:q} --filled {input.filled:q} --changes {input.changes:q}"
         " --certificate {input.certificate:q} --qc {output.qc:q} --page {output.page:q} {params.options} 2> {log:q}"
+
+
+rule collect:
+    input:
+        qc=plan.batch,
+    output:
+        batch=files.batch_quality,
+    log:
+        f"{files.batch}/logs/collect.log",
+    benchmark:
+        f"{files.batch}/logs/collect.tsv"
+    conda:
+        "../../envs/base.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        code=plan.code("collect"),
+        list=files.batch_list,
+    message:
+        "Collect the figures of batch {wildcards.batch}"
+    shell:
+        "{PYTHON:q} {SCRIPTS:q}/collect.py --qc @{params.list:q} --batch {output.batch:q} 2> {log:q}"
 
 
 rule report:

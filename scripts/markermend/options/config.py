@@ -28,7 +28,7 @@ from markermend.options.prediction.predictors import PredictorOptions
 from markermend.options.reader import Reader, inside
 from markermend.options.renamed import RENAMED, renamed
 from markermend.options.repair import RepairOptions
-from markermend.options.reporting import ExportOptions, NoOptions, QcOptions
+from markermend.options.reporting import ExportOptions, QcOptions, ReportOptions
 from markermend.options.shape import ShapeOptions
 from markermend.options.values import plain
 
@@ -55,7 +55,7 @@ SECTIONS: dict[str, type] = {
     "fill": FillOptions,
     "export": ExportOptions,
     "qc": QcOptions,
-    "report": NoOptions,
+    "report": ReportOptions,
     "shape": ShapeOptions,
     "level": LevelOptions,
     "displacement": DisplacementOptions,

@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from markermend.options.declaration import CountOrNone, Laboratory, NotNegative, PositiveMillimetres, Seconds
+from markermend.options.declaration import (
+    Count,
+    CountOrNone,
+    Laboratory,
+    NotNegative,
+    Planned,
+    PositiveMillimetres,
+    Seconds,
+)
 
 
 @dataclass(frozen=True)
@@ -29,6 +37,14 @@ class AttentionOptions:
 
     warning: NotNegative = 1
     """Points for each warning."""
+
+
+@dataclass(frozen=True)
+class ReportOptions:
+    """Put all recordings into one report."""
+
+    max_batch: Annotated[Count, Planned] = 250
+    """Recordings of which the report is made at once; the figures of more are collected in batches first, none of which is much larger."""
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +23,11 @@ from markermend.options.flags import write_flags
 from markermend.options.general import EXPERIMENTS
 from markermend.planning import code_hashes, run_facts, run_summary
 from markermend.planning import config as planning_config
+from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
 from markermend.planning.recordings import BadDataSet
-from markermend.planning.result_files import ResultFiles
+from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
 from markermend.storage.atomic import write_json, write_text
@@ -83,8 +85,25 @@ class Plan:
             self.files.quality.format(subject=subject, recording=recording) for subject, recording in self.data.entries
         ]
 
+    @cached_property
+    def batches(self) -> dict[str, list[str]]:
+        """The quality files of each batch of recordings."""
+        found = batches(map("/".join, self.data.entries), max_size=self.options["report"].max_batch)
+        return {name: [f"{self.files.results}/{own}/{QUALITY}" for own in places] for name, places in found.items()}
+
+    def batch(self, wildcards: Any) -> list[str]:
+        """The quality files of a batch; see `DataSet.entry`."""
+        return self.batches[wildcards.batch]
+
+    @property
+    def report_files(self) -> list[str]:
+        """The files that the report is made of: of each recording, or of each batch where these are several."""
+        if len(self.batches) <= 1:
+            return self.quality_files
+        return [self.files.batch_quality.format(batch=name) for name in self.batches]
+
     def judged(self, wildcards: object) -> list[str]:
-        """Name the quality files of all recordings, which the report is made of.
+        """Name the files that the report is made of.
 
         Parameters
         ----------
@@ -94,7 +113,7 @@ class Plan:
         Returns
         -------
         list of str
-            See `Plan.quality_files`.
+            See `Plan.report_files`.
 
         Raises
         ------
@@ -103,7 +122,7 @@ class Plan:
         """
         if self.data.missing:
             raise BadDataSet(self.data.missing)
-        return self.quality_files
+        return self.report_files
 
     def events(self, before: str | None = None) -> list[str]:
         """Name the events files of the detectors that run.
@@ -217,14 +236,16 @@ class Plan:
 
     def write_lists(self) -> None:
         """Write the lists of files that meshes, poses and the report are made of: a command line has no room for thousands."""
-        write_text(Path(self.files.quality_list), "".join(f"{path}\n" for path in self.quality_files))
+        _write_list(self.files.quality_list, self.report_files)
+        if len(self.batches) > 1:
+            for name, paths in self.batches.items():
+                _write_list(self.files.batch_list.format(batch=name), paths)
         for subject in self.data.subjects:
             for listed, pattern in (
                 (self.files.markers_list, self.files.markers),
                 (self.files.repaired_list, self.files.repaired),
             ):
-                lines = [f"{path}\n" for path in self._of_subject(pattern, subject)]
-                write_text(Path(listed.format(subject=subject)), "".join(lines))
+                _write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
 
     def write_facts(self) -> None:
         """Write the facts of the run."""
@@ -238,6 +259,11 @@ class Plan:
         index = Path(self.files.report) / "index.html"
         lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index)]
         print(*lines, sep="\n", file=sys.stderr)
+
+
+def _write_list(path: str, files: Sequence[str]) -> None:
+    """Write the names of files, one a line."""
+    write_text(Path(path), "".join(f"{file}\n" for file in files))
 
 
 def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from markermend.core.artifacts import BY_STAGE
 
+QUALITY = "08_qc.json"
+"""Name of the file with a recording in numbers."""
+
 
 @dataclass(frozen=True)
 class ResultFiles:
@@ -95,7 +98,7 @@ class ResultFiles:
     @property
     def quality(self) -> str:
         """A recording in numbers."""
-        return f"{self.recording}/08_qc.json"
+        return f"{self.recording}/{QUALITY}"
 
     @property
     def page(self) -> str:
@@ -131,6 +134,21 @@ class ResultFiles:
     def repaired_list(self) -> str:
         """The list of files that a subject's poses are sampled from."""
         return f"{self.subject}/logs/repaired.txt"
+
+    @property
+    def batch(self) -> str:
+        """The folder of a batch of recordings of the report, with the wildcard `{batch}`."""
+        return f"{self.report}/batches/{{batch}}"
+
+    @property
+    def batch_quality(self) -> str:
+        """The recordings of a batch in numbers."""
+        return f"{self.batch}/qc.json"
+
+    @property
+    def batch_list(self) -> str:
+        """The list of files that a batch is made of."""
+        return f"{self.batch}/logs/recordings.txt"
 
     @property
     def quality_list(self) -> str:

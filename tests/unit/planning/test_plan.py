@@ -114,6 +114,20 @@ def test_lists_name_the_files_that_meshes_and_the_report_are_made_of(tmp_path, p
     assert (tmp_path / "out/report/logs/recordings.txt").read_text().splitlines() == plan.quality_files
 
 
+def test_the_report_of_many_recordings_is_made_of_batches(tmp_path, plan, config):
+    assert plan.judged(None) == plan.quality_files and list(plan.batches) == ["1_of_1"]
+    config["advanced"]["report"]["max_batch"] = 1
+    many = make_plan(config, PROJECT, deployed=False)
+    names = [path.split("/")[-2] for path in many.judged(None)]
+    assert many.judged(None) == [f"{tmp_path}/out/report/batches/{name}/qc.json" for name in names]
+    found = {name: many.batch(SimpleNamespace(batch=name)) for name in names}
+    assert sorted(path for own in found.values() for path in own) == sorted(plan.quality_files)
+    many.write_lists()
+    assert (tmp_path / "out/report/logs/recordings.txt").read_text().splitlines() == many.judged(None)
+    for name, own in found.items():
+        assert (tmp_path / f"out/report/batches/{name}/logs/recordings.txt").read_text().splitlines() == own
+
+
 def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan, capsys):
     quality = {"status": "set aside", "subject": "S 1", "recording": "run", "reason": "empty"}
     path = tmp_path / "out/S%201/run/08_qc.json"
