@@ -89,6 +89,13 @@ def test_recordings_that_are_not_there_are_named(project, tmp_path, missing):
     assert "Traceback" not in done.stdout
 
 
+def test_results_that_cannot_be_written_are_named_in_one_line(project, tmp_path):
+    (tmp_path / "file").touch()
+    text = project.run("-n", status=1, results=tmp_path / "file/out")
+    line = f"{tmp_path}/file/out was not written: a file stands where a folder must be"
+    assert line in text and "Traceback" not in text
+
+
 HOSTILE = [
     ("../{recording}", "$(touch pwned)`touch pwned`'\"<b>\nx", "it's {subject} $x.c3d"),
     ("../{recording}", "-n * ; touch pwned", "sub dir/b\n.c3d"),

@@ -15,6 +15,7 @@ sys.path.insert(0, SCRIPTS)
 
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import FORMATS, BadDataSet
+from markermend.storage.atomic import check_writable
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
@@ -38,6 +39,10 @@ def in_one_line(write):
         write()
     except OSError as error:
         raise WorkflowError(str(error))
+
+
+if workflow.is_main_process:
+    in_one_line(lambda: check_writable(Path(files.results)))
 
 
 wildcard_constraints:

@@ -6,6 +6,7 @@ import errno
 import hashlib
 import json
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -94,10 +95,34 @@ def not_written(path: Path, error: OSError) -> str:
     if error.errno in FULL:
         why, advice = "there is no room", "make room on the disk or choose another folder for the results"
     elif error.errno in (errno.EROFS, errno.EACCES, errno.EPERM):
-        why, advice = "its folder is read-only", "choose another folder for the results, or allow writing"
+        why, advice = "its place is read-only", "choose another folder for the results, or allow writing"
+    elif error.errno in (errno.ENOTDIR, errno.EEXIST):
+        why, advice = "a file stands where a folder must be", "choose another folder for the results"
     else:
         why, advice = error.strerror or str(error), "see to the disk"
     return f"{path} was not written: {why} ({advice}, and run again)"
+
+
+def check_writable(folder: Path) -> None:
+    """Check that files can be written into a folder, which is made where it is not there.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder.
+
+    Raises
+    ------
+    NotWritten
+        Where none can.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(b" ")
+            file.flush()
+    except OSError as error:
+        raise NotWritten(not_written(folder, error)) from error
 
 
 def write_text(path: Path, text: str) -> None:

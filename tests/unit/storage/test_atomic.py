@@ -50,13 +50,13 @@ def test_a_folder_that_is_read_only_is_named(tmp_path, monkeypatch, code):
         raise OSError(code, os.strerror(code), str(source))
 
     monkeypatch.setattr(os, "replace", refuse)
-    with pytest.raises(NotWritten, match=r"a.txt was not written: its folder is read-only"):
+    with pytest.raises(NotWritten, match=r"a.txt was not written: its place is read-only"):
         atomic.write_text(tmp_path / "a.txt", "x")
 
 
 def test_a_file_in_place_of_a_folder_is_named(tmp_path):
     (tmp_path / "results").touch()
-    with pytest.raises(NotWritten, match=r"a.txt was not written: (Not a directory|File exists)"):
+    with pytest.raises(NotWritten, match=r"a.txt was not written: a file stands where a folder must be"):
         atomic.write_text(tmp_path / "results" / "a.txt", "x")
 
 
@@ -64,3 +64,18 @@ def test_a_file_that_the_block_reads_keeps_its_own_error(tmp_path):
     with pytest.raises(FileNotFoundError) as failure, atomic.replacing(tmp_path / "copy") as temporary:
         shutil.copyfile(tmp_path / "gone", temporary)
     assert str(failure.value.filename) == str(tmp_path / "gone")
+
+
+def test_a_folder_is_made_and_checked_and_nothing_is_left_in_it(tmp_path, monkeypatch):
+    atomic.check_writable(tmp_path / "a/b")
+    assert not any((tmp_path / "a/b").iterdir())
+    (tmp_path / "file").touch()
+    with pytest.raises(NotWritten, match="file/b was not written: a file stands where a folder must be"):
+        atomic.check_writable(tmp_path / "file/b")
+
+    def refuse(dir):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(atomic.tempfile, "TemporaryFile", refuse)
+    with pytest.raises(NotWritten, match="b was not written: its place is read-only"):
+        atomic.check_writable(tmp_path / "a/b")
