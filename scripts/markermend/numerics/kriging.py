@@ -11,6 +11,9 @@ from markermend.numerics.non_negative import non_negative_least_squares
 MIN_PAIRS = 20
 """Least number of pairs of frames at each of the shortest lags from which the white noise is estimated."""
 
+DENSE_SHARE = 0.25
+"""Share of known frames from which on pairs of all frames are multiplied, those with a missing sample by 0."""
+
 FITTED_LAGS = 40
 """Number of lags at which the autocovariance is fitted, before duplicates are dropped."""
 
@@ -32,6 +35,8 @@ def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
     """
     known = np.flatnonzero(~np.isnan(residual).any(axis=1))
     values = residual[known]
+    if len(known) >= DENSE_SHARE * len(residual):
+        return _dense_autocovariance(residual, known, lags)
     index = np.full(len(residual) + lags.max(), -1)
     index[known] = np.arange(len(known))
     partner = index[known[:, None] + lags]
@@ -39,6 +44,19 @@ def autocovariance(residual: np.ndarray, lags: np.ndarray) -> np.ndarray:
     pairs = np.count_nonzero(partner >= 0, axis=0)
     total = np.where(partner >= 0, products, 0.0).sum(axis=0)
     return np.where(pairs > 0, total / np.maximum(pairs, 1) / residual.shape[1], np.nan)
+
+
+def _dense_autocovariance(residual: np.ndarray, known: np.ndarray, lags: np.ndarray) -> np.ndarray:
+    """The autocovariance (k,) of a residual that is known in most frames: products of whole columns, with zeros where it is missing."""
+    frames, axes = residual.shape
+    values, seen = np.zeros((frames, axes)), np.zeros(frames)
+    values[known], seen[known] = residual[known], 1.0
+    flat = values.reshape(-1)
+    total = np.array(
+        [flat[: axes * (frames - lag)] @ flat[axes * lag :] if lag < frames else 0.0 for lag in lags.tolist()]
+    )
+    pairs = np.array([seen[: frames - lag] @ seen[lag:] if lag < frames else 0.0 for lag in lags.tolist()])
+    return np.where(pairs > 0, total / np.maximum(pairs, 1) / axes, np.nan)
 
 
 def white_noise_variance(residual: np.ndarray) -> float:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from markermend.numerics import ranks
+
 LONGEST_SORTED = 9
 """Samples of the longest window that is sorted as a whole; scipy counts in longer ones."""
 
@@ -121,10 +123,4 @@ def median(values: np.ndarray, window: int) -> np.ndarray:
         far: np.ndarray = ndimage.median_filter(values, (window,) + (1,) * (values.ndim - 1), mode="reflect")
         return far
     padded = centred(values, window, mode="symmetric")
-    ranked = [padded[k : k + len(values)] for k in range(window)]
-    # The largest of those that are left is moved to the end, until the median is the largest: no branches, no copies of windows.
-    for left in range(window - 1, window // 2 - 1, -1):
-        for k in range(left):
-            low, high = ranked[k], ranked[k + 1]
-            ranked[k], ranked[k + 1] = np.minimum(low, high), np.maximum(low, high)
-    return ranked[window // 2]
+    return ranks.median([padded[k : k + len(values)] for k in range(window)])

@@ -41,7 +41,7 @@ class PulseResponses:
     @property
     def statistic(self) -> np.ndarray:
         """Lengths of the heights in standard deviations, like these."""
-        statistic: np.ndarray = np.linalg.norm(self.height, axis=-1) / self.deviation
+        statistic: np.ndarray = np.sqrt(np.einsum("...a,...a->...", self.height, self.height)) / self.deviation
         return statistic
 
 

@@ -17,10 +17,12 @@ def covariance():
     return Covariance(np.concatenate([[0.3], rng.uniform(0, 2, 2 * len(SCALES))]), SCALES)
 
 
-def test_autocovariance_equals_loops_with_missing_samples():
+@pytest.mark.parametrize("step", [1, 5])
+def test_autocovariance_equals_loops_with_few_or_many_missing_samples(step):
     residual = np.random.default_rng(1).normal(size=(80, 3)).cumsum(axis=0)
     residual[[3, 4, 30, 77]] = np.nan
-    lags = np.array([0, 1, 2, 5, 19, 60])
+    residual[np.arange(80) % step > 0] = np.nan
+    lags = np.array([0, 5, 10, 15, 60] if step > 1 else [0, 1, 2, 5, 19, 60])
     assert np.allclose(autocovariance(residual, lags), naive.autocovariance(residual, lags))
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.events import Event
+from markermend.numerics import ranks
 from markermend.options.detection.peaks import CommonMotionOptions
 from markermend.prediction.interface import ResidualSource
 from markermend.prediction.scene import Scene
@@ -102,6 +103,7 @@ def neighbour_bend(bends: np.ndarray, neighbours: Sequence[np.ndarray], *, count
     common = np.zeros_like(bends)
     for m, around in enumerate(neighbours):
         if len(around):
-            some = np.sort(bends[:, np.asarray(around, int)[:count]], axis=1)
-            common[:, m] = some[:, int(quantile * (some.shape[1] - 1))]
+            some = [bends[:, other] for other in around[:count]]
+            rank = int(quantile * (len(some) - 1))
+            common[:, m] = ranks.sorted_from(some, rank)[rank]
     return common

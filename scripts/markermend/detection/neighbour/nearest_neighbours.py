@@ -38,14 +38,14 @@ def motion(
     smoothed = moving_mean(positions, smoothing)
     velocity = np.gradient(smoothed, axis=0) * rate
     acceleration = np.gradient(velocity, axis=0) * rate
-    moved = np.zeros((2, *positions.shape[:2]))
+    # Column m selects the neighbours of marker m: all means are products of matrices.
+    nearest = np.zeros((len(neighbours), len(neighbours)))
     for m, around in enumerate(neighbours):
-        some = np.asarray(around, int)[:count]
-        if len(some):
-            about_mean = velocity[:, some] - _mean(velocity[:, some])[:, None]
-            moved[0, :, m] = np.sqrt(_mean((about_mean**2).sum(axis=2)))
-            moved[1, :, m] = np.sqrt(_mean((acceleration[:, some] ** 2).sum(axis=2)))
-    return moved
+        nearest[np.asarray(around, int)[:count], m] = 1.0
+    mean_velocity = np.stack([_mean(axis, nearest) for axis in np.moveaxis(velocity, 2, 0)], axis=2)
+    square = _mean(np.einsum("nma,nma->nm", velocity, velocity), nearest)
+    about_mean = np.maximum(square - np.einsum("nma,nma->nm", mean_velocity, mean_velocity), 0.0)
+    return np.sqrt([about_mean, _mean(np.einsum("nma,nma->nm", acceleration, acceleration), nearest)])
 
 
 def maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
@@ -98,8 +98,8 @@ def seen_share(present: np.ndarray, neighbours: Sequence[np.ndarray], count: int
     return share
 
 
-def _mean(values: np.ndarray) -> np.ndarray:
-    """Mean along the second axis over what is not NaN; 0 where nothing is."""
+def _mean(values: np.ndarray, nearest: np.ndarray) -> np.ndarray:
+    """Mean (frames, markers) of what is not NaN of values (frames, markers) over the markers that each column selects; 0 where nothing is."""
     known = ~np.isnan(values)
-    mean: np.ndarray = np.where(known, values, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    mean: np.ndarray = np.where(known, values, 0.0) @ nearest / np.maximum(known.astype(float) @ nearest, 1)
     return mean

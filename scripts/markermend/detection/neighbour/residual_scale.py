@@ -9,12 +9,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from markermend.numerics import moving
+from markermend.numerics import moving, ranks
 from markermend.numerics.non_negative import non_negative_least_squares
 from markermend.numerics.robust import moving_median_across_gaps
-
-NEIGHBOUR_QUANTILE = 0.5
-"""The quantile of the neighbours that is their common scale: a few that are broken must not excuse a marker."""
 
 
 def local_scale(
@@ -44,10 +41,11 @@ def local_scale(
     overall = np.maximum(overall, 1e-3)
     local = np.stack([moving_median_across_gaps(own, window) for own in size.T], axis=1) / overall
     rise = np.maximum(local, 1.0)
-    filled = np.nan_to_num(rise, nan=1.0)
+    # Of the neighbours the median counts: a few that are broken must not excuse a marker.
+    filled = np.asfortranarray(np.nan_to_num(rise, nan=1.0))
     for m, around in enumerate(neighbours):
         if len(around):
-            others = np.median(filled[:, np.asarray(around, int)[:count]], axis=1)
+            others = ranks.median([filled[:, other] for other in around[:count]])
             rise[:, m] = np.minimum(rise[:, m], max_ratio * others)
     scale: np.ndarray = rise * overall
     return scale
@@ -147,11 +145,11 @@ def fitted_rise(
     np.ndarray
         Expected size in units of the level (frames, markers).
     """
-    known = np.nan_to_num(relative, nan=1.0)
+    known = np.asfortranarray(np.nan_to_num(relative, nan=1.0))
     kinds = [np.ones(relative.shape), *(kind + 1.0 for kind in motion)]
     for m, around in enumerate(neighbours):
         if len(around):
-            kinds[0][:, m] = np.quantile(known[:, np.asarray(around, int)[:count]], NEIGHBOUR_QUANTILE, axis=1)
+            kinds[0][:, m] = ranks.median([known[:, other] for other in around[:count]])
     regressors = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
     some = slice(None, None, step)
     seen = ~np.isnan(relative[some])

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
+from markermend.prediction.local_ridge.products import starts_of
 from markermend.prediction.local_ridge.ridge import penalties, with_intercept
 
 GROWTHS = np.concatenate([[0.0], np.geomspace(0.01, 100, 25)])
@@ -91,7 +93,7 @@ class LeverageScale:
         np.ndarray
             Leverages (n,) in units of the mean, which approach the limit.
         """
-        leverage = ((full @ self._inverse) * full).sum(axis=1) / self.mean
+        leverage = np.einsum("nc,nc->n", full @ self._inverse, full) / self.mean
         bounded: np.ndarray = leverage / (1 + leverage / self.max_leverage)
         return bounded
 
@@ -149,13 +151,15 @@ def fit_leverage_scale(
     scale = LeverageScale((full * weights[:, None]).T @ full, float(weights.sum()), ridge, 1.0, max_leverage)
     scale = replace(scale, mean=scale.mean_leverage())
     leverage = np.full(len(full), np.nan)
-    for number in np.unique(block):
-        own = block == number
+    for start, stop in pairwise([*starts_of(block).tolist(), len(block)]):
+        own = slice(start, stop)
         rest = scale.without(full[own], weights[own])
         if rest.total > 0:
             leverage[own] = rest.leverage(full[own])
     known = np.isfinite(leverage) & ~np.isnan(residual).any(axis=1)
-    growth = likeliest_growth(leverage[known], (residual[known] ** 2).mean(axis=1))
+    growth = likeliest_growth(
+        leverage[known], np.einsum("na,na->n", residual[known], residual[known]) / residual.shape[1]
+    )
     return replace(scale, growth=growth), np.sqrt(1 + growth * leverage)
 
 

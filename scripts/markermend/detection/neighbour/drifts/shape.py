@@ -38,16 +38,19 @@ def fit_extent(residual: np.ndarray, peak: int, length: int, *, flank: float) ->
     known = ~np.isnan(residual[window]).any(axis=1)
     window = window[known]
     values = residual[window] - residual[window].mean(axis=0)
+    tried = [
+        (peak + shift - own // 2, own)
+        for own in (int(factor * length) for factor in LENGTH_FACTORS)
+        for shift in range(-own // 4, own // 4 + 1, max(1, own // 16))
+    ]
+    inside = [(start, own) for start, own in tried if start > 0 and start + own < len(residual)]
     best = (0.0, peak - length // 2, peak - length // 2 + length)
-    for own in (int(factor * length) for factor in LENGTH_FACTORS):
-        for shift in range(-own // 4, own // 4 + 1, max(1, own // 16)):
-            start = peak + shift - own // 2
-            if start <= 0 or start + own >= len(residual):
-                continue
-            pulse = raised_cosine((window - start + 0.5) / own)
-            pulse = pulse - pulse.mean()
-            explained = float(((pulse @ values) ** 2).sum() / (pulse @ pulse))
-            best = max(best, (explained, start, start + own))
+    if inside:
+        starts, lengths = np.array(inside).T
+        pulses = raised_cosine((window - starts[:, None] + 0.5) / lengths[:, None])
+        pulses -= pulses.mean(axis=1, keepdims=True)
+        explained = ((pulses @ values) ** 2).sum(axis=1) / np.einsum("kn,kn->k", pulses, pulses)
+        best = max(best, *zip(explained.tolist(), starts.tolist(), (starts + lengths).tolist(), strict=True))
     return best[1], best[2]
 
 
