@@ -78,7 +78,7 @@ class LocalRidgeOptions:
 class GaussianProcessOptions:
     """Gaussian process in the local frame, beyond the options of local_ridge: local_gp."""
 
-    max_training_frames: Count = 1000
+    max_training_frames: Count = 1500
     """Training frames, at most; those of local_ridge if they are fewer."""
 
     inducing_points: Count = 80
