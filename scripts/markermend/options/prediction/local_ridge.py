@@ -81,7 +81,7 @@ class GaussianProcessOptions:
     max_training_frames: Count = 1500
     """Training frames, at most; those of local_ridge if they are fewer."""
 
-    inducing_points: Count = 80
+    inducing_points: Count = 120
     """Poses whose kernel functions the process uses, at most; they are evenly spaced among training frames and pooled poses.
 
     Change it when motion is varied (higher, at the cost of time)."""
@@ -92,6 +92,15 @@ class GaussianProcessOptions:
 
     length_scale: Positive = 1
     """Length scale of the kernel, in units of the typical distance of two poses."""
+
+    offset_share: Share = 0.8
+    """Share of the mean of a stretch of time about which its training frames are taken, since markers shift slowly; 0 for none."""
+
+    offset_s: PositiveSeconds = 2
+    """Length of such a stretch, at least."""
+
+    offset_gaps: NotNegative = 2
+    """Length of such a stretch, at least, in lengths of the gap."""
 
     penalty: Positive = 0.0005
     """Ratio of the variances of noise and process, per unit of weight of the training frames."""

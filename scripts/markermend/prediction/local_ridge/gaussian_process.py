@@ -8,6 +8,7 @@ poses (inducing points), so that the process is a ridge regression on these func
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from markermend.numerics.kriging import matern_3_2
 from markermend.numerics.pivoted_cholesky import pivoted_cholesky
 from markermend.options.prediction.local_ridge import GaussianProcessOptions, LocalRidgeOptions
 from markermend.prediction.local_ridge.model import Regression, TrainingSet
+from markermend.prediction.local_ridge.offsets import Offsets
 from markermend.prediction.local_ridge.predictor import TRUSTED_WEIGHT, LocalRidge
 from markermend.prediction.local_ridge.ridge_regression import RidgeRegression
 from markermend.prediction.marker_selection import evenly_spaced
@@ -123,8 +125,18 @@ class LocalGaussian(LocalRidge):
         super().__init__(replace(options, max_training_frames=frames))
         self.gaussian = gaussian
 
-    def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
-        ridge = RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
+    def _stretch(self, length: int, rate: float) -> int | None:
+        gaussian = self.gaussian
+        if not gaussian.offset_share:
+            return None
+        # Gaps of similar lengths share their training.
+        rounded = 2.0 ** math.ceil(math.log2(length / rate))
+        return max(1, round(max(gaussian.offset_s, gaussian.offset_gaps * rounded) * rate))
+
+    def _fit(self, data: TrainingSet, used: np.ndarray, stretch: int | None = None) -> Regression:
+        share = self.gaussian.offset_share
+        offsets = stretch and Offsets.of_stretches(data.training, length=stretch, share=share)
+        ridge = RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling, offsets or None)
         features = InducedFeatures.choose(ridge, self.gaussian)
         return ridge.extended(features, max_pooled_rows=self.options.max_training_frames)
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from markermend.core.poses import Pool
 from markermend.numerics.rigid_alignment import align, mean_shape
+from markermend.prediction.local_ridge.offsets import about_mean
 from markermend.prediction.local_ridge.ridge import robust_weights
 from markermend.prediction.marker_selection import evenly_spaced
 
@@ -127,25 +128,3 @@ def pooled_rows(
     weights = robust_weights(about_mean(local, np.ones(len(rows)), recording), ridge=ridge, sigmas=sigmas)
     centred = about_mean(local, weights, recording)
     return PooledRows(template, centred, weights, recording, local - centred, len(shown))
-
-
-def about_mean(rows: np.ndarray, weights: np.ndarray, recording: np.ndarray) -> np.ndarray:
-    """Subtract from rows the weighted mean of their recording.
-
-    Parameters
-    ----------
-    rows : np.ndarray
-        Rows (m, columns).
-    weights : np.ndarray
-        Weights of the rows (m,), positive.
-    recording : np.ndarray
-        Number of the recording of each row (m,), ascending.
-
-    Returns
-    -------
-    np.ndarray
-        The differences (m, columns).
-    """
-    starts = np.flatnonzero(np.diff(recording, prepend=-1))
-    means = np.add.reduceat(rows * weights[:, None], starts) / np.add.reduceat(weights, starts)[:, None]
-    return rows - np.repeat(means, np.diff(np.append(starts, len(rows))), axis=0)

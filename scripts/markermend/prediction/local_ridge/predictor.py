@@ -82,7 +82,7 @@ class LocalRidge:
         prediction, first = Prediction.empty(start, stop), start - 1
         for assignment in self._selection.assignments(hidden, marker, hidden.bordered(start, stop)):
             rows = assignment.rows
-            fit = self._fit_to(hidden, marker, assignment)
+            fit = self._fit_to(hidden, marker, assignment, stop - start)
             covariance, scale = self._error_model(hidden, fit, stop - start)
             # Frames of the gap and those with observations share one alignment: its cost hardly depends on their number.
             observed = self._observed_nearby(hidden, fit)
@@ -137,15 +137,19 @@ class LocalRidge:
                 predicted = inputs.frames.laboratory(fit.regression.predict(inputs.values))
                 yield _Residuals(fit, inputs, scene.positions[assignment.rows, marker] - predicted)
 
-    def _fit(self, data: TrainingSet, used: np.ndarray) -> Regression:
-        """The regression on the used inputs (mask)."""
+    def _fit(self, data: TrainingSet, used: np.ndarray, stretch: int | None = None) -> Regression:
+        """The regression on the used inputs (mask); stretch: frames of the stretches that have offsets, None for none."""
         return RidgeRegression.fit(data, used, self.options.ridge_mm2, self._pooling)
 
-    def _fit_to(self, scene: Scene, marker: int, assignment: Assignment) -> _Fit:
-        """The regression, trained once for a scene and all trials on it."""
-        data, used = assignment.data, assignment.used
-        key = self, data, used.tobytes()
-        regression: Regression = (scene.whole or scene).cached(key, partial(self._fit, data, used))
+    def _stretch(self, length: int, rate: float) -> int | None:
+        """Frames of the stretches that have offsets where a gap of a length, frames, is filled; None for none."""
+        return None
+
+    def _fit_to(self, scene: Scene, marker: int, assignment: Assignment, length: int) -> _Fit:
+        """The regression for gaps of a length, frames, trained once for a scene and all trials on it."""
+        data, used, stretch = assignment.data, assignment.used, self._stretch(length, scene.rate)
+        key = self, data, used.tobytes(), stretch, "regression"
+        regression: Regression = (scene.whole or scene).cached(key, partial(self._fit, data, used, stretch))
         if assignment.hidden is None:
             return _Fit(marker, assignment, regression, regression)
         return _Fit(marker, assignment, regression, scene.cached(key, partial(regression.without, assignment.hidden)))
@@ -154,7 +158,7 @@ class LocalRidge:
         """Covariance of the residuals in typical poses, and how they grow with leverage; length: of the gap, frames."""
         data, used, hidden = fit.assignment.data, fit.assignment.used, fit.assignment.hidden
         blocks = int(np.clip(len(scene.positions) // max(length, 1), 2, MAX_BLOCKS))
-        key, whole = (self, data, used.tobytes(), blocks), scene.whole or scene
+        key, whole = (self, fit.regression, blocks), scene.whole or scene
         covariance, scale = whole.cached(key, partial(self._covariance, whole, fit, blocks))
         if hidden is None:
             return covariance, scale

@@ -93,20 +93,21 @@ class Products:
         """
         return Products(*(each.sum(axis=0) - each for each in vars(self).values()))
 
-    def less(self, part: Products) -> Products:
-        """Take a part of the rows away.
+    def exchange(self, part: Products, other: Products) -> Products:
+        """Put other rows in the place of a part of the rows.
 
         Parameters
         ----------
-        part : Products
-            Sums over these rows.
+        part, other : Products
+            Sums over the rows to take away, and over those to add.
 
         Returns
         -------
         Products
-            Sums over the others.
+            The sums.
         """
-        return Products(*(whole - own for whole, own in zip(vars(self).values(), vars(part).values(), strict=True)))
+        terms = zip(vars(self).values(), vars(part).values(), vars(other).values(), strict=True)
+        return Products(*(whole - taken + added for whole, taken, added in terms))
 
     def coefficients(self, penalty: np.ndarray, pooled: Products | None = None, weight: float = 0.0) -> np.ndarray:
         """Solve for the coefficients of a ridge regression.

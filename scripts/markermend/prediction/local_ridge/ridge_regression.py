@@ -14,10 +14,12 @@ from typing import Protocol
 import numpy as np
 
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.pooled_rows import about_mean
+from markermend.prediction.local_ridge.offsets import Offsets, about_mean
 from markermend.prediction.local_ridge.products import Products, starts_of
 from markermend.prediction.local_ridge.ridge import penalties, with_intercept
 from markermend.prediction.marker_selection import evenly_spaced
+
+ALL = slice(None)
 
 
 class Features(Protocol):
@@ -133,6 +135,8 @@ class RidgeRegression:
         Mean products of the pooled rows; None where they do not count.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
+    offsets : Offsets | None
+        Offsets of stretches of the training frames; None where they have none.
     own : Products
         Products of the training frames.
     """
@@ -144,6 +148,7 @@ class RidgeRegression:
     penalty: np.ndarray
     pooled: Products | None
     pool_weight: float
+    offsets: Offsets | None
     own: Products
 
     @cached_property
@@ -152,7 +157,14 @@ class RidgeRegression:
         return self._learned(self.own)
 
     @classmethod
-    def fit(cls, data: TrainingSet, used: np.ndarray, ridge: float, pooling: Pooling | None = None) -> RidgeRegression:
+    def fit(
+        cls,
+        data: TrainingSet,
+        used: np.ndarray,
+        ridge: float,
+        pooling: Pooling | None = None,
+        offsets: Offsets | None = None,
+    ) -> RidgeRegression:
         """Train the regression on the inputs.
 
         Parameters
@@ -165,6 +177,8 @@ class RidgeRegression:
             Penalty, mm^2: the variance of the noise on an input.
         pooling : Pooling, optional
             How it learns from the pooled rows of the training data; not at all by default.
+        offsets : Offsets, optional
+            Offsets of stretches of the training frames; none by default.
 
         Returns
         -------
@@ -175,13 +189,14 @@ class RidgeRegression:
         pooled = None if pooling is None else _pooled_products(data, used)
         weights = [0.0] if pooling is None or pooled is None else pooling.candidates(data)
         stretches = _stretches(data.training, 1 if pooling is None or len(weights) == 1 else pooling.blocks)
-        own, weight = Products.by_block(columns, data.target, data.weights, stretches), weights[0]
+        rows = _about_offsets(columns, data, offsets)
+        own, weight = Products.by_block(*rows, data.weights, stretches), weights[0]
         if len(weights) > 1:
             rest = own.others()
             errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
             weight = weights[int(np.argmin(errors))]
         pooled = pooled if weight > 0 else None
-        return cls(data, used, None, columns, penalty, pooled, weight, own.sum())
+        return cls(data, used, None, columns, penalty, pooled, weight, offsets, own.sum())
 
     def extended(self, features: Features, *, max_pooled_rows: int) -> RidgeRegression:
         """Train the regression on the inputs and functions of them, with pooled rows of the same weight.
@@ -202,7 +217,7 @@ class RidgeRegression:
         extra = np.full(columns.shape[1] - len(self.penalty), features.penalty)
         penalty = np.append(self.penalty, extra)
         pooled = self.pooled and _extended_products(self.data, self.used, features, max_pooled_rows)
-        own = Products.of(columns, self.data.target, self.data.weights)
+        own = Products.of(*_about_offsets(columns, self.data, self.offsets), self.data.weights)
         return replace(self, features=features, columns=columns, penalty=penalty, pooled=pooled, own=own)
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
@@ -211,8 +226,16 @@ class RidgeRegression:
 
     def without(self, rows: np.ndarray) -> LinearFunction:
         """Train the function without some of the training frames. See `Regression.without`."""
-        part = Products.of(self.columns[rows], self.data.target[rows], self.data.weights[rows])
-        return self._learned(self.own.less(part))
+        kept, concerned = np.ones(len(self.columns), bool), np.zeros(len(self.columns), bool)
+        kept[rows], concerned[rows] = False, True
+        if self.offsets is not None:
+            # Rows of the same stretches lie about another mean without these.
+            concerned = np.isin(self.offsets.group, self.offsets.group[rows])
+        return self._learned(self.own.exchange(self._products(concerned), self._products(concerned & kept)))
+
+    def _products(self, rows: np.ndarray) -> Products:
+        """Products of training frames (mask) about their offsets."""
+        return Products.of(*_about_offsets(self.columns, self.data, self.offsets, rows), self.data.weights[rows])
 
     def _learned(self, own: Products) -> LinearFunction:
         """What was learned from training frames of these products."""
@@ -224,7 +247,9 @@ class RidgeRegression:
         target, starts = self.data.target, starts_of(block)
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
-        rest = Products.by_block(self.columns, target, self.data.weights, block).others()
+        # A stretch with an offset that lies in two blocks has that of its whole mean in both.
+        rows = _about_offsets(self.columns, self.data, self.offsets)
+        rest = Products.by_block(*rows, self.data.weights, block).others()
         beta = rest.coefficients(self.penalty, self.pooled, self.pool_weight)
         parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
         return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
@@ -234,6 +259,18 @@ def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
     """Intercept, inputs and features (n, c)."""
     columns = with_intercept(inputs)
     return columns if features is None else np.concatenate([columns, features.values(inputs)], axis=1)
+
+
+def _about_offsets(
+    columns: np.ndarray, data: TrainingSet, offsets: Offsets | None, rows: np.ndarray | slice = ALL
+) -> tuple[np.ndarray, np.ndarray]:
+    """Columns and targets of training frames (mask), about a share of the means of their groups."""
+    columns, target = columns[rows], data.target[rows]
+    if offsets is None or not len(columns):
+        return columns, target
+    both = np.concatenate([columns, target], axis=1)
+    both = about_mean(both, data.weights[rows], offsets.group[rows], offsets.share)
+    return both[:, :-3], both[:, -3:]
 
 
 def _pooled_products(data: TrainingSet, used: np.ndarray) -> Products | None:

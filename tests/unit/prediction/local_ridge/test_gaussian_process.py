@@ -7,7 +7,8 @@ import numpy as np
 from markermend.options.prediction.local_ridge import GaussianProcessOptions
 from markermend.prediction.local_ridge.gaussian_process import InducedFeatures
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.pooled_rows import PooledRows, about_mean
+from markermend.prediction.local_ridge.offsets import about_mean
+from markermend.prediction.local_ridge.pooled_rows import PooledRows
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from support.fillings import predictor, scene
 from support.naive.prediction import kernel_regression, pooled_ridge

@@ -4,7 +4,8 @@ import numpy as np
 
 from markermend.core.poses import Pool
 from markermend.numerics.rigid_alignment import align
-from markermend.prediction.local_ridge.pooled_rows import about_mean, pooled_rows
+from markermend.prediction.local_ridge.offsets import about_mean
+from markermend.prediction.local_ridge.pooled_rows import pooled_rows
 from support.fillings import rigid_body
 
 LIMITS = {"row_limits": (5, 1000), "ridge": 5.0, "sigmas": 6.0}

