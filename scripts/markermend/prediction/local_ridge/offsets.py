@@ -31,6 +31,27 @@ class Offsets:
     share: float
 
     @classmethod
+    def none(cls, rows: int) -> Offsets:
+        """Give no offset to any row.
+
+        Parameters
+        ----------
+        rows : int
+            Number of rows.
+
+        Returns
+        -------
+        Offsets
+            No offsets.
+        """
+        return cls(np.zeros(rows, int), 0.0)
+
+    @property
+    def groups(self) -> int:
+        """Number of groups that have offsets."""
+        return int(self.group[-1]) + 1 if self.share else 0
+
+    @classmethod
     def of_stretches(cls, frames: np.ndarray, *, length: int, share: float) -> Offsets:
         """Give an offset to each stretch of time.
 
@@ -51,7 +72,7 @@ class Offsets:
         return cls((frames - frames[0]) // length, share)
 
 
-def about_mean(rows: np.ndarray, weights: np.ndarray, group: np.ndarray, share: float = 1.0) -> np.ndarray:
+def about_mean(rows: np.ndarray, weights: np.ndarray, group: np.ndarray) -> np.ndarray:
     """Subtract from rows the weighted mean of their group.
 
     Parameters
@@ -62,8 +83,6 @@ def about_mean(rows: np.ndarray, weights: np.ndarray, group: np.ndarray, share: 
         Weights of the rows (m,), positive.
     group : np.ndarray
         Number of the group of each row (m,), ascending.
-    share : float
-        Share of the mean that is subtracted.
 
     Returns
     -------
@@ -72,4 +91,4 @@ def about_mean(rows: np.ndarray, weights: np.ndarray, group: np.ndarray, share: 
     """
     starts = np.flatnonzero(np.diff(group, prepend=-1))
     means = np.add.reduceat(rows * weights[:, None], starts) / np.add.reduceat(weights, starts)[:, None]
-    return rows - share * np.repeat(means, np.diff(np.append(starts, len(rows))), axis=0)
+    return rows - np.repeat(means, np.diff(np.append(starts, len(rows))), axis=0)

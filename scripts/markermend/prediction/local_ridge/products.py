@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from markermend.prediction.local_ridge.ridge import solve
 
 @dataclass(frozen=True, eq=False)
 class Products:
-    """Weighted sums of products of the columns and targets of rows.
+    """Weighted sums of products of the columns and targets of rows, and their weighted sums over groups of rows.
 
     Attributes
     ----------
@@ -23,15 +23,24 @@ class Products:
         Of the targets with themselves (...).
     total : np.ndarray
         Sums of the weights (...).
+    group_columns, group_target : np.ndarray
+        Sums of the columns (..., g, c) and of the targets (..., g, 3) over each group.
+    group_total : np.ndarray
+        Sums of the weights (..., g) over each group.
     """
 
     gram: np.ndarray
     cross: np.ndarray
     square: np.ndarray
     total: np.ndarray
+    group_columns: np.ndarray
+    group_target: np.ndarray
+    group_total: np.ndarray
 
     @classmethod
-    def of(cls, columns: np.ndarray, target: np.ndarray, weights: np.ndarray) -> Products:
+    def of(
+        cls, columns: np.ndarray, target: np.ndarray, weights: np.ndarray, group: np.ndarray, *, groups: int
+    ) -> Products:
         """Sum over rows.
 
         Parameters
@@ -40,28 +49,37 @@ class Products:
             Columns (n, c) and targets (n, 3) of the rows.
         weights : np.ndarray
             Weights of the rows (n,).
+        group : np.ndarray
+            Number of the group of each row (n,), ascending; it does not count where there are no groups.
+        groups : int
+            Number of groups, 0 for none.
 
         Returns
         -------
         Products
             The sums.
         """
-        weighted = (columns * weights[:, None]).T
-        square = (weights[:, None] * target**2).sum()
-        return cls(weighted @ columns, weighted @ target, square, weights.sum())
+        weighted, scale = columns * weights[:, None], weights[:, None]
+        starts = starts_of(group) if groups and len(group) else np.zeros(0, int)
+        sums = [np.zeros((groups, each.shape[1])) for each in (columns, target, scale)]
+        if len(starts):
+            for into, each in zip(sums, (weighted, target * scale, scale), strict=True):
+                into[group[starts]] = np.add.reduceat(each, starts)
+        square = (scale * target**2).sum()
+        return cls(weighted.T @ columns, weighted.T @ target, square, weights.sum(), sums[0], sums[1], sums[2][:, 0])
 
     @classmethod
-    def by_block(cls, columns: np.ndarray, target: np.ndarray, weights: np.ndarray, block: np.ndarray) -> Products:
+    def by_block(cls, block: np.ndarray, groups: int, *rows: np.ndarray) -> Products:
         """Sum over each block of rows.
 
         Parameters
         ----------
-        columns, target : np.ndarray
-            Columns (n, c) and targets (n, 3) of the rows.
-        weights : np.ndarray
-            Weights of the rows (n,).
         block : np.ndarray
             Block of each row (n,), ascending numbers.
+        groups : int
+            Number of groups, 0 for none.
+        *rows : np.ndarray
+            Columns, targets, weights and groups of the rows: see `of`.
 
         Returns
         -------
@@ -69,8 +87,8 @@ class Products:
             The sums, first axis: blocks.
         """
         cuts = starts_of(block)[1:]
-        parts = zip(*(np.split(each, cuts) for each in (columns, target, weights)), strict=True)
-        sums = [vars(cls.of(*part)).values() for part in parts]
+        parts = zip(*(np.split(each, cuts) for each in rows), strict=True)
+        sums = [vars(cls.of(*part, groups=groups)).values() for part in parts]
         return cls(*(np.stack(each) for each in zip(*sums, strict=True)))
 
     def sum(self) -> Products:
@@ -93,21 +111,45 @@ class Products:
         """
         return Products(*(each.sum(axis=0) - each for each in vars(self).values()))
 
-    def exchange(self, part: Products, other: Products) -> Products:
-        """Put other rows in the place of a part of the rows.
+    def less(self, part: Products) -> Products:
+        """Take a part of the rows away.
 
         Parameters
         ----------
-        part, other : Products
-            Sums over the rows to take away, and over those to add.
+        part : Products
+            Sums over these rows.
 
         Returns
         -------
         Products
-            The sums.
+            Sums over the others.
         """
-        terms = zip(vars(self).values(), vars(part).values(), vars(other).values(), strict=True)
-        return Products(*(whole - taken + added for whole, taken, added in terms))
+        return Products(*(whole - own for whole, own in zip(vars(self).values(), vars(part).values(), strict=True)))
+
+    def about_means(self, share: float) -> Products:
+        """Take the rows of each group about a share of their weighted mean, whichever rows are left in it.
+
+        Parameters
+        ----------
+        share : float
+            The share.
+
+        Returns
+        -------
+        Products
+            The sums of products of these rows; sums over groups remain.
+        """
+        if not share or not self.group_total.shape[-1]:
+            return self
+        taken = share * (2 - share) / np.where(self.group_total > 0, self.group_total, np.inf)
+        weighted = (taken[..., None] * self.group_columns).swapaxes(-1, -2)
+        square = (taken[..., None] * self.group_target**2).sum(axis=(-2, -1))
+        return replace(
+            self,
+            gram=self.gram - weighted @ self.group_columns,
+            cross=self.cross - weighted @ self.group_target,
+            square=self.square - square,
+        )
 
     def coefficients(self, penalty: np.ndarray, pooled: Products | None = None, weight: float = 0.0) -> np.ndarray:
         """Solve for the coefficients of a ridge regression.

@@ -19,8 +19,6 @@ from markermend.prediction.local_ridge.products import Products, starts_of
 from markermend.prediction.local_ridge.ridge import penalties, with_intercept
 from markermend.prediction.marker_selection import evenly_spaced
 
-ALL = slice(None)
-
 
 class Features(Protocol):
     """Functions of the inputs that a regression uses beside the inputs themselves.
@@ -135,8 +133,8 @@ class RidgeRegression:
         Mean products of the pooled rows; None where they do not count.
     pool_weight : float
         Weight of all pooled rows together, in units of the weight of all training frames.
-    offsets : Offsets | None
-        Offsets of stretches of the training frames; None where they have none.
+    offsets : Offsets
+        Offsets of stretches of the training frames.
     own : Products
         Products of the training frames.
     """
@@ -148,7 +146,7 @@ class RidgeRegression:
     penalty: np.ndarray
     pooled: Products | None
     pool_weight: float
-    offsets: Offsets | None
+    offsets: Offsets
     own: Products
 
     @cached_property
@@ -186,14 +184,15 @@ class RidgeRegression:
             The regression.
         """
         columns, penalty = with_intercept(data.design(used)), penalties(3 * int(used.sum()), ridge)
+        offsets = offsets or Offsets.none(len(columns))
         pooled = None if pooling is None else _pooled_products(data, used)
         weights = [0.0] if pooling is None or pooled is None else pooling.candidates(data)
         stretches = _stretches(data.training, 1 if pooling is None or len(weights) == 1 else pooling.blocks)
-        rows = _about_offsets(columns, data, offsets)
-        own, weight = Products.by_block(*rows, data.weights, stretches), weights[0]
+        own = Products.by_block(stretches, offsets.groups, columns, data.target, data.weights, offsets.group)
+        weight = weights[0]
         if len(weights) > 1:
-            rest = own.others()
-            errors = [own.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
+            rest, aimed = (each.about_means(offsets.share) for each in (own.others(), own))
+            errors = [aimed.square_error(rest.coefficients(penalty, pooled, weight)) for weight in weights]
             weight = weights[int(np.argmin(errors))]
         pooled = pooled if weight > 0 else None
         return cls(data, used, None, columns, penalty, pooled, weight, offsets, own.sum())
@@ -217,7 +216,8 @@ class RidgeRegression:
         extra = np.full(columns.shape[1] - len(self.penalty), features.penalty)
         penalty = np.append(self.penalty, extra)
         pooled = self.pooled and _extended_products(self.data, self.used, features, max_pooled_rows)
-        own = Products.of(*_about_offsets(columns, self.data, self.offsets), self.data.weights)
+        data, offsets = self.data, self.offsets
+        own = Products.of(columns, data.target, data.weights, offsets.group, groups=offsets.groups)
         return replace(self, features=features, columns=columns, penalty=penalty, pooled=pooled, own=own)
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
@@ -226,31 +226,28 @@ class RidgeRegression:
 
     def without(self, rows: np.ndarray) -> LinearFunction:
         """Train the function without some of the training frames. See `Regression.without`."""
-        kept, concerned = np.ones(len(self.columns), bool), np.zeros(len(self.columns), bool)
-        kept[rows], concerned[rows] = False, True
-        if self.offsets is not None:
-            # Rows of the same stretches lie about another mean without these.
-            concerned = np.isin(self.offsets.group, self.offsets.group[rows])
-        return self._learned(self.own.exchange(self._products(concerned), self._products(concerned & kept)))
+        parts = [each[rows] for each in self._rows]
+        return self._learned(self.own.less(Products.of(*parts, groups=self.offsets.groups)))
 
-    def _products(self, rows: np.ndarray) -> Products:
-        """Products of training frames (mask) about their offsets."""
-        return Products.of(*_about_offsets(self.columns, self.data, self.offsets, rows), self.data.weights[rows])
+    @property
+    def _rows(self) -> tuple[np.ndarray, ...]:
+        """Columns, targets, weights and groups of the training frames."""
+        return self.columns, self.data.target, self.data.weights, self.offsets.group
 
     def _learned(self, own: Products) -> LinearFunction:
         """What was learned from training frames of these products."""
-        coefficients = own.coefficients(self.penalty, self.pooled, self.pool_weight)
-        return LinearFunction(coefficients, self.features, self.data.centre[-3:])
+        return LinearFunction(self._coefficients(own), self.features, self.data.centre[-3:])
+
+    def _coefficients(self, own: Products) -> np.ndarray:
+        """Coefficients (..., c, 3) from products of training frames."""
+        return own.about_means(self.offsets.share).coefficients(self.penalty, self.pooled, self.pool_weight)
 
     def left_out(self, block: np.ndarray) -> np.ndarray:
         """Compute residuals left out by blocks, from sums over all blocks less those over one. See `Regression.left_out`."""
         target, starts = self.data.target, starts_of(block)
         if len(starts) < 2:
             return np.full(target.shape, np.nan)
-        # A stretch with an offset that lies in two blocks has that of its whole mean in both.
-        rows = _about_offsets(self.columns, self.data, self.offsets)
-        rest = Products.by_block(*rows, self.data.weights, block).others()
-        beta = rest.coefficients(self.penalty, self.pooled, self.pool_weight)
+        beta = self._coefficients(Products.by_block(block, self.offsets.groups, *self._rows).others())
         parts = zip(np.split(self.columns, starts[1:]), np.split(target, starts[1:]), beta, strict=True)
         return np.concatenate([own - columns @ coefficients for columns, own, coefficients in parts])
 
@@ -259,18 +256,6 @@ def _columns(inputs: np.ndarray, features: Features | None) -> np.ndarray:
     """Intercept, inputs and features (n, c)."""
     columns = with_intercept(inputs)
     return columns if features is None else np.concatenate([columns, features.values(inputs)], axis=1)
-
-
-def _about_offsets(
-    columns: np.ndarray, data: TrainingSet, offsets: Offsets | None, rows: np.ndarray | slice = ALL
-) -> tuple[np.ndarray, np.ndarray]:
-    """Columns and targets of training frames (mask), about a share of the means of their groups."""
-    columns, target = columns[rows], data.target[rows]
-    if offsets is None or not len(columns):
-        return columns, target
-    both = np.concatenate([columns, target], axis=1)
-    both = about_mean(both, data.weights[rows], offsets.group[rows], offsets.share)
-    return both[:, :-3], both[:, -3:]
 
 
 def _pooled_products(data: TrainingSet, used: np.ndarray) -> Products | None:
@@ -300,7 +285,8 @@ def _extended_products(data: TrainingSet, used: np.ndarray, features: Features, 
 def _without_intercept(products: np.ndarray) -> Products:
     """Products of columns and, last, the target, of total weight 1; those with the intercept are 0."""
     products = np.pad(products, ((1, 0), (1, 0)))
-    return Products(products[:-3, :-3], products[:-3, -3:], np.trace(products[-3:, -3:]), np.ones(()))
+    none = np.zeros((0, len(products) - 3)), np.zeros((0, 3)), np.zeros(0)
+    return Products(products[:-3, :-3], products[:-3, -3:], np.trace(products[-3:, -3:]), np.ones(()), *none)
 
 
 def _stretches(frames: np.ndarray, count: int) -> np.ndarray:

@@ -1,10 +1,12 @@
 """Ridge regression with pooled rows: against least squares with offsets; left-out blocks: against training again."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from markermend.prediction.local_ridge.model import TrainingSet
-from markermend.prediction.local_ridge.offsets import about_mean
+from markermend.prediction.local_ridge.offsets import Offsets, about_mean
 from markermend.prediction.local_ridge.pooled_rows import PooledRows
 from markermend.prediction.local_ridge.ridge import ridge_coefficients, with_intercept
 from markermend.prediction.local_ridge.ridge_regression import Pooling, RidgeRegression
@@ -128,3 +130,58 @@ def test_a_pooled_row_counts_no_more_than_a_frame_and_not_nothing_where_frames_a
     assert Pooling((0.0, 0.1, 0.3, 1.0), 4, min_frames=101).candidates(data) == [0.1, 0.3]
     assert Pooling((0.0, 1.0), 4, min_frames=101).candidates(data) == [0.4]
     assert Pooling((1.0,), 4).candidates(data) == [0.0]
+
+
+def naive_offsets(rows, weights, group, share):
+    """Rows about a share of the weighted mean of their group, group by group."""
+    about = rows.copy()
+    for number in np.unique(group):
+        own = group == number
+        about[own] -= share * (weights[own, None] * rows[own]).sum(axis=0) / weights[own].sum()
+    return about
+
+
+def naive_fit(local, weights, group, share, ridge):
+    """Intercept and coefficients of a ridge regression on rows with intercept about a share of the means of their groups."""
+    rows = naive_offsets(np.insert(local, 0, 1.0, axis=1), weights, group, share)
+    columns, target, penalty = rows[:, :-3], rows[:, -3:], np.diag([0.0, *[ridge] * (local.shape[1] - 3)])
+    gram = (columns * weights[:, None]).T @ columns + penalty * weights.sum()
+    return np.linalg.solve(gram, (columns * weights[:, None]).T @ target)
+
+
+def test_stretches_with_offsets_equal_the_naive_twin_also_without_some_rows():
+    rng = np.random.default_rng(13)
+    local, weights = (
+        rng.normal(size=(120, 9)) + np.repeat(rng.normal(0, 5, (4, 9)), 30, axis=0),
+        rng.uniform(0.2, 1, 120),
+    )
+    frames = np.sort(rng.choice(400, 120, replace=False))
+    data = replace(training_set(local, weights), training=frames)
+    offsets = Offsets.of_stretches(frames, length=70, share=0.8)
+    group = (frames - frames[0]) // 70
+    assert np.array_equal(offsets.group, group) and offsets.groups == group[-1] + 1
+    regression = RidgeRegression.fit(data, BOTH, 0.1, offsets=offsets)
+    assert np.allclose(regression.function.coefficients, naive_fit(local, weights, group, 0.8, 0.1))
+    block = frames * 3 // 400
+    left = regression.left_out(block)
+    for b in range(3):
+        kept, rows = block != b, np.flatnonzero(block == b)
+        beta = naive_fit(local[kept], weights[kept], group[kept], 0.8, 0.1)
+        assert np.allclose(regression.without(rows).coefficients, beta)
+        assert np.allclose(left[rows], local[rows, 6:] - beta[0] - local[rows, :6] @ beta[1:])
+
+
+def test_offsets_of_stretches_keep_a_slow_shift_out_of_the_coefficients():
+    """The marker shifts by 10 mm from stretch to stretch, while the pose drifts by chance in the same direction."""
+    rng = np.random.default_rng(14)
+    group = np.repeat(np.arange(6), 50)
+    local = one_law(rng, 300, 1.0, 0.1)
+    local[:, :6] += 3.0 * (group[:, None] - 2.5)
+    law = np.random.default_rng(5).normal(0, 0.5, (6, 3))
+    local[:, 6:] += 3.0 * (group[:, None] - 2.5) * law.sum(axis=0) + 10.0 * (group[:, None] - 2.5)
+    data = training_set(local, np.ones(300))
+    errors = []
+    for offsets in (None, Offsets(group, 0.95)):
+        coefficients = RidgeRegression.fit(data, BOTH, 0.01, offsets=offsets).function.coefficients[1:]
+        errors.append(np.abs(coefficients - law).mean())
+    assert errors[1] < 0.3 * errors[0]
