@@ -56,7 +56,7 @@ onstart:
     if cleans():
         in_one_line(plan.write_lists)
         # However the run ends: an exception within Snakemake calls neither of the hooks below.
-        atexit.register(plan.close)
+        atexit.register(lambda: plan.close([job.wildcards for job in workflow.dag.needrun_jobs()]))
 
 
 onsuccess:

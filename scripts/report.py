@@ -1,31 +1,35 @@
 """Put the data set into one report: every recording worst first, totals, what was set aside and why, the methods text.
 
 Reads: 08_qc.json of every recording, or qc.json of every batch.
-Writes: index.html, summary.tsv, plotly.min.js (the one plotting script that all pages share).
+Writes: index.html, summary.tsv, plotly.min.js (the one plotting script that all pages share). Where recordings are not finished, the
+report names them, and the command ends with an error.
 """
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
 from markermend.command.stage import Stage
-from markermend.report import dataset_summary, rendering
+from markermend.core.recording import BadRecording
+from markermend.report import dataset_summary, quality_files, rendering
 from markermend.storage import atomic
 
 STAGE = Stage("report", __doc__, sets_aside=False)
-STAGE.reads("qc", "recordings in numbers: each in a file, or batches of them", many=True, optional=True)
+STAGE.reads("qc", "recordings in numbers: each in a file, or batches of them", many=True, optional=True, lenient=True)
+STAGE.reads("unfinished", "the same of recordings that are not finished", many=True, optional=True, lenient=True)
 STAGE.writes("index", "the report, as HTML")
 STAGE.writes("summary", "one row per recording, tab-separated")
 STAGE.writes("script", "the plotting script")
 
 
 def work(call: Any) -> str:
-    contents = [json.loads(path.read_text(encoding="utf-8")) for path in call.qc]
-    summaries = [summary for content in contents for summary in (content if isinstance(content, list) else [content])]
-    atomic.write_text(call.index, rendering.index(summaries))
+    summaries, unfinished = quality_files.read(call.qc, call.facts["inputs"]["qc"])
+    unfinished = sorted([*unfinished, *map(quality_files.place, call.unfinished)])
+    atomic.write_text(call.index, rendering.index(summaries, unfinished))
     atomic.write_text(call.summary, dataset_summary.table(summaries))
     with atomic.replacing(call.script) as temporary:
         temporary.write_bytes(rendering.plotly_script().read_bytes())
+    if unfinished:
+        raise BadRecording(f"{len(unfinished)} not finished, among them {unfinished[0]}: run again")
     aside = sum(summary["status"] == "set aside" for summary in summaries)
     return f"{len(summaries)} recordings, {aside} set aside"
 

@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core.recording import SetAside
 from markermend.report import recording_report
-from markermend.storage import stage_files
+from markermend.storage import output_checksums, stage_files
 
 NAMES = ("walk", "jump", "turn", "run", "fall")
 
@@ -30,12 +30,13 @@ def run(script, flags):
     importlib.import_module(script).main([word for flag, files in flags.items() for word in (flag, *map(str, files))])
 
 
-def report(folder, files):
+def report(folder, files, unfinished=()):
     outputs = {name: folder / name for name in ("index.html", "summary.tsv", "plotly.min.js")}
     run(
         "report",
         {
             "--qc": files,
+            "--unfinished": unfinished,
             **{
                 f"--{flag}": [path] for flag, path in zip(("index", "summary", "script"), outputs.values(), strict=True)
             },
@@ -65,3 +66,24 @@ def test_a_batch_without_one_of_its_files_is_not_written(tmp_path, quality):
     with pytest.raises(SystemExit) as end:
         run("collect", {"--qc": quality, "--batch": [tmp_path / "qc.json"]})
     assert end.value.code == 1 and not (tmp_path / "qc.json").exists()
+
+
+@pytest.mark.parametrize("fault", ["missing", "damaged", "named"])
+def test_a_report_without_some_recordings_names_them_and_ends_with_an_error(tmp_path, quality, fault, caplog):
+    given, unfinished = quality, []
+    if fault == "missing":
+        quality[1].unlink()
+    elif fault == "damaged":
+        output_checksums.write("qc", [quality[1]])
+        quality[1].write_text(quality[1].read_text().replace("reason 1", "reason 2"))
+    else:
+        given, unfinished = [*quality[:1], *quality[2:]], quality[1:2]
+    folder = tmp_path / "results/report"
+    with pytest.raises(SystemExit) as end:
+        report(folder, given, unfinished)
+    assert end.value.code == 1
+    assert caplog.messages[-1] == "1 not finished, among them S1/jump: run again"
+    page = (folder / "index.html").read_text()
+    assert "Not finished: 1" in page and "<li>S1/jump</li>" in page
+    rows = (folder / "summary.tsv").read_text().splitlines()
+    assert {row.split("\t")[0] for row in rows[1:]} == set(NAMES) - {"jump"}

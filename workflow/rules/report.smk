@@ -89,5 +89,5 @@ rule report:
     message:
         "Write the report"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/report.py --qc @{params.list:q} --index {output.index:q} --summary {output.summary:q}"
+        "{PYTHON:q} {SCRIPTS:q}/report.py --qc @{params.list:q} --unfinished --index {output.index:q} --summary {output.summary:q}"
         " --script {output.script:q} {params.options} 2> {log:q}"

@@ -84,6 +84,7 @@ class Stage:
         self.inputs: list[str] = []
         self.outputs: list[str] = []
         self._original = False
+        self._lenient: set[str] = set()
         self._classes = {cls: stage_options(cls) for cls in (options, given)}
         for option in (option for options in self._classes.values() for option in options):
             group.add_argument(
@@ -94,7 +95,7 @@ class Stage:
                 help=full_meaning(option).replace("%", "%%"),
             )
 
-    def reads(self, name: str, help: str, *, many: bool = False, optional: bool = False) -> None:
+    def reads(self, name: str, help: str, *, many: bool = False, optional: bool = False, lenient: bool = False) -> None:
         """Declare an input file, or several.
 
         Parameters
@@ -107,8 +108,11 @@ class Stage:
             Whether there are several: one or more.
         optional : bool, optional
             Whether there may be none of the several.
+        lenient : bool, optional
+            Whether a file that is missing or damaged has no checksum among the facts, instead of ending the stage.
         """
         self.inputs.append(name)
+        self._lenient |= {name} if lenient else set()
         nargs = ("*" if optional else "+") if many else None
         self._reads.add_argument(flag(name), type=Path, required=True, nargs=nargs, metavar="FILE", help=help)
 
@@ -246,10 +250,13 @@ class Stage:
             "inputs": {name: self._checksum(name, arguments) for name in self.inputs},
         }
 
-    def _checksum(self, name: str, arguments: dict[str, Any]) -> str | list[str] | None:
+    def _checksum(self, name: str, arguments: dict[str, Any]) -> Any:
         """The checksums of an input; None for an original that is not to be opened, of which no stage of ours has a record."""
+        own = arguments[self.outputs[0]].parent
+        if name in self._lenient:
+            return [_checksum_or_none(path, own) for path in arguments[name]]
         if not (self._original and name == "source"):
-            return checksums(arguments[name], own=arguments[self.outputs[0]].parent)
+            return checksums(arguments[name], own=own)
         try:
             source_file.check(arguments[name], within=arguments["within"])
         except BadRecording:
@@ -291,6 +298,14 @@ def _parse(option: Option, words: str) -> Any:
         return parse(option, words)
     except BadOptions as problem:
         raise argparse.ArgumentTypeError(str(problem)) from problem
+
+
+def _checksum_or_none(path: Path, own: Path) -> str | list[str] | None:
+    """The checksum of an input; None where it is missing or damaged."""
+    try:
+        return checksums(path, own=own)
+    except (BadRecording, SetAside):
+        return None
 
 
 def _folder_or_none(words: str) -> Path | None:

@@ -21,7 +21,7 @@ from markermend.core.artifacts import DETECTORS
 from markermend.options.config import write_config
 from markermend.options.flags import write_flags
 from markermend.options.general import EXPERIMENTS
-from markermend.planning import code_hashes, run_facts, run_summary
+from markermend.planning import code_hashes, partial_report, run_facts, run_summary
 from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes
@@ -30,7 +30,7 @@ from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
-from markermend.storage.atomic import write_json, write_text
+from markermend.storage.atomic import write_json, write_list
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
@@ -236,16 +236,16 @@ class Plan:
 
     def write_lists(self) -> None:
         """Write the lists of files that meshes, poses and the report are made of: a command line has no room for thousands."""
-        _write_list(self.files.quality_list, self.report_files)
+        write_list(self.files.quality_list, self.report_files)
         if len(self.batches) > 1:
             for name, paths in self.batches.items():
-                _write_list(self.files.batch_list.format(batch=name), paths)
+                write_list(self.files.batch_list.format(batch=name), paths)
         for subject in self.data.subjects:
             for listed, pattern in (
                 (self.files.markers_list, self.files.markers),
                 (self.files.repaired_list, self.files.repaired),
             ):
-                _write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
+                write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
 
     def write_facts(self) -> None:
         """Write the facts of the run."""
@@ -254,16 +254,28 @@ class Plan:
         )
         write_json(Path(self.files.provenance), facts)
 
-    def close(self) -> None:
-        """Print the summary of the run, whatever became of it; warnings again, which a long run has hidden."""
+    def close(self, pending: Sequence[Any]) -> None:
+        """Print the summary of the run, whatever became of it; warnings again, which a long run has hidden.
+
+        Parameters
+        ----------
+        pending : sequence of Wildcards
+            The wildcards of the jobs that were not finished; where there are any, the report is made of what was finished.
+        """
+        places = {(getattr(job, "subject", None), getattr(job, "recording", None)) for job in pending}
+        unfinished = {
+            quality
+            for entry, quality in zip(self.data.entries, map(Path, self.quality_files), strict=True)
+            if entry in places or not quality.exists()
+        }
+        if pending:
+            finished = [path for path in self.quality_files if Path(path) not in unfinished]
+            partial_report.write(
+                self.files, finished, sorted(map(str, unfinished)), script=self.project / "scripts/report.py"
+            )
         index = Path(self.files.report) / "index.html"
-        lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index)]
+        lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index, unfinished)]
         print(*lines, sep="\n", file=sys.stderr)
-
-
-def _write_list(path: str, files: Sequence[str]) -> None:
-    """Write the names of files, one a line."""
-    write_text(Path(path), "".join(f"{file}\n" for file in files))
 
 
 def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:

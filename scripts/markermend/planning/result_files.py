@@ -151,6 +151,11 @@ class ResultFiles:
         return f"{self.batch}/logs/recordings.txt"
 
     @property
+    def unfinished_list(self) -> str:
+        """The list of such files of recordings that are not finished."""
+        return f"{self.report}/logs/unfinished.txt"
+
+    @property
     def quality_list(self) -> str:
         """The list of files that the report is made of."""
         return f"{self.report}/logs/recordings.txt"

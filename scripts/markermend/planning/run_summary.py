@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ ERROR = "ERROR "
 """Beginning of a line of a log that says why a stage failed."""
 
 
-def summary(paths: Sequence[Path], report: Path) -> str:
+def summary(paths: Sequence[Path], report: Path, unfinished: Collection[Path] = ()) -> str:
     """Sum up a run: recordings by outcome, changed samples, what was set aside or not finished and why.
 
     Parameters
@@ -27,13 +27,15 @@ def summary(paths: Sequence[Path], report: Path) -> str:
         Quality files of the recordings; those that do not exist or cannot be read count as unfinished.
     report : Path
         First page of the report; the last line names it, or says that it was not written or is older than the results.
+    unfinished : collection of Path, optional
+        Those of the quality files that are not of the results as they are now.
 
     Returns
     -------
     str
         The lines.
     """
-    found = [_read(path) for path in paths]
+    found = [{} if path in unfinished else _read(path) for path in paths]
     counts = Counter(quality.get("status", "unfinished") for quality in found)
     lines = [", ".join(f"{counts[status]} {status}" for status in (*STATUSES, "unfinished") if counts[status])]
     lines[0] = (
@@ -43,13 +45,12 @@ def summary(paths: Sequence[Path], report: Path) -> str:
     lines += [f"  set aside: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in aside[:LISTED]]
     if len(aside) > LISTED:
         lines.append(f"  and {len(aside) - LISTED} more, all in the report")
-    unfinished = [path.parent for path, quality in zip(paths, found, strict=True) if not quality]
+    left = [path.parent for path, quality in zip(paths, found, strict=True) if not quality]
     lines += [
-        f"  not finished: {'/'.join(folder.parts[-2:])}: {_last_error(folder / 'logs')}"
-        for folder in unfinished[:LISTED]
+        f"  not finished: {'/'.join(folder.parts[-2:])}: {_last_error(folder / 'logs')}" for folder in left[:LISTED]
     ]
-    if len(unfinished) > LISTED:
-        lines.append(f"  and {len(unfinished) - LISTED} more that were not finished")
+    if len(left) > LISTED:
+        lines.append(f"  and {len(left) - LISTED} more that were not finished")
     return "\n".join(
         [*lines, _of_report(report, [path for path, quality in zip(paths, found, strict=True) if quality])]
     )

@@ -78,7 +78,7 @@ def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]
     """
     try:
         facts = stage_files.read_facts(markers)
-    except SetAside:
+    except (SetAside, OSError):
         facts = {}
     recording, subject = name_of(page.absolute().parent), name_of(page.absolute().parent.parent)
     return {

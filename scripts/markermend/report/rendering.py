@@ -58,13 +58,15 @@ def page_aside(summary: Mapping[str, Any]) -> str:
     return render("aside.html.j2", summary=summary)
 
 
-def index(summaries: Sequence[Mapping[str, Any]]) -> str:
+def index(summaries: Sequence[Mapping[str, Any]], unfinished: Sequence[str] = ()) -> str:
     """Write the page of the data set.
 
     Parameters
     ----------
     summaries : Sequence[Mapping[str, Any]]
         Of its recordings, in any order.
+    unfinished : sequence of str, optional
+        The folders of recordings that are not finished.
 
     Returns
     -------
@@ -77,6 +79,7 @@ def index(summaries: Sequence[Mapping[str, Any]]) -> str:
         "index.html.j2",
         entries=[entry for entry in entries if entry["status"] != "set aside"],
         aside=[entry for entry in entries if entry["status"] == "set aside"],
+        unfinished=unfinished,
         total=totals(entries),
         subjects={name: totals([entry for entry in entries if entry["subject"] == name]) for name in names},
         advice=motion_advice(entries),

@@ -7,7 +7,7 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -137,6 +137,19 @@ def write_text(path: Path, text: str) -> None:
     """
     with replacing(path) as temporary:
         temporary.write_bytes(text.encode())
+
+
+def write_list(path: str, files: Iterable[str]) -> None:
+    """Write the names of files, one a line.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+    files : iterable of str
+        The names.
+    """
+    write_text(Path(path), "".join(f"{file}\n" for file in files))
 
 
 def write_json(path: Path, value: Any) -> None:

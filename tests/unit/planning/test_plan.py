@@ -8,10 +8,13 @@ from types import SimpleNamespace
 import pytest
 
 from markermend.core.artifacts import DETECTORS
+from markermend.core.recording import SetAside
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
+from markermend.report import recording_report
+from markermend.storage.atomic import write_json
 from support.paths import PROJECT
 
 
@@ -134,7 +137,7 @@ def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan
     path.parent.mkdir(parents=True)
     path.write_text(json.dumps(quality))
     plan.write_facts()
-    replace(plan, warnings=["decisions: line 2 is about none"]).close()
+    replace(plan, warnings=["decisions: line 2 is about none"]).close([])
     text = capsys.readouterr().err
     assert (
         text.startswith("decisions: line 2 is about none\n3 recordings: 1 set aside, 2 unfinished")
@@ -143,6 +146,21 @@ def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan
     facts = json.loads((tmp_path / "out/report/provenance.json").read_text())
     assert facts["recordings"] == 3 and facts["config"]["results"] == str(tmp_path / "out")
     assert "markermend/filling/fill.py" in str(facts["code"]["fill"])
+
+
+def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tmp_path, plan, capsys):
+    for entry in (("S%201", "run"), ("S%201", "walk")):
+        folder = tmp_path / "out" / "/".join(entry)
+        note = SetAside("ingest", "empty")
+        summary = recording_report.summarize_aside(folder / "01_markers.parquet", folder / "page.html", note)
+        write_json(folder / "08_qc.json", summary)
+    plan.close([job(recording="walk"), SimpleNamespace(subject="S%201"), SimpleNamespace()])
+    text = capsys.readouterr().err
+    assert text.startswith("3 recordings: 1 set aside, 2 unfinished")
+    assert "not finished: S%201/walk: see" in text and f"Report: {tmp_path}/out/report/index.html" in text
+    page = (tmp_path / "out/report/index.html").read_text()
+    assert "Not finished: 2" in page and "<li>S2/%7Bx%7D</li>" in page
+    assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
 
 
 def test_networks_are_trained_only_where_they_are_members(plan, config):

@@ -36,7 +36,7 @@ def run_report(results: Path, paths) -> Page:
     """Run the report and read its index."""
     out = results / "report"
     flags = ["--index", f"{out}/index.html", "--summary", f"{out}/summary.tsv", "--script", f"{out}/plotly.min.js"]
-    report_script.main(["--qc", *map(str, paths), *flags])
+    report_script.main(["--qc", *map(str, paths), "--unfinished", *flags])
     return Page((out / "index.html").read_text(encoding="utf-8"))
 
 

@@ -1,0 +1,38 @@
+"""The report of a run that ended before all recordings were finished."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from markermend.planning.result_files import ResultFiles
+from markermend.storage.atomic import write_list
+
+
+def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str], *, script: Path) -> None:
+    """Make the report of the recordings that are finished; it names the others.
+
+    Its log says what goes wrong.
+
+    Parameters
+    ----------
+    files : ResultFiles
+        Names of the result files.
+    finished, unfinished : sequence of str
+        The quality files of the recordings.
+    script : Path
+        The command of the rule `report`.
+    """
+    inputs = {"qc": files.quality_list, "unfinished": files.unfinished_list}
+    outputs = {"index": "index.html", "summary": "summary.tsv", "script": "plotly.min.js"}
+    command = [sys.executable, str(script)]
+    command += [word for name, path in inputs.items() for word in (f"--{name}", f"@{path}")]
+    command += [word for name, file in outputs.items() for word in (f"--{name}", f"{files.report}/{file}")]
+    with suppress(OSError):
+        write_list(files.quality_list, finished)
+        write_list(files.unfinished_list, unfinished)
+        with open(f"{files.report}/logs/report.log", "w", encoding="utf-8") as log:
+            subprocess.run(command, stderr=log, check=False)
