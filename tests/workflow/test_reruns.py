@@ -224,6 +224,37 @@ def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tm
     assert NOTHING in finished.plan(**places).text
 
 
+def damage(path: Path) -> None:
+    """Flip one bit in the middle of a file, and keep its date."""
+    content, file = bytearray(path.read_bytes()), path.stat()
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    os.utime(path, ns=(file.st_atime_ns, file.st_mtime_ns))
+
+
+def test_a_damaged_file_is_made_anew_and_alters_no_result(finished):
+    before = finished.outputs()
+    for name in ("05_slow.parquet", "07_filled.parquet", "07_changes.parquet"):
+        damage(finished.results / "S01/a" / name)
+    finished.run("--forcerun", "qc")
+    assert finished.outputs() == before
+    assert (
+        "07_filled.parquet is damaged: running fill once more" in (finished.results / "S01/a/logs/qc.log").read_text()
+    )
+
+
+def test_a_damaged_file_of_a_subject_is_made_anew_by_the_next_run(finished):
+    before = finished.outputs()
+    damage(finished.results / "S01/mesh.json")
+    text = finished.run("--forcerun", "frozen")
+    assert (
+        "set aside: S01/a: mesh.json is not as mesh wrote it: the file is damaged; the next run makes it anew" in text
+    )
+    assert "set aside" not in finished.run()
+    assert {name: content for name, content in finished.outputs().items() if name in before} == before
+    assert NOTHING in finished.plan().text
+
+
 def test_a_killed_run_is_finished_by_the_same_command_with_the_same_bytes(finished, tmp_path):
     results = tmp_path / "results"
     run = subprocess.Popen(

@@ -132,7 +132,12 @@ def quality_of(folder):
 
 def test_hostile_names_reach_the_results_and_nothing_else(hostile):
     folder, _ = hostile
-    assert {path.name for path in (folder / "out").iterdir()} == {"%2E.%2F%7Brecording%7D", "%72eport", "report"}
+    assert {path.name for path in (folder / "out").iterdir()} == {
+        "%2E.%2F%7Brecording%7D",
+        "%72eport",
+        "report",
+        ".snakemake",
+    }
     quality = quality_of(folder)
     assert set(quality) == {(subject, recording) for subject, recording, _ in HOSTILE}
     assert [quality[subject, name]["status"] == "set aside" for subject, name, _ in HOSTILE] == [False, False, True]
