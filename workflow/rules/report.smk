@@ -57,6 +57,7 @@ rule collect:
         runtime=10,
     params:
         code=plan.code("collect"),
+        failures=plan.failed("collect"),
         list=files.batch_list,
     message:
         "Collect the figures of batch {wildcards.batch}"

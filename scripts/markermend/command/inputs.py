@@ -28,7 +28,7 @@ def checksums(paths: Path | Sequence[Path], *, own: Path) -> str | list[str]:
     paths : Path or sequence of Path
         One input or several.
     own : Path
-        The folder of what the stage is about: a recording, a subject, or all. What lies in it may be made anew.
+        The folder of what the stage is about: a recording, a subject, or all. What lies in a folder above is not made anew.
 
     Returns
     -------
@@ -54,9 +54,9 @@ def _checksum(path: Path, own: Path) -> str:
     record = output_checksums.find(path)
     if record is None or record.outputs[path.name] == checksum:
         return checksum
-    # Results that were moved would be made where they were; what others read, too, might be made many times at once.
-    at_its_place = str(path) in record.command and path.is_relative_to(own)
-    if at_its_place and _make_anew(path, record):
+    # What belongs to a folder above is read by others, too, and might be made many times at once; results that were moved would be
+    # made where they were.
+    if path.parent not in own.parents and str(path) in record.command and _make_anew(path, record):
         return record.outputs[path.name]
     reason = f"{path.name} is not as {record.stage} wrote it: the file is damaged; the next run makes it anew"
     count_failure(path.parent, record.stage, reason)

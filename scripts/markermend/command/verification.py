@@ -65,16 +65,19 @@ def check(results: Path) -> Iterator[Checked]:
     """
     subjects = [path for path in _folders(results) if path.name not in RESERVED_SUBJECTS]
     recordings = [path for subject in subjects for path in _folders(subject) if path.name != output_checksums.FOLDER]
-    for folder in [results / "report", *sorted([*subjects, *recordings])]:
+    report = [results / "report", *_folders(results / "report/batches")]
+    for folder in [*report, *sorted([*subjects, *recordings])]:
         yield from _outputs(folder, results)
     sources = SourceChecksums(results / "report/logs/sources.json").recorded
     for recording in recordings:
-        yield from _source(recording, {name: record["path"] for name, record in sources.items()})
+        source = sources.get(f"{recording.parent.name}/{recording.name}")
+        yield from _source(recording, source["path"] if source else None)
 
 
 def _folders(path: Path) -> list[Path]:
-    """The folders in a folder."""
-    return sorted(inner for inner in path.iterdir() if inner.is_dir() and not inner.name.startswith("."))
+    """The folders in a folder, none where it is not there."""
+    inner = path.iterdir() if path.is_dir() else ()
+    return sorted(folder for folder in inner if folder.is_dir() and not folder.name.startswith("."))
 
 
 def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
@@ -90,16 +93,15 @@ def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
             yield Checked(str(place / path.name), UNRECORDED, _checksum(path))
 
 
-def _source(folder: Path, paths: dict[str, str]) -> Iterator[Checked]:
+def _source(folder: Path, path: str | None) -> Iterator[Checked]:
     """The original of one recording, of which its certificate states the checksum that was read."""
-    name = f"{folder.parent.name}/{folder.name}"
     try:
         expected = json.loads((folder / "certificate.json").read_text(encoding="utf-8"))["original_sha256"]
     except (OSError, ValueError, TypeError, KeyError):
         return
     if expected is not None:
-        path = paths.get(name)
-        yield Checked(path or f"the original of {name}", expected, _checksum(Path(path)) if path else UNRECORDED)
+        name = path or f"the original of {folder.parent.name}/{folder.name}"
+        yield Checked(name, expected, _checksum(Path(path)) if path else UNRECORDED)
 
 
 def _checksum(path: Path) -> str:

@@ -195,13 +195,13 @@ def failures(results: str) -> Counter[tuple[str, str, str]]:
     Returns
     -------
     Counter
-        Failures by folder of the subject, folder of the recording ("" for none), and stage.
+        Failures by folder of the subject, or `report`, folder of the recording ("" for none), and stage.
     """
     counts: Counter[tuple[str, str, str]] = Counter()
-    for pattern in ("*/failures.tsv", "*/*/failures.tsv"):
+    for pattern in ("*/failures.tsv", "*/*/failures.tsv", "report/batches/*/failures.tsv"):
         for path in glob.iglob(os.path.join(glob.escape(results), pattern)):
             subject, *recording = os.path.relpath(path, results).split(os.sep)[:-1]
             with open(path, encoding="utf-8") as file:
                 for line in file:
-                    counts[subject, "".join(recording), line.split("\t")[0]] += 1
+                    counts[subject, "" if subject == "report" else "".join(recording), line.split("\t")[0]] += 1
     return counts

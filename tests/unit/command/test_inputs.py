@@ -84,6 +84,6 @@ def test_results_that_were_moved_are_not_made_where_they_were(peaks, tmp_path):
 def test_a_file_that_belongs_to_more_than_the_recording_is_left_to_the_next_run(peaks):
     flip(peaks)
     with pytest.raises(SetAside):
-        checksums(peaks, own=peaks.parent / "other")
+        checksums(peaks, own=peaks.parent / "batch")
     assert (peaks.parent / "failures.tsv").read_text().count("\n") == 1
     assert checksums(peaks, own=peaks.parents[1])

@@ -100,7 +100,8 @@ def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
 
 
 def test_a_failure_counts_for_what_the_job_is_about(tmp_path, plan, config):
-    for place, text in {"S%201/walk": "fill\tx\nfill\ty\n", "S%201": "mesh\tx\n", "report": "report\tx\n"}.items():
+    texts = {"S%201/walk": "fill\tx\nfill\ty\n", "S%201": "mesh\tx\n", "report": "report\tx\n"}
+    for place, text in {**texts, "report/batches/1_of_2": "collect\tx\n"}.items():
         (tmp_path / "out" / place).mkdir(parents=True, exist_ok=True)
         (tmp_path / "out" / place / "failures.tsv").write_text(text)
     again = make_plan(config, PROJECT, deployed=False)
@@ -108,6 +109,7 @@ def test_a_failure_counts_for_what_the_job_is_about(tmp_path, plan, config):
     assert again.failed("fill")(job()) == 2 and again.failed("fill")(job(recording="run")) == 0
     assert again.failed("mesh")(SimpleNamespace(subject="S%201")) == 1
     assert again.failed("report")(SimpleNamespace()) == 1
+    assert again.failed("collect")(SimpleNamespace(batch="2_of_2")) == 1
 
 
 def test_lists_name_the_files_that_meshes_and_the_report_are_made_of(tmp_path, plan):
