@@ -51,6 +51,55 @@ def _hermite(value0: float, value1: float, slope0: float, slope1: float, span: i
     return curve
 
 
+def cubic_spline(times: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Evaluate the cubic spline through few knots whose third derivative is continuous at the second and the last but one (not-a-knot).
+
+    Parameters
+    ----------
+    times : np.ndarray
+        Times of the knots (n,), ascending; two at least. Two give a straight line, three a parabola.
+    values : np.ndarray
+        Values (n, axes) at the knots.
+    at : np.ndarray
+        Times (m,) at which the spline is evaluated.
+
+    Returns
+    -------
+    np.ndarray
+        Values (m, axes).
+
+    References
+    ----------
+    de Boor (1978), A Practical Guide to Splines, chapter IV.
+    """
+    span = np.diff(times)
+    slope = np.diff(values, axis=0) / span[:, None]
+    bend = _second_derivatives(span, slope)
+    left = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(span) - 1)
+    after, before, width = (at - times[left])[:, None], (times[left + 1] - at)[:, None], span[left][:, None]
+    line = values[left] + after * slope[left]
+    curve: np.ndarray = line - after * before / (6 * width) * (
+        (width + before) * bend[left] + (width + after) * bend[left + 1]
+    )
+    return curve
+
+
+def _second_derivatives(span: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """Second derivatives (n, axes) of a not-a-knot spline at its knots, given spans (n - 1,) and slopes (n - 1, axes) of the chords."""
+    knots = len(span) + 1
+    if knots < 4:
+        constant = np.zeros(slope.shape[1]) if knots == 2 else 2 * (slope[1] - slope[0]) / span.sum()
+        return np.tile(constant, (knots, 1))
+    inside = np.arange(1, knots - 1)
+    system, right = np.zeros((knots, knots)), np.zeros((knots, slope.shape[1]))
+    system[inside, inside - 1], system[inside, inside + 1] = span[:-1], span[1:]
+    system[inside, inside] = 2 * (span[:-1] + span[1:])
+    right[inside] = 6 * np.diff(slope, axis=0)
+    system[0, :3] = span[1], -(span[0] + span[1]), span[0]
+    system[-1, -3:] = span[-1], -(span[-1] + span[-2]), span[-2]
+    return np.linalg.solve(system, right)
+
+
 def interpolate_missing(values: np.ndarray) -> np.ndarray:
     """Fill the missing entries of a vector by linear interpolation; the nearest entry stands in beyond the ends.
 

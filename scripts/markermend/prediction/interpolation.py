@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from markermend.numerics.interpolation import cubic_spline
 from markermend.prediction.interface import Prediction
 from markermend.prediction.scene import Scene
 
@@ -55,11 +56,11 @@ def _curve(kind: str, times: np.ndarray, values: np.ndarray) -> Callable[[np.nda
     """The curve of a kind through values (n, 3) at n >= 2 times, a function of times."""
     if kind == "linear":
         return lambda at: np.stack([np.interp(at, times, axis) for axis in values.T], axis=1)
-    from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
+    if kind == "spline":
+        return lambda at: cubic_spline(times, values, at)
+    from scipy.interpolate import Akima1DInterpolator, PchipInterpolator  # 0.3 s to import, which splines do without
 
-    curves: dict[str, Callable[[], Callable[[np.ndarray], np.ndarray]]] = {
-        "spline": lambda: CubicSpline(times, values),
-        "pchip": lambda: PchipInterpolator(times, values),
-        "makima": lambda: Akima1DInterpolator(times, values, method="makima"),
-    }
-    return curves[kind]()
+    curve: Callable[[np.ndarray], np.ndarray] = (
+        PchipInterpolator(times, values) if kind == "pchip" else Akima1DInterpolator(times, values, method="makima")
+    )
+    return curve

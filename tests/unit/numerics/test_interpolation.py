@@ -1,7 +1,8 @@
 """Bridges across detected samples and gaps."""
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import pytest
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from markermend.numerics import interpolation
 
@@ -40,3 +41,13 @@ def test_missing_entries_lie_on_straight_lines_and_the_nearest_stands_in_beyond_
     values = np.array([np.nan, 1, np.nan, np.nan, 7, np.nan])
     np.testing.assert_allclose(interpolation.interpolate_missing(values), [1, 1, 3, 5, 7, 7])
     assert np.isnan(values[0])
+
+
+@pytest.mark.parametrize("knots", [2, 3, 4, 5, 60])
+def test_the_spline_is_that_of_scipy(knots):
+    rng = np.random.default_rng(knots)
+    times, values = rng.uniform(0.5, 2, knots).cumsum(), rng.normal(size=(knots, 3))
+    at = np.linspace(times[0] - 0.1, times[-1] + 0.1, 50)
+    np.testing.assert_allclose(
+        interpolation.cubic_spline(times, values, at), CubicSpline(times, values)(at), atol=1e-10
+    )

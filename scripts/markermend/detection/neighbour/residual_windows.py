@@ -9,7 +9,7 @@ a neighbour is in the residual alone.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -307,14 +307,23 @@ def exceedances(
     frames = np.arange(span.start, span.start + amplitude.shape[1])[:, None] + filters.offsets
     least = fraction * np.maximum(deviation * statistics.local_scale[frames, marker], options.floor_mm)
     at, which = np.nonzero(np.einsum("aic,aic->ic", amplitude, amplitude) > least**2)
+    if not len(at):
+        return _nothing(filters.length)
     amplitude, frame = amplitude[:, at, which].T, frames[at, which]
     residual, positions = (
         sliding_windows(values[span, marker], filters.length)[at]
         for values in (statistics.residual, statistics.positions)
     )
     own = recorded_part(np.einsum("ian,in->ia", positions, filters.weights[which]), amplitude)
-    misfit = filters.misfit(residual, which) if len(at) else np.zeros(0)
+    misfit = filters.misfit(residual, which)
     noise = np.hypot(misfit, statistics.local_scale[frame, marker])
     score = own / np.maximum(deviation[which] * noise, options.floor_mm)
     k = score > fraction
     return Exceedances(residual[k], positions[k], which[k], frame[k], amplitude[k], score[k], misfit[k])
+
+
+@cache
+def _nothing(length: int) -> Exceedances:
+    """No windows, of a length: what most spans have."""
+    windows, none = np.zeros((0, 3, length)), np.zeros(0)
+    return Exceedances(windows, windows, none.astype(int), none.astype(int), np.zeros((0, 3)), none, none)
