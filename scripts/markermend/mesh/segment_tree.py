@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.cluster import hierarchy
-from scipy.sparse import csgraph, csr_array
-from scipy.spatial.distance import squareform
+
+from markermend.numerics import graphs
 
 UNRELATED = 1e9
 """Stands for the dissimilarity (mm) of markers that no chain of known pairs connects."""
@@ -89,15 +88,9 @@ def cluster_markers(dissimilarity: np.ndarray, *, cut_mm: float) -> list[tuple[i
     markers = len(dissimilarity)
     if markers < 2:
         return [(m,) for m in range(markers)]
-    known = csgraph.csgraph_from_dense(dissimilarity, null_value=np.nan)
-    chained = csgraph.shortest_path(known, directed=False)
-    full = np.where(np.isnan(dissimilarity), np.minimum(chained, UNRELATED), dissimilarity)
-    tree = hierarchy.linkage(squareform(full, checks=False), method="average")
-    labels = hierarchy.fcluster(tree, cut_mm, criterion="distance")
-    groups: dict[int, list[int]] = {}
-    for m, label in enumerate(labels.tolist()):
-        groups.setdefault(label, []).append(m)
-    return [tuple(group) for group in groups.values()]
+    unknown = np.isnan(dissimilarity)
+    chained = graphs.shortest_paths(np.where(unknown, np.inf, dissimilarity))
+    return graphs.average_linkage(np.where(unknown, np.minimum(chained, UNRELATED), dissimilarity), cut_mm)
 
 
 def edge_costs(attachment: np.ndarray, members: Sequence[tuple[int, ...]]) -> tuple[np.ndarray, np.ndarray]:
@@ -152,7 +145,7 @@ def cheapest_marker(attachment: np.ndarray, part: Sequence[int], choice: Sequenc
     return int(edge_costs(attachment, [tuple(part), tuple(choice)])[1][0, 1]) if choice else None
 
 
-def spanning_tree(costs: np.ndarray, *, max_cost_mm: float) -> csr_array:
+def spanning_tree(costs: np.ndarray, *, max_cost_mm: float) -> np.ndarray:
     """Find the minimum spanning tree of the segments.
 
     Parameters
@@ -164,17 +157,15 @@ def spanning_tree(costs: np.ndarray, *, max_cost_mm: float) -> csr_array:
 
     Returns
     -------
-    csr_array of bool, shape (segments, segments)
-        The edges, symmetric; one tree for each component.
+    ndarray of bool, shape (segments, segments)
+        Whether two segments share an edge; one tree for each component.
     """
     either = np.minimum(costs, costs.T)
-    a, b = np.nonzero(np.triu(either <= max_cost_mm, k=1))
-    edges = csr_array((either[a, b] + 1.0, (a, b)), shape=costs.shape)  # + 1: an edge of cost 0 is still an edge
-    tree = csgraph.minimum_spanning_tree(edges)
-    return csr_array(tree + tree.T, dtype=bool)
+    possible = (either <= max_cost_mm) & ~np.eye(len(costs), dtype=bool)
+    return graphs.adjacency(graphs.spanning_tree(np.where(possible, either, np.inf)), len(costs))
 
 
-def root_and_order(tree: csr_array, sizes: Sequence[int]) -> tuple[list[int], list[int | None]]:
+def root_and_order(tree: np.ndarray, sizes: Sequence[int]) -> tuple[list[int], list[int | None]]:
     """Choose the root of each component and order its segments, parents first.
 
     The root is the segment of least hop eccentricity, of these the one with most markers, then the first. Components
@@ -182,8 +173,8 @@ def root_and_order(tree: csr_array, sizes: Sequence[int]) -> tuple[list[int], li
 
     Parameters
     ----------
-    tree : csr_array of bool, shape (segments, segments)
-        The edges.
+    tree : ndarray of bool, shape (segments, segments)
+        Whether two segments share an edge.
     sizes : sequence of int
         Number of markers of each segment.
 
@@ -194,18 +185,18 @@ def root_and_order(tree: csr_array, sizes: Sequence[int]) -> tuple[list[int], li
     parents : list of int or None
         The parent of each segment (by its old index), None for a root.
     """
-    count, labels = csgraph.connected_components(tree, directed=False)
-    hops = csgraph.shortest_path(tree, directed=False, unweighted=True)
+    labels = graphs.components(tree)
+    hops = graphs.shortest_paths(np.where(tree, 1.0, np.inf))
     eccentricity = np.where(np.isfinite(hops), hops, -1).max(axis=1)
-    parts = [np.flatnonzero(labels == label).tolist() for label in range(count)]
+    parts = [np.flatnonzero(labels == label).tolist() for label in range(labels.max() + 1)]
     order: list[int] = []
     parents: list[int | None] = [None] * len(sizes)
     for part in sorted(parts, key=lambda part: (-sum(sizes[s] for s in part), part[0])):
         root = min(part, key=lambda s: (eccentricity[s], -sizes[s], s))
-        reached, before = csgraph.breadth_first_order(tree, root, directed=False)
-        order += reached.tolist()
-        for s in reached[1:].tolist():
-            parents[s] = int(before[s])
+        reached, before = graphs.breadth_first(tree, root)
+        order += reached
+        for s, above in before.items():
+            parents[s] = above
     return order, parents
 
 
@@ -242,7 +233,7 @@ def infer_skeleton(dissimilarity: np.ndarray, attachment: np.ndarray, *, cut_mm:
     parent_markers: list[int | None] = []
     for s in order:
         above = parents[s]
-        linked = tree[[s]].indices.tolist() if above is None else [above]
+        linked = np.flatnonzero(tree[s]).tolist() if above is None else [above]
         parent_markers.append(int(markers[s, min(linked, key=lambda b: (costs[s, b], b))]) if linked else None)
     return Skeleton(
         members=tuple(members[s] for s in order),

@@ -50,7 +50,7 @@ def test_spanning_tree_is_the_lightest_and_keeps_edges_of_cost_zero():
     np.fill_diagonal(costs, np.inf)
     tree = segment_tree.spanning_tree(costs, max_cost_mm=200.0)
     either = np.minimum(costs, costs.T)
-    a, b = np.nonzero(np.triu(tree.toarray()))
+    a, b = np.nonzero(np.triu(tree))
     assert either[a, b].sum() == pytest.approx(naive_tree_weight(either))
     assert (0, 1) in zip(a.tolist(), b.tolist(), strict=True)
 
@@ -58,7 +58,7 @@ def test_spanning_tree_is_the_lightest_and_keeps_edges_of_cost_zero():
 def test_edges_above_the_component_cost_are_cut():
     costs = np.full((4, 4), 201.0)
     costs[0, 1], costs[3, 2] = 200.0, 10.0
-    tree = segment_tree.spanning_tree(costs, max_cost_mm=200.0).toarray()
+    tree = segment_tree.spanning_tree(costs, max_cost_mm=200.0)
     assert np.argwhere(np.triu(tree)).tolist() == [[0, 1], [2, 3]]
 
 

@@ -10,11 +10,10 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
 from markermend.core.shape import Shape
 from markermend.detection.labelling.permutations import Permutation
+from markermend.numerics import graphs
 
 OTHER_SIDE = {"left": "right", "right": "left", "l": "r", "r": "l"}
 """What the name of a marker has in the place of the side, in lower case, and what its counterpart has there."""
@@ -85,17 +84,13 @@ def steadiest_parts(shape: Shape) -> list[frozenset[int]]:
         The markers on either side of each edge of the minimum spanning tree of the deviations, smaller parts first.
     """
     count = len(shape.deviation)
-    first, second = np.nonzero(np.triu(~np.isnan(shape.deviation), 1))
-    # A steadiness of zero would be no edge; among equals near markers hang together.
-    cost = (shape.deviation[first, second] + 1) * np.sqrt(shape.distance[first, second] + 1)
-    tree = minimum_spanning_tree(coo_array((cost, (first, second)), shape=(count, count)).tocsr()).tocoo()
+    known = ~np.isnan(shape.deviation) & ~np.eye(count, dtype=bool)
+    # Among equals near markers hang together.
+    tree = graphs.spanning_tree(np.where(known, (shape.deviation + 1) * np.sqrt(shape.distance + 1), np.inf))
     parts: set[frozenset[int]] = set()
-    for edge in range(tree.nnz):
-        rest = np.arange(tree.nnz) != edge
-        left = coo_array((tree.data[rest], (tree.row[rest], tree.col[rest])), shape=(count, count))
-        _, component = connected_components(left, directed=False)
-        for end in (tree.row[edge], tree.col[edge]):
-            parts.add(frozenset(np.flatnonzero(component == component[end]).tolist()))
+    for edge in tree:
+        left = graphs.adjacency([other for other in tree if other != edge], count)
+        parts |= {frozenset(graphs.breadth_first(left, end)[0]) for end in edge}
     return sorted(parts, key=lambda part: (len(part), sorted(part)))
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.core.labels import undo_exchanges
 from markermend.detection.labelling.groups import counterparts_by_side, counterparts_by_subject
+from markermend.numerics import graphs
 from markermend.numerics.intervals import runs
 from markermend.options.detection.labels import LabelsOptions
 from markermend.prediction.scene import Scene
@@ -160,13 +161,10 @@ def _turning_groups(
     turning, steady = _states(positions[step // 2 :: step], triples, options)
     if not turning.any():
         return
-    from scipy.sparse import coo_array  # 0.1 s to import, and few recordings get here
-    from scipy.sparse.csgraph import connected_components
-
     node = np.array([min(m, counterpart.get(m, m)) for m in every.tolist()])
     ends = node[triples[steady, 0]], node[triples[steady, 2]]
-    joined = coo_array((np.ones(len(ends[0])), ends), shape=(len(every), len(every)))
-    group = connected_components(joined, directed=False)[1][node]
+    joined = list(zip(ends[0].tolist(), ends[1].tolist(), strict=True))
+    group = graphs.components(graphs.adjacency(joined, len(every)))[node]
     ends = group[triples[:, 0]], group[triples[:, 2]]
     largest = np.bincount(group).argmax()
     while True:
