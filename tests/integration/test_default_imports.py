@@ -26,7 +26,22 @@ def test_what_is_asked_for_is_imported():
 
 
 @pytest.mark.parametrize(
-    "stage", ["ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "qc", "report"]
+    "stage",
+    [
+        "ingest",
+        "mesh",
+        "labels",
+        "frames",
+        "frozen",
+        "tails",
+        "peaks",
+        "noise",
+        "steps",
+        "slow",
+        "repair",
+        "qc",
+        "report",
+    ],
 )
 def test_a_command_starts_without_scipy(stage):
     loaded = (

@@ -34,6 +34,8 @@ def flags(source, target, **more):
         "within": "none",
         "static-motion-mm": 15,
         "min-placeholder-distance-mm": 1000,
+        "min-rate-hz": 1,
+        "max-rate-hz": 1e5,
         **more,
     }
     lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]

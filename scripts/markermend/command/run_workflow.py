@@ -33,6 +33,33 @@ def command(arguments: Sequence[str]) -> list[str]:
     return [sys.executable, "-m", "snakemake", "--snakefile", str(folder / "Snakefile"), *given]
 
 
+def config_file_problem(words: Sequence[str]) -> str | None:
+    """Say which config file on a command line is not there or cannot be read, of which Snakemake would show a traceback.
+
+    Parameters
+    ----------
+    words : sequence of str
+        The command line.
+
+    Returns
+    -------
+    str or None
+        One line; None where there is nothing to say.
+    """
+    option = ""
+    for word in words:
+        if word.startswith("-"):
+            option, _, word = word.partition("=")
+        if option in ("--configfile", "--configfiles") and word:
+            try:
+                with open(word, encoding="utf-8") as file:
+                    file.read()
+            except (OSError, UnicodeDecodeError) as error:
+                why = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
+                return f"config file {word} cannot be read ({why}): name it by its path, as --configfile study.yaml"
+    return None
+
+
 def _of_workflow(word: str, folder: Path) -> bool:
     """Whether an argument names a config file of the workflow that is not in the working folder."""
     return word.startswith("config/") and not Path(word).exists() and (folder / word).is_file()
@@ -48,4 +75,8 @@ def main() -> int:
     """
     if sys.argv[1:2] == ["verify"]:
         return verification.main(sys.argv[2:])
-    return subprocess.call(command(sys.argv[1:]))
+    words = command(sys.argv[1:])
+    if problem := config_file_problem(words):
+        print(problem, file=sys.stderr)
+        return 1
+    return subprocess.call(words)

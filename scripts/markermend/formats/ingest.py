@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from dataclasses import replace
@@ -115,7 +114,7 @@ def ingest(
     """
     reading = _without_placeholders(reading, min_distance_mm=options.min_placeholder_distance_mm)
     markers = reading.recording
-    _check_usable(reading, source)
+    _check_usable(reading, source, options)
     warnings = list(reading.warnings)
     never = [markers.markers[m] for m in np.flatnonzero(markers.missing.all(axis=0))]
     if never:
@@ -217,12 +216,12 @@ def motion_mm(recording: Recording) -> float:
     return float(np.percentile(np.linalg.norm(high - low, axis=1), 90, method="lower"))
 
 
-def _check_usable(reading: Reading, source: str) -> None:
-    """Refuse a file without any observed marker or without a rate."""
+def _check_usable(reading: Reading, source: str, options: IngestOptions) -> None:
+    """Refuse a file without any observed marker or without a possible rate."""
     markers = reading.recording
     if not markers.markers or markers.missing.all():
         raise BadRecording(f"{source} has no 3-D data: {_why_empty(reading)}; leave it out of the recordings table")
-    if not (math.isfinite(markers.rate) and markers.rate > 0):
+    if not options.min_rate_hz <= markers.rate <= options.max_rate_hz:
         raise BadRecording(f"{source} has no usable rate ({markers.rate:g} Hz): give it in the recordings table")
 
 

@@ -164,5 +164,7 @@ Share = Annotated[float, AtLeast(0), AtMost(1)]
 Factor = Annotated[float, AtLeast(1)]
 NotNegative = Annotated[float, AtLeast(0)]
 Positive = Annotated[float, Above(0)]
+PositiveHertz = Annotated[float, Unit("Hz", "hertz"), Above(0)]
+
 Count = Annotated[int, AtLeast(1)]
 CountOrNone = Annotated[int, AtLeast(0)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from markermend.options.declaration import Laboratory, Millimetres, RegularExpression
+from markermend.options.declaration import Laboratory, Millimetres, PositiveHertz, RegularExpression
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,12 @@ class IngestOptions:
     """A recording is static if nine markers in ten move by less than this.
 
     Change it when a static recording is taken for a dynamic one, or the reverse."""
+
+    min_rate_hz: PositiveHertz = 1
+    """A recording with a lower frame rate is set aside: the rate is an error of the file."""
+
+    max_rate_hz: PositiveHertz = 100000
+    """A recording with a higher frame rate is set aside: the rate is an error of the file."""
 
     min_placeholder_distance_mm: Millimetres = 1000
     """A number that stands in all three coordinates of several samples, such as 9999, counts as missing if it is farther than

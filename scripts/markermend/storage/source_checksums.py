@@ -18,7 +18,10 @@ SETTLED_NS = 2_000_000_000
 """Age from which a file gets another time when it is written to: file systems count in up to two seconds."""
 
 ABSENT = "not there"
-"""Stands for the checksum of a file that is not there or cannot be read, or that is no file."""
+"""Stands for the checksum of a file that is not there or cannot be read, that is no file or is too large."""
+
+LARGEST = 16 * 2**30
+"""Bytes of an original: it is held in memory as a whole, and a sparse file may claim any size."""
 
 
 class SourceRecord(TypedDict):
@@ -109,6 +112,6 @@ class SourceChecksums:
 def _recognise(source: str) -> list[int]:
     """What a file is recognised by: size, inode, time of the last change of the content and of anything, in ns."""
     found = os.stat(source)
-    if not stat.S_ISREG(found.st_mode):
-        raise OSError(f"{source} is no file")
+    if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
+        raise OSError(f"{source} is no file, or too large")
     return [found.st_size, found.st_ino, found.st_mtime_ns, found.st_ctime_ns]

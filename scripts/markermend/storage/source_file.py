@@ -7,7 +7,7 @@ import stat
 from pathlib import Path
 
 from markermend.core.recording import BadRecording, SourceChanged
-from markermend.storage.source_checksums import ABSENT
+from markermend.storage.source_checksums import ABSENT, LARGEST
 
 KINDS = {
     stat.S_IFDIR: "a folder",
@@ -54,10 +54,10 @@ def check(path: Path, *, within: Path | None = None, planned: str | None = None)
     SourceChanged
         Where the file is gone since the run was planned.
     BadRecording
-        Where it is not there, lies out of the folder, or is not a regular file.
+        Where it is not there, lies out of the folder, is not a regular file, or is too large.
     """
     try:
-        mode = path.stat().st_mode
+        found = path.stat()
     except (FileNotFoundError, NotADirectoryError) as error:
         if planned not in (None, ABSENT):
             raise SourceChanged(f"{path.name} is gone since the run began; the next run looks for it again") from error
@@ -67,6 +67,8 @@ def check(path: Path, *, within: Path | None = None, planned: str | None = None)
             f"{path.name} is a link that leads out of the folder of recordings, and is not followed: "
             "put the recording itself into the folder, or set follow_links"
         )
-    if not stat.S_ISREG(mode):
-        kind = KINDS.get(stat.S_IFMT(mode), "something else")
+    if not stat.S_ISREG(found.st_mode):
+        kind = KINDS.get(stat.S_IFMT(found.st_mode), "something else")
         raise BadRecording(f"{path.name} is not a file but {kind}: put the recording itself in its place")
+    if found.st_size > LARGEST:
+        raise BadRecording(f"{path.name} has {found.st_size / 2**30:.0f} GiB, more than {LARGEST // 2**30}: split it")

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 from markermend.command import run_workflow
 from support.paths import PROJECT
 
@@ -28,3 +30,17 @@ def test_results_are_checked_without_snakemake(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(sys, "argv", ["markermend", "verify", str(tmp_path)])
     assert run_workflow.main() == 2
     assert capsys.readouterr().err == f"{tmp_path} holds no results\n"
+
+
+@pytest.mark.parametrize(
+    "words", [["--configfile", "none.yaml"], ["--configfile=none.yaml"], ["--configfile", "a.yaml", "none.yaml"]]
+)
+def test_a_config_file_that_is_not_there_is_named_in_one_line(monkeypatch, tmp_path, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.yaml").touch()
+    monkeypatch.setattr(sys, "argv", ["markermend", "--cores", "1", *words, "--config", "recordings=none"])
+    monkeypatch.setattr(subprocess, "call", lambda command: pytest.fail("Snakemake was called"))
+    assert run_workflow.main() == 1
+    assert capsys.readouterr().err == (
+        "config file none.yaml cannot be read (No such file or directory): name it by its path, as --configfile study.yaml\n"
+    )

@@ -82,7 +82,7 @@ def test_no_marker_ever_seen():
         ingested(reading_of(nothing))
 
 
-@pytest.mark.parametrize("rate", [0.0, -50.0, math.nan, math.inf])
+@pytest.mark.parametrize("rate", [0.0, -50.0, math.nan, math.inf, 1e-30, 0.9, 1e30])
 def test_an_impossible_rate(rate):
     with pytest.raises(BadRecording, match=r"walk\.c3d has no usable rate.*recordings table"):
         ingested(reading_of(replace(moving(), rate=rate)))

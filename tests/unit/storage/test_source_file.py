@@ -7,7 +7,7 @@ import pytest
 
 from markermend.core.recording import BadRecording, SourceChanged
 from markermend.storage import source_file
-from markermend.storage.source_checksums import ABSENT
+from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 
 @pytest.fixture
@@ -61,3 +61,11 @@ def test_a_file_that_is_gone_is_bad_unless_it_was_there_when_the_run_was_planned
             source_file.check(study / "gone.c3d", planned=planned)
     with pytest.raises(SourceChanged, match="is gone since the run began; the next run looks for it again"):
         source_file.check(study / "gone.c3d", planned="0" * 64)
+
+
+def test_a_file_that_claims_any_size_is_refused_unread(study):
+    with open(study / "sparse.c3d", "wb") as file:
+        file.truncate(2**40)
+    with pytest.raises(BadRecording, match=r"sparse.c3d has 1024 GiB, more than 16: split it"):
+        source_file.check(study / "sparse.c3d")
+    assert SourceChecksums(study / "sources.json").of("S/sparse", str(study / "sparse.c3d")) == ABSENT

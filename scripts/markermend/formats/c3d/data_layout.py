@@ -110,7 +110,10 @@ def locate(section: Section, size: int, name: str) -> Layout:
     stride = _stride(extent.points, extent.analog, extent.real)
     frames, shortage = _frames_held(extent.frames, (size - extent.start) // stride)
     if frames < 1:
-        raise BadRecording(f"{name} holds no complete frame (truncated, or its header is wrong): export it again")
+        raise BadRecording(
+            f"{name} holds no complete frame: it declares {extent.frames} of {extent.points} points, {stride} bytes each, and has "
+            f"{max(size - extent.start, 0)} bytes for them (truncated, or its header is wrong): export it again"
+        )
     scale = declarations.scale(section)
     if scale is None and not extent.real:
         raise BadRecording(f"{name} stores integers without a usable POINT:SCALE: export it again")

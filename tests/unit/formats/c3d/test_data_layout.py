@@ -5,7 +5,16 @@ import pytest
 
 from markermend.core.recording import BadRecording
 from markermend.formats.c3d.data_layout import locate
-from support.c3d_files import assert_read_whole, read, section_of, set_header, set_parameter, trajectories, write
+from support.c3d_files import (
+    assert_read_whole,
+    layout_of,
+    read,
+    section_of,
+    set_header,
+    set_parameter,
+    trajectories,
+    write,
+)
 
 
 @pytest.fixture
@@ -61,6 +70,16 @@ def test_a_truncated_file_is_read_as_far_as_it_goes(path):
     assert_read_whole(path, "truncated", "29 of the 200", positions=trajectories(200, 4)[:29])
     path.write_bytes(path.read_bytes()[: layout.start + 5])
     with pytest.raises(BadRecording, match=r"walk\.c3d holds no complete frame"):
+        read(path)
+
+
+def test_absurd_counts_are_refused_with_what_the_file_has_room_for(path):
+    size = path.stat().st_size - layout_of(path).start
+    for word, name in ((2, "USED"), (5, "FRAMES")):
+        set_header(path, word, 65535)
+        set_parameter(path, name, 65535, "<H")
+    words = f"declares 65535 of 65535 points, {65535 * 16} bytes each, and has {size} bytes for them"
+    with pytest.raises(BadRecording, match=rf"walk\.c3d holds no complete frame: it {words}"):
         read(path)
 
 
