@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import heapq
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,6 +13,7 @@ from typing import Any, Protocol
 from markermend.options.general import GeneralOptions
 from markermend.options.values import text
 from markermend.planning import discovery
+from markermend.planning.alternatives import any_of
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
 from markermend.planning.result_files import ResultFiles
@@ -139,8 +139,10 @@ class DataSet:
         str
             A regular expression that looks ahead at the recording.
         """
-        folders = ["/".join(pair) for pair, entry in self.entries.items() if entry.format == suffix]
-        return f"(?=(?:{'|'.join(map(re.escape, folders))})/)[^/]+" if folders else "(?!)"
+        folders = ["/".join(pair) + "/" for pair, entry in self.entries.items() if entry.format == suffix]
+        if len(folders) == len(self.entries) > 0:
+            return "[^/]+"
+        return f"(?={any_of(folders)})[^/]+" if folders else "(?!)"
 
 
 def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) -> tuple[DataSet, list[str]]:

@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -78,6 +79,8 @@ def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan
         for suffix in ("c3d", "trc", "csv", "tsv")
     }
     assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
+    alike = replace(plan.data, entries={("S%201", "walk"): plan.data.entry(job())})
+    assert alike.subjects_of("c3d") == "[^/]+" and alike.subjects_of("trc") == "(?!)"
 
 
 def test_what_is_missing_by_default_is_said_and_what_is_named_must_be_there(tmp_path, config, monkeypatch):
