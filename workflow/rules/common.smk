@@ -4,6 +4,7 @@ Reads: the config, the recordings' folder or table, the decisions, failures.tsv 
 Writes: nothing.
 """
 
+import gc
 import sys
 from pathlib import Path
 
@@ -12,6 +13,9 @@ from snakemake.exceptions import WorkflowError
 PROJECT = Path(workflow.basedir)
 SCRIPTS = str(PROJECT / "scripts")
 sys.path.insert(0, SCRIPTS)
+
+# A plan consists of millions of objects that stay: looking through them for garbage every now and then took a fifth of the time.
+gc.set_threshold(100_000, 50, 1000)
 
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import FORMATS, BadDataSet

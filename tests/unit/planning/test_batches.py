@@ -24,6 +24,12 @@ def test_many_recordings_are_divided_each_into_one_batch_of_bounded_size():
     assert max(map(len, found.values())) <= 100
 
 
+def test_the_recordings_of_a_subject_stay_together_where_they_are_few():
+    found = batches([f"S{number % 200}/r{number}" for number in range(1000)], max_size=100)
+    subjects = [{place.split("/")[0] for place in own} for own in found.values()]
+    assert sum(map(len, subjects)) == 200 and max(map(len, found.values())) <= 100
+
+
 def test_another_recording_changes_one_batch():
     before, after = batches(PLACES, max_size=100), batches([*PLACES, "S9/new"], max_size=100)
     assert before.keys() == after.keys()
