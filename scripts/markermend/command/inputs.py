@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import logging
 import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from markermend.command.failures import count_failure
 from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums
 from markermend.storage.atomic import sha256
+from markermend.storage.installation import workflow_folder
 
 log = logging.getLogger("markermend")
 
@@ -65,9 +67,13 @@ def _checksum(path: Path, own: Path) -> str:
 
 def _make_anew(path: Path, record: output_checksums.OutputRecord) -> bool:
     """Run the command that wrote a file once more, and say whether the file is as it was."""
+    # Results may come from elsewhere, and a record may name any command: none but the stage's own is run.
+    script = workflow_folder() / "scripts" / f"{record.stage}.py"
+    if len(record.command) < 2 or Path(record.command[1]).resolve() != script.resolve():
+        return False
     log.warning("%s is damaged: running %s once more, which wrote it", path.name, record.stage)
     try:
-        subprocess.run(record.command, check=True)
+        subprocess.run([sys.executable, str(script), *record.command[2:]], check=True)
         return sha256(path) == record.outputs[path.name]
     except (OSError, subprocess.CalledProcessError):
         return False

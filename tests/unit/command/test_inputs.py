@@ -5,21 +5,32 @@ from pathlib import Path
 
 import pytest
 
+from markermend.command import inputs
 from markermend.command.inputs import checksums
 from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums
 from markermend.storage.atomic import sha256
 
-WRITE = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])"
+WRITE = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])\n"
 
 
 @pytest.fixture
-def peaks(tmp_path):
+def script(tmp_path, monkeypatch):
+    """A command of the workflow that writes a text into a file."""
+    monkeypatch.setattr(inputs, "workflow_folder", lambda: tmp_path / "workflow")
+    path = tmp_path / "workflow/scripts/peaks.py"
+    path.parent.mkdir(parents=True)
+    path.write_text(WRITE)
+    return str(path)
+
+
+@pytest.fixture
+def peaks(tmp_path, script):
     """An input whose record names a command that writes it."""
     path = tmp_path / "S01/walk/02_peaks.parquet"
     path.parent.mkdir(parents=True)
     path.write_text("peaks")
-    output_checksums.write("peaks", [path], command=[sys.executable, "-c", WRITE, str(path), "peaks"])
+    output_checksums.write("peaks", [path], command=[sys.executable, script, str(path), "peaks"])
     return path
 
 
@@ -55,12 +66,12 @@ def test_a_damaged_file_is_made_anew(peaks, bit):
     assert not (peaks.parent / "failures.tsv").exists()
 
 
-@pytest.mark.parametrize("harm", ["other bytes", "fails", "gone", "unknown"])
-def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, harm):
+@pytest.mark.parametrize("harm", ["other bytes", "fails", "another command", "unknown"])
+def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, script, harm):
     command = {
-        "other bytes": [sys.executable, "-c", WRITE, str(peaks), "other"],
-        "fails": [sys.executable, "-c", "raise SystemExit(1)", str(peaks)],
-        "gone": [str(peaks.parent / "python"), "x.py", str(peaks)],
+        "other bytes": [sys.executable, script, str(peaks), "other"],
+        "fails": [sys.executable, script, str(peaks)],
+        "another command": [sys.executable, "-c", WRITE, str(peaks), "peaks"],
         "unknown": [],
     }[harm]
     output_checksums.write("peaks", [peaks], command=command)
