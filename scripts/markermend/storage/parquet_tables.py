@@ -16,6 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import DTypeLike
 
+from markermend.core.recording import BadRecording
 from markermend.storage.atomic import replacing
 
 KEY = b"markermend"
@@ -23,6 +24,10 @@ KEY = b"markermend"
 
 CHECKSUM = b"markermend_sha256"
 """The footer key of their checksum: those of the pages are about values alone."""
+
+
+MOST_CELLS = 2**30
+"""Rows times columns of a table that is read: 7 MB of equal values may claim to be 12 GB."""
 
 
 def write_table(path: Path, table: pa.Table, facts: Mapping[str, Any]) -> None:
@@ -60,13 +65,25 @@ def read_table(path: Path) -> pa.Table:
     ------
     OSError
         Where the file is no Parquet file, or the checksum of a page is wrong.
+    BadRecording
+        Where it claims to be larger than any recording.
     """
     try:
         # Not by pq.read_table, which imports pandas.
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            _check_size(file.metadata, path)
             return file.read(use_threads=False)
     except (OSError, pa.ArrowException) as error:
         raise OSError(f"{path.name} cannot be read: {error}") from error
+
+
+def _check_size(claimed: pq.FileMetaData, path: Path) -> None:
+    """Refuse a table that claims to be larger than any recording."""
+    if claimed.num_rows * claimed.num_columns > MOST_CELLS:
+        raise BadRecording(
+            f"{path.name} claims {claimed.num_rows} rows of {claimed.num_columns} columns in {path.stat().st_size} bytes, "
+            "more than any recording has: delete it and run again"
+        )
 
 
 def read_footer(path: Path) -> dict[str, Any]:

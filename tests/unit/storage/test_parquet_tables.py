@@ -5,6 +5,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from markermend.core.recording import BadRecording
+from markermend.storage import parquet_tables
 from markermend.storage.parquet_tables import column, read_footer, read_table, vector, write_table
 
 FACTS = {"markers": ["A", "Knöchel"], "rate": 100.0}
@@ -70,3 +72,11 @@ def test_a_table_of_another_program_states_no_facts(path, table):
     pq.write_table(table, path)
     with pytest.raises(OSError, match=r"07_filled.parquet cannot be read"):
         read_footer(path)
+
+
+def test_a_file_that_claims_more_than_any_recording_has_is_refused_unread(path, monkeypatch):
+    monkeypatch.setattr(parquet_tables, "MOST_CELLS", 119)
+    with pytest.raises(
+        BadRecording, match=r"07_filled.parquet claims 40 rows of 3 columns in \d+ bytes, more than any"
+    ):
+        read_table(path)
