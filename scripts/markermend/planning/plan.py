@@ -30,7 +30,7 @@ from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
-from markermend.storage.atomic import write_json, write_list
+from markermend.storage.atomic import NotWritten, check_writable, write_json, write_list
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
@@ -275,6 +275,10 @@ class Plan:
             )
         index = Path(self.files.report) / "index.html"
         lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index, unfinished)]
+        try:
+            check_writable(Path(self.files.results))
+        except NotWritten as error:
+            lines.append(str(error))
         print(*lines, sep="\n", file=sys.stderr)
 
 

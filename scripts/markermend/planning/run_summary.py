@@ -14,6 +14,9 @@ STATUSES = ("cleaned", "unchanged", "static", "set aside")
 LISTED = 10
 """Largest number of recordings set aside, and of those not finished, that a terminal names; the report names all."""
 
+PLOTTING_SCRIPT = "plotly.min.js"
+"""The script that pages load from the report's folder."""
+
 ERROR = "ERROR "
 """Beginning of a line of a log that says why a stage failed."""
 
@@ -82,4 +85,6 @@ def _of_report(report: Path, judged: Sequence[Path]) -> str:
         return f"The report was not written: {report}: {_last_error(report.parent / 'logs')}"
     if any(path.stat().st_mtime_ns > report.stat().st_mtime_ns for path in judged):
         return f"The report was not written again: {report} is older than the results"
+    if not report.with_name(PLOTTING_SCRIPT).exists():
+        return f"Report, which has no plots: {report}: {_last_error(report.parent / 'logs')}"
     return f"Report: {report}"

@@ -1,7 +1,9 @@
 """The plan of a run, asked as the rules ask it but without Snakemake."""
 
+import errno
 import json
 import shlex
+import tempfile
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -163,6 +165,17 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     page = (tmp_path / "out/report/index.html").read_text()
     assert "Not finished: 2" in page and "<li>S2/%7Bx%7D</li>" in page
     assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
+
+
+def test_a_disk_without_room_is_named_at_the_end(plan, capsys, monkeypatch):
+    def refuse(dir):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
+    plan.close([])
+    assert (
+        capsys.readouterr().err.splitlines()[-1].startswith(f"{plan.files.results} was not written: there is no room")
+    )
 
 
 def test_networks_are_trained_only_where_they_are_members(plan, config):

@@ -18,6 +18,8 @@ def test_the_summary_counts_lists_and_ends_with_the_report(tmp_path):
     text = "4 recordings: 2 cleaned, 1 static, 1 set aside; 15 samples changed\n  set aside: S02/d: no markers"
     assert run_summary.summary(paths, report) == f"{text}\nThe report was not written: {report}: see {tmp_path}/logs"
     report.touch()
+    assert run_summary.summary(paths, report) == f"{text}\nReport, which has no plots: {report}: see {tmp_path}/logs"
+    (tmp_path / "plotly.min.js").touch()
     assert run_summary.summary(paths, report) == f"{text}\nReport: {report}"
     os.utime(report, (1e9, 1e9))
     later = f"The report was not written again: {report} is older than the results"
