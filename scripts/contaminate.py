@@ -43,7 +43,7 @@ def main(argv: list[str] | None = None) -> None:
     flags = parser.parse_args(argv)
     options = {"amplitude": flags.amplitude_mm, "share": flags.share, "unlabelled": flags.unlabelled}
     rows = []
-    for number, entry in enumerate(recordings.find(flags.recordings, str(flags.folder))[0]):
+    for number, entry in enumerate(recordings.find(flags.recordings, str(flags.folder), follow_links=True)[0]):
         rng = np.random.default_rng([flags.seed, number])
         contaminated = ContaminatedFile.of(entry, PROTOCOLS[flags.protocol], rng=rng, **options)
         contaminated.write(flags.folder, flags.truth)

@@ -226,7 +226,7 @@ def make_experiments(config: Mapping[str, Any], entries: Sequence[Entry], folder
     BadOptions
         Where the options cannot be used.
     """
-    moving = [entry for entry in entries if entry.kind != "static"]
+    moving = [entry for entry in entries if entry.kind != "static" and not (entry.leads_out or entry.is_no_file)]
     options = _with_absolute_tables(read_options(config.get(EXPERIMENTS)))
     made = Experiments(options, folder, moving, len(entries))
     if unused := [

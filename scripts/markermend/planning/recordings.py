@@ -57,6 +57,11 @@ class Entry:
         return self.within is not None and leads_out(self.source, self.within)
 
     @property
+    def is_no_file(self) -> bool:
+        """Whether something other than a file stands in the place of the original, such as a pipe."""
+        return os.path.exists(self.source) and not os.path.isfile(self.source)
+
+    @property
     def folders(self) -> tuple[str, str]:
         """Names of the subject's folder and, within it, the recording's."""
         return encode(self.subject, RESERVED_SUBJECTS), encode(self.recording, RESERVED_RECORDINGS)

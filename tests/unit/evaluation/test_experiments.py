@@ -1,5 +1,6 @@
 """The experiments of a run: their recordings, files and targets."""
 
+import os
 from types import SimpleNamespace
 
 import pytest
@@ -84,3 +85,15 @@ def test_tables_of_persons_are_found_from_the_folder_of_the_jobs(monkeypatch, tm
 )
 def test_a_run_for_papers_alone_cleans_nothing(targets, expected):
     assert only_experiments(targets, "/out/papers") is expected
+
+
+def test_pipes_and_links_out_of_the_folder_are_no_recordings_of_experiments(tmp_path):
+    os.mkfifo(tmp_path / "pipe.c3d")
+    (tmp_path / "link.c3d").symlink_to("/etc/passwd")
+    odd = [
+        Entry("S1", "pipe", str(tmp_path / "pipe.c3d")),
+        Entry("S1", "link", str(tmp_path / "link.c3d"), within=str(tmp_path)),
+    ]
+    papers = make_experiments({}, [*GIVEN, *odd], "/out/papers")
+    assert not {"pipe", "link"} & set(papers.recordings("artifacts2022"))
+    assert "a b" in {entry.recording for entry in papers.entries}
