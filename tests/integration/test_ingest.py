@@ -7,6 +7,7 @@ import os
 import numpy as np
 import pytest
 
+from markermend.command import inputs
 from markermend.core.recording import SetAside
 from markermend.storage import atomic, stage_files
 from support.c3d_files import trajectories, write
@@ -121,7 +122,7 @@ def test_a_locked_file_is_named_and_tried_again(tmp_path, monkeypatch):
     def locked(path):
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(atomic, "sha256", locked)
+    monkeypatch.setattr(inputs, "sha256", locked)
     run_script(flags(source, target))
     with pytest.raises(SetAside, match=r"ingest failed: walk.c3d cannot be read: permission denied"):
         stage_files.read_recording(target)

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from markermend.command.failures import count_failure
 from markermend.core.recording import BadRecording, SetAside
-from markermend.storage import output_checksums
+from markermend.storage import output_checksums, source_file
 from markermend.storage.atomic import sha256
 from markermend.storage.installation import workflow_folder
 
@@ -45,6 +45,52 @@ def checksums(paths: Path | Sequence[Path], *, own: Path) -> str | list[str]:
         Where one is damaged, and could not be made anew.
     """
     return _checksum(paths, own) if isinstance(paths, Path) else [_checksum(path, own) for path in paths]
+
+
+def checksums_or_none(paths: Sequence[Path], *, own: Path) -> list[str | None]:
+    """Compute the checksums of inputs of which some may be missing or damaged.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        The inputs.
+    own : Path
+        See `checksums`.
+
+    Returns
+    -------
+    list of str or None
+        Their sha256; None where one is missing, or damaged and could not be made anew.
+    """
+    found: list[str | None] = []
+    for path in paths:
+        try:
+            found.append(_checksum(path, own))
+        except (BadRecording, SetAside):
+            found.append(None)
+    return found
+
+
+def original_checksum(path: Path, *, within: Path | None) -> str | None:
+    """Compute the checksum of an original, of which no stage of ours has a record.
+
+    Parameters
+    ----------
+    path : Path
+        The original.
+    within : Path or None
+        The folder that links may not lead out of.
+
+    Returns
+    -------
+    str or None
+        Its sha256; None where it is not to be opened (source_file.check).
+    """
+    try:
+        source_file.check(path, within=within)
+    except BadRecording:
+        return None
+    return sha256(path)
 
 
 def _checksum(path: Path, own: Path) -> str:

@@ -21,15 +21,15 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
+from markermend.command import inputs
 from markermend.command.failures import count_failure, describe
-from markermend.command.inputs import checksums
 from markermend.command.kept_outputs import are_current, dependencies_hash
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.description import Option, full_meaning, peel
 from markermend.options.flags import flag, passed, stage_options
 from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
-from markermend.storage import atomic, output_checksums, source_file, stage_files
+from markermend.storage import output_checksums, stage_files
 from markermend.storage.atomic import NotWritten
 from markermend.storage.folder_names import printable
 
@@ -251,17 +251,13 @@ class Stage:
         }
 
     def _checksum(self, name: str, arguments: dict[str, Any]) -> Any:
-        """The checksums of an input; None for an original that is not to be opened, of which no stage of ours has a record."""
+        """The checksums of an input."""
         own = arguments[self.outputs[0]].parent
+        if self._original and name == "source":
+            return inputs.original_checksum(arguments[name], within=arguments["within"])
         if name in self._lenient:
-            return [_checksum_or_none(path, own) for path in arguments[name]]
-        if not (self._original and name == "source"):
-            return checksums(arguments[name], own=own)
-        try:
-            source_file.check(arguments[name], within=arguments["within"])
-        except BadRecording:
-            return None
-        return atomic.sha256(arguments[name])
+            return inputs.checksums_or_none(arguments[name], own=own)
+        return inputs.checksums(arguments[name], own=own)
 
     def _attempt(
         self, work: Callable[[], str | None], call: Any, arguments: dict[str, Any]
@@ -298,14 +294,6 @@ def _parse(option: Option, words: str) -> Any:
         return parse(option, words)
     except BadOptions as problem:
         raise argparse.ArgumentTypeError(str(problem)) from problem
-
-
-def _checksum_or_none(path: Path, own: Path) -> str | list[str] | None:
-    """The checksum of an input; None where it is missing or damaged."""
-    try:
-        return checksums(path, own=own)
-    except (BadRecording, SetAside):
-        return None
 
 
 def _folder_or_none(words: str) -> Path | None:

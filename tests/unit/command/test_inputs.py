@@ -98,3 +98,20 @@ def test_a_file_that_belongs_to_more_than_the_recording_is_left_to_the_next_run(
         checksums(peaks, own=peaks.parent / "batch")
     assert (peaks.parent / "failures.tsv").read_text().count("\n") == 1
     assert checksums(peaks, own=peaks.parents[1])
+
+
+def test_what_is_missing_or_damaged_may_have_no_checksum(peaks):
+    before = sha256(peaks)
+    output_checksums.write("peaks", [peaks])
+    flip(peaks)
+    assert inputs.checksums_or_none([peaks, peaks.with_name("none")], own=peaks.parent) == [None, None]
+    flip(peaks)
+    assert inputs.checksums_or_none([peaks], own=peaks.parent) == [before]
+
+
+def test_an_original_is_not_looked_up_among_our_records(peaks, tmp_path):
+    output_checksums.write("peaks", [peaks])
+    flip(peaks)
+    assert inputs.original_checksum(peaks, within=None) == sha256(peaks)
+    assert inputs.original_checksum(tmp_path, within=None) is None
+    assert not (peaks.parent / "failures.tsv").exists()
