@@ -29,7 +29,11 @@ from benchmarks.support import result_tables
 PROJECT = Path(__file__).resolve().parents[2]
 """The folder of the project."""
 
-THREADS = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+ENVIRONMENT = {
+    **{name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"},
+    **{name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")},
+}
+"""Of the commands: one thread, and modules that are compiled once."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class Cost:
         shell = isinstance(command, str)
         with open(os.devnull, "w") as nowhere:
             process = subprocess.Popen(
-                command, cwd=folder, shell=shell, env={**os.environ, **THREADS}, stdout=nowhere, stderr=nowhere
+                command, cwd=folder, shell=shell, env=ENVIRONMENT, stdout=nowhere, stderr=nowhere
             )
             _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -120,6 +124,7 @@ class Version:
 def measure(recording: Path, projects: Sequence[Path], runs: int) -> list[dict[str, dict[str, float]]]:
     """The costs of each version on a recording."""
     with tempfile.TemporaryDirectory() as temporary:
+        ENVIRONMENT["PYTHONPYCACHEPREFIX"] = str(Path(temporary) / "compiled")
         folder = Path(temporary) / "recordings" / recording.parent.name
         folder.mkdir(parents=True)
         (folder / recording.name).symlink_to(recording.resolve())
