@@ -39,7 +39,7 @@ def _ranks(rows: np.ndarray) -> np.ndarray:
 
     Rows are compared as whole numbers of 64 bits each, which takes a fraction of the time of comparing rows.
     """
-    packed = np.packbits(rows, axis=1)
+    packed = np.packbits(np.ascontiguousarray(rows), axis=1)
     packed = np.pad(packed, ((0, 0), (0, -packed.shape[1] % WORD_BYTES)))
     group = np.zeros(len(rows), np.int64)
     for word in packed.view(">u8").T:

@@ -95,7 +95,7 @@ class InputSelection:
         candidates = self._candidates(whole, marker, scene.present, frames)
         if len(candidates) < MIN_ANCHORS or len(frames) == 0:
             return
-        present = scene.present[np.ix_(frames, candidates)]
+        present = _seen(scene.present, frames, candidates)
         # A frame's anchors are its first observed candidates; frames that share them share training data.
         leading = present & (np.cumsum(present, axis=1) <= self.options.anchors)
         for first, rows in group_rows(leading):
@@ -107,7 +107,7 @@ class InputSelection:
             hidden = None if scene.whole is None else self._hidden(scene, marker, data)
             if hidden is not None and not self._enough(whole, len(data.training) - len(hidden), [marker, *data.inputs]):
                 continue
-            observed = scene.present[np.ix_(frames[rows], data.inputs)]
+            observed = _seen(scene.present, frames[rows], data.inputs)
             for used, members in group_rows(observed):
                 yield Assignment(data, used, frames[rows][members], hidden)
 
@@ -119,7 +119,7 @@ class InputSelection:
         ranked = whole.cached((self, "seen enough", marker), partial(self._seen_enough, whole, marker))
         if len(ranked) == 0 or len(frames) == 0:
             return ranked
-        share = present[np.ix_(frames, ranked)].mean(axis=0)
+        share = np.count_nonzero(_seen(present, frames, ranked), axis=0) / len(frames)
         ranked = ranked[np.argsort(share < OFTEN, kind="stable")]
         return ranked[: 2 * self.options.inputs]
 
@@ -222,3 +222,10 @@ class InputSelection:
         markers = np.append(inputs, marker)
         rows = partial(pooled_rows, pool, anchors, markers, row_limits=limits, ridge=ridge, sigmas=sigmas)
         return pool.cached(("local rows", anchors.tobytes(), markers.tobytes(), limits, ridge, sigmas), rows)
+
+
+def _seen(present: np.ndarray, frames: np.ndarray, markers: np.ndarray) -> np.ndarray:
+    """Whether markers are seen in frames, bool (frames, markers): columns first, since frames of a marker lie together."""
+    columns = present.T[markers]
+    seen: np.ndarray = columns.T if len(frames) == len(present) else columns[:, frames].T
+    return seen

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -117,6 +118,10 @@ class EstimatedDrifts:
         length : np.ndarray
             Its length (bins,), bins.
         """
+        return model.cached(("scores", self.own), partial(self._scores, model))
+
+    def _scores(self, model: DriftModel) -> tuple[np.ndarray, np.ndarray]:
+        """Score drifts of all lengths, see `scores`."""
         score, best = np.zeros(model.bins), np.zeros(model.bins, int)
         for length in map(self.regression.bins, self.own.durations_s):
             statistic = model.responses(length, min_known_share=self.own.min_known_share).statistic

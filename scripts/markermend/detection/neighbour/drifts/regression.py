@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from markermend.core.cache import CachesResults
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals, matched_filter
 from markermend.numerics.matched_filter import raised_cosine
@@ -24,7 +25,7 @@ MIN_SCALE_MM = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class DriftModel:
+class DriftModel(CachesResults):
     """The regressions of one marker in which drifts are estimated.
 
     Attributes
