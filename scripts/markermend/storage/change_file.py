@@ -11,7 +11,7 @@ import pyarrow as pa
 
 from markermend.core.changes import Alternative, Change, MemberWeight, Outcome
 from markermend.core.reasons import Cause, Limit, Reason
-from markermend.storage.parquet_tables import read_table, write_table
+from markermend.storage.parquet_tables import read_table, table_of, write_table
 from markermend.storage.stage_files import read_facts
 
 SCHEMA = pa.schema(
@@ -55,7 +55,7 @@ def write(path: Path, changes: Iterable[Change], facts: Mapping[str, Any]) -> No
     facts : mapping
         What the stage says of itself, JSON values.
     """
-    write_table(path, pa.Table.from_pylist([_row(change) for change in changes], schema=SCHEMA), facts)
+    write_table(path, table_of([_row(change) for change in changes], SCHEMA), facts)
 
 
 def read(path: Path) -> tuple[Change, ...]:

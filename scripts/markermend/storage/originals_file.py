@@ -11,7 +11,7 @@ import pyarrow as pa
 
 from markermend.core.originals import Originals, origin_names
 from markermend.core.recording import ORIGINS
-from markermend.storage.parquet_tables import column, read_table, vector, write_table
+from markermend.storage.parquet_tables import array, column, read_table, vector, write_table
 from markermend.storage.stage_files import read_facts
 
 SCHEMA = pa.schema(
@@ -43,12 +43,12 @@ def write(path: Path, originals: Originals, facts: Mapping[str, Any]) -> None:
         What the stage says of itself, JSON values.
     """
     columns = [
-        pa.array([originals.markers[m] for m in originals.marker], pa.string()),
+        array([originals.markers[m] for m in originals.marker], pa.string()),
         column(originals.frame, np.int64),
         column(originals.frame + originals.first_frame, np.int64),
         *(column(axis, np.float64) for axis in originals.positions.T),
-        pa.array(originals.classes, pa.string()),
-        pa.array(origin_names(originals), pa.string()),
+        array(originals.classes, pa.string()),
+        array(origin_names(originals), pa.string()),
     ]
     own = {"markers": list(originals.markers), "first_frame": originals.first_frame, "unit": "mm"}
     write_table(path, pa.Table.from_arrays(columns, schema=SCHEMA), {**facts, **own})

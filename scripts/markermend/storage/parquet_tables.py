@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,9 @@ from markermend.storage.atomic import replacing
 
 KEY = b"markermend"
 """The footer key under which a file carries its facts, as JSON."""
+
+NUMBERS = {pa.int64(): np.int64, pa.float64(): np.float64}
+"""Types of numbers in tables of rows."""
 
 CHECKSUM = b"markermend_sha256"
 """The footer key of their checksum: those of the pages are about values alone."""
@@ -129,10 +132,68 @@ def column(values: np.ndarray, kind: DTypeLike) -> pa.Array:
     pyarrow.Array
         The values without nulls.
     """
-    # From the buffer, because pa.array(ndarray) imports pandas.
+    # From the buffer, as in `array`.
     contiguous: np.ndarray = np.ascontiguousarray(values, kind)
     arrow = pa.from_numpy_dtype(contiguous.dtype)
     return pa.Array.from_buffers(arrow, len(contiguous), [None, pa.py_buffer(contiguous)])
+
+
+def array(values: Sequence[Any], kind: pa.DataType) -> pa.Array:
+    """Turn texts, numbers, lists and mappings into an Arrow array.
+
+    Parameters
+    ----------
+    values : sequence
+        The values; None becomes null.
+    kind : pyarrow.DataType
+        Their type: a text, a number, or a list or struct of such.
+
+    Returns
+    -------
+    pyarrow.Array
+        The values.
+    """
+    # From buffers, because pa.array imports pandas, whatever it is given.
+    known = [value is not None for value in values]
+    buffers = [None if all(known) else pa.py_buffer(np.packbits(known, bitorder="little"))]
+    children: list[pa.Array] = []
+    if pa.types.is_struct(kind):
+        rows = [value or {} for value in values]
+        children = [array([row.get(own.name) for row in rows], own.type) for own in kind]
+    elif pa.types.is_list(kind):
+        lists = [value or () for value in values]
+        children = [array([value for own in lists for value in own], kind.value_type)]
+        buffers.append(_offsets(lists))
+    elif pa.types.is_string(kind):
+        texts = [(value or "").encode() for value in values]
+        buffers += [_offsets(texts), pa.py_buffer(b"".join(texts))]
+    else:
+        filled = [0 if value is None else value for value in values]
+        buffers.append(pa.py_buffer(np.array(filled, NUMBERS[kind])))
+    return pa.Array.from_buffers(kind, len(values), buffers, children=children)
+
+
+def _offsets(parts: Sequence[Sequence[Any]]) -> pa.Buffer:
+    """Where each part of a column begins, and where the last one ends."""
+    return pa.py_buffer(np.cumsum([0, *map(len, parts)], dtype=np.int32))
+
+
+def table_of(rows: Sequence[Mapping[str, Any]], schema: pa.Schema) -> pa.Table:
+    """Make a table of rows.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        The rows: a value for each column, None for null.
+    schema : pyarrow.Schema
+        The columns.
+
+    Returns
+    -------
+    pyarrow.Table
+        The table.
+    """
+    return pa.Table.from_arrays([array([row[own.name] for row in rows], own.type) for own in schema], schema=schema)
 
 
 def vector(values: pa.Array | pa.ChunkedArray) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow as pa
 
 from markermend.core.poses import Poses
-from markermend.storage.parquet_tables import column, read_table, vector, write_table
+from markermend.storage.parquet_tables import array, column, read_table, vector, write_table
 from markermend.storage.stage_files import read_facts
 
 
@@ -26,7 +26,7 @@ def write(path: Path, poses: Poses, facts: Mapping[str, Any]) -> None:
     facts : mapping
         What the stage says of itself, JSON values.
     """
-    names = pa.DictionaryArray.from_arrays(column(poses.recording, np.int32), pa.array(poses.recordings, pa.string()))
+    names = pa.DictionaryArray.from_arrays(column(poses.recording, np.int32), array(poses.recordings, pa.string()))
     columns = {"recording": names, "row": column(poses.frames, np.int64)}
     for m, marker in enumerate(poses.markers):
         columns |= {f"{marker}.{axis}": column(poses.positions[:, m, a], np.float64) for a, axis in enumerate("xyz")}

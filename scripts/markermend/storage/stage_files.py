@@ -13,7 +13,7 @@ import pyarrow as pa
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS, Recording, Restored, SetAside
 from markermend.storage.atomic import write_json
-from markermend.storage.parquet_tables import column, read_footer, read_table, vector, write_table
+from markermend.storage.parquet_tables import array, column, read_footer, read_table, table_of, vector, write_table
 
 EVENT_SCHEMA = pa.schema(
     [
@@ -119,7 +119,7 @@ def write_recording(path: Path, recording: Recording, facts: dict[str, Any]) -> 
         columns |= _axes(marker, recording.positions[:, m])
         if isinstance(recording, Restored):
             codes = column(recording.origin[:, m], np.int8)
-            columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, pa.array(ORIGINS))
+            columns[f"{marker}.origin"] = pa.DictionaryArray.from_arrays(codes, array(ORIGINS, pa.string()))
             columns[f"{marker}.error"] = column(recording.error[:, m], np.float64)
             columns[f"{marker}.error95"] = column(recording.error95[:, m], np.float64)
     # What is done to markers never touches other trajectories: they are stored with the recording as ingested alone.
@@ -206,7 +206,7 @@ def write_events(path: Path, events: Iterable[Event], facts: dict[str, Any]) -> 
         What the stage says of itself, JSON values.
     """
     rows = [vars(event) for event in sorted(events, key=lambda event: event.order)]
-    write_table(path, pa.Table.from_pylist(rows, schema=EVENT_SCHEMA), facts)
+    write_table(path, table_of(rows, EVENT_SCHEMA), facts)
 
 
 def read_events(path: Path) -> list[Event]:

@@ -1,5 +1,8 @@
 """Tables come back as they were written, or not at all."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -8,6 +11,7 @@ import pytest
 from markermend.core.recording import BadRecording
 from markermend.storage import parquet_tables
 from markermend.storage.parquet_tables import column, read_footer, read_table, vector, write_table
+from support.paths import PROJECT
 
 FACTS = {"markers": ["A", "Knöchel"], "rate": 100.0}
 
@@ -80,3 +84,39 @@ def test_a_file_that_claims_more_than_any_recording_has_is_refused_unread(path, 
         BadRecording, match=r"07_filled.parquet claims 40 rows of 3 columns in \d+ bytes, more than any"
     ):
         read_table(path)
+
+
+KINDS = {
+    pa.string(): ["a", None, "é, b", ""],
+    pa.int64(): [3, None, -(2**60), 0],
+    pa.float64(): [1.5, None, float("nan"), -0.0],
+    pa.list_(pa.string()): [["a", "b"], None, [], ["c"]],
+    pa.list_(pa.struct([("name", pa.string()), ("weight", pa.float64())])): [
+        [{"name": "x", "weight": 0.5}, {"name": None, "weight": None}],
+        [],
+        None,
+        [{"name": "y", "weight": 2.0}],
+    ],
+}
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=str)
+@pytest.mark.parametrize("some", [slice(None), slice(0), slice(0, 1)])
+def test_arrays_of_values_are_those_of_arrow(kind, some, tmp_path):
+    values = KINDS[kind][some]
+    found = parquet_tables.array(values, kind)
+    found.validate(full=True)
+    for name, own in (("found", found), ("expected", pa.array(values, kind))):
+        parquet_tables.write_table(tmp_path / name, pa.Table.from_arrays([own], ["a"]), {})
+    assert (tmp_path / "found").read_bytes() == (tmp_path / "expected").read_bytes()
+
+
+def test_rows_are_written_without_pandas():
+    code = (
+        "import sys, pyarrow as pa; from markermend.storage import parquet_tables;"
+        "schema = pa.schema([('a', pa.string()), ('b', pa.list_(pa.float64()))]);"
+        "parquet_tables.table_of([{'a': 'x', 'b': [1.0]}, {'a': None, 'b': None}], schema); print('pandas' in sys.modules)"
+    )
+    environment = {"PYTHONPATH": str(PROJECT / "scripts")}
+    run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "False"
