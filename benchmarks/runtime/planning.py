@@ -7,6 +7,7 @@ Writes: a table to stdout.
 The recordings are empty files, all of one subject or five of each. Seconds of a core and peak memory, the start of the program included:
 
 - start: from the command to the first job of a run of which nothing is there yet (the run is stopped then);
+- part: the same of the first of four parts, `--batch report=1/4`;
 - dry_run: `snakemake --dry-run` of the same, which in addition writes out every job and its command;
 - current: `snakemake --dry-run` where all results are there;
 - one_more: the same with one recording more.
@@ -31,7 +32,8 @@ COUNTS = (100, 1_000)
 FEW = 5
 """Recordings of each subject, where there are many subjects."""
 
-CASES = ("start", "dry_run", "current", "one_more")
+CASES = ("start", "part", "dry_run", "current", "one_more")
+PART = ("--batch", "report=1/4")
 POLL_S = 0.02
 
 
@@ -60,10 +62,10 @@ def dry_run(folder: Path) -> tuple[float, float]:
     return seconds, megabytes
 
 
-def start(folder: Path) -> tuple[float, float]:
+def start(folder: Path, *more: str) -> tuple[float, float]:
     """Seconds of a core and MB of a run until its first job is about to begin."""
     listed = folder / "results/report/logs/recordings.txt"
-    command = [sys.executable, "-m", "snakemake", *arguments(folder)]
+    command = [sys.executable, "-m", "snakemake", *more, *arguments(folder)]
     run = subprocess.Popen(
         command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, cwd=folder
     )
@@ -86,8 +88,8 @@ def measure(case: str, count: int, subjects: int) -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary).resolve()
         write_recordings(folder, count, subjects)
-        if case == "start":
-            return start(folder)
+        if case in ("start", "part"):
+            return start(folder, *(PART if case == "part" else ()))
         if case != "dry_run":
             command = [sys.executable, "-m", "benchmarks.support.planned_results", "--dry-run", *arguments(folder)]
             quiet = subprocess.DEVNULL
