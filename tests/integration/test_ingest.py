@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import os
+import sys
 
 import numpy as np
 import pytest
@@ -127,3 +128,12 @@ def test_a_locked_file_is_named_and_tried_again(tmp_path, monkeypatch):
     with pytest.raises(SetAside, match=r"ingest failed: walk.c3d cannot be read: permission denied"):
         stage_files.read_recording(target)
     assert (target.parent / "failures.tsv").exists()
+
+
+def test_the_script_needs_nothing_that_windows_has_not(tmp_path, monkeypatch):
+    for name in ("resource", "fcntl", "pwd", "termios"):
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.delattr(os, "fork")
+    target = tmp_path / "results" / "01_markers.parquet"
+    run_script(flags(write(tmp_path / "walk.c3d"), target))
+    assert stage_files.read_recording(target).markers == ("M0", "M1", "M2", "M3")

@@ -108,3 +108,19 @@ def test_unlabelled_trajectories_are_left_alone(tmp_path: Path) -> None:
     assert (reading.columns, reading.unlabelled, reading.missing) == ((0, 2, 3), ("*17",), {})
     with pytest.raises(BadRecording, match="no labelled marker"):
         reader.read(tmp_path / "walk.txt", unlabelled=[".*"], rate=None)
+
+
+@pytest.mark.parametrize(
+    ("format", "honest", "absurd"),
+    [
+        ("trc", b"100\t100\t30\t4\tmm", b"100\t100\t999999999\t999999999\tmm"),
+        ("qtm", b"NO_OF_FRAMES\t30", b"NO_OF_FRAMES\t999999999"),
+        ("qtm", b"NO_OF_MARKERS\t4", b"NO_OF_MARKERS\t999999999"),
+    ],
+)
+def test_of_absurd_counts_the_file_has_the_last_word(tmp_path: Path, format: str, honest: bytes, absurd: bytes) -> None:
+    content = make(format, positions())
+    assert content.count(honest) == 1
+    reading = read(tmp_path, content.replace(honest, absurd))
+    assert reading.recording.positions.shape == (30, 4, 3)
+    assert "The header says 999999999" in " ".join(reading.warnings)
