@@ -61,10 +61,22 @@ def test_the_others_are_finished_and_the_summary_says_what_is_not(ended):
 
 def test_the_report_comes_with_what_is_finished_and_names_the_rest(ended):
     project, text = ended
-    assert text.strip().splitlines()[-1] == f"Report: {project.results}/report/index.html"
+    assert text.strip().splitlines()[-1] == f"Report of what is finished: {project.results}/report/index.html"
     page = (project.results / "report/index.html").read_text()
     assert "Not finished: 2" in page and "<li>S01/full</li><li>S02/killed</li>" in page
     assert (project.results / "report/summary.tsv").read_text().count("\n") == 3
+
+
+def test_a_report_that_lacks_recordings_is_made_again_even_without_them(ended):
+    project, _ = ended
+    left = [project.recordings / name for name in ("S01/full.c3d", "S02/killed.c3d")]
+    contents = [path.read_bytes() for path in left]
+    for path in left:
+        path.unlink()
+    assert "2 recordings: 2 cleaned;" in project.run(*PEAKS)
+    assert "Not finished" not in (project.results / "report/index.html").read_text()
+    for path, content in zip(left, contents, strict=True):
+        path.write_bytes(content)
 
 
 def test_the_same_command_finishes_the_run_and_a_report_that_fails_is_no_success(ended, tmp_path):

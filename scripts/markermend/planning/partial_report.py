@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -11,11 +12,15 @@ from pathlib import Path
 from markermend.planning.result_files import ResultFiles
 from markermend.storage.atomic import write_list
 
+PARTIAL = 315532800
+"""The time of the last change of such a report, that of 1 January 1980: older than all that the next run makes it of."""
+
 
 def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str], *, script: Path) -> None:
     """Make the report of the recordings that are finished; it names the others.
 
-    Its log says what goes wrong.
+    The next run makes it again, since its files are older than what it is made of, and a failure of the report is counted. Its log says
+    what goes wrong.
 
     Parameters
     ----------
@@ -36,3 +41,8 @@ def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str]
         write_list(files.unfinished_list, unfinished)
         with open(f"{files.report}/logs/report.log", "w", encoding="utf-8") as log:
             subprocess.run(command, stderr=log, check=False)
+        with open(f"{files.report}/failures.tsv", "a", encoding="utf-8") as failures:
+            failures.write("report\tnot all recordings were finished\n")
+        for file in outputs.values():
+            if Path(files.report, file).exists():
+                os.utime(Path(files.report, file), (PARTIAL, PARTIAL))

@@ -8,6 +8,8 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
+from markermend.planning.partial_report import PARTIAL
+
 STATUSES = ("cleaned", "unchanged", "static", "set aside")
 """The possible outcomes of a recording, in the order in which a summary counts them."""
 
@@ -83,6 +85,8 @@ def _of_report(report: Path, judged: Sequence[Path]) -> str:
     """Where the report is, or that it was not written."""
     if not report.exists():
         return f"The report was not written: {report}: {_last_error(report.parent / 'logs')}"
+    if report.stat().st_mtime == PARTIAL:
+        return f"Report of what is finished: {report}"
     if any(path.stat().st_mtime_ns > report.stat().st_mtime_ns for path in judged):
         return f"The report was not written again: {report} is older than the results"
     if not report.with_name(PLOTTING_SCRIPT).exists():

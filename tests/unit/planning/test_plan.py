@@ -161,7 +161,11 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     plan.close([job(recording="walk"), SimpleNamespace(subject="S%201"), SimpleNamespace()])
     text = capsys.readouterr().err
     assert text.startswith("3 recordings: 1 set aside, 2 unfinished")
-    assert "not finished: S%201/walk: see" in text and f"Report: {tmp_path}/out/report/index.html" in text
+    assert (
+        "not finished: S%201/walk: see" in text
+        and f"Report of what is finished: {tmp_path}/out/report/index.html" in text
+    )
+    assert (tmp_path / "out/report/failures.tsv").read_text().startswith("report\t")
     page = (tmp_path / "out/report/index.html").read_text()
     assert "Not finished: 2" in page and "<li>S2/%7Bx%7D</li>" in page
     assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
