@@ -12,6 +12,9 @@ from markermend.core.recording import Recording
 NORMAL_RANGE = 2 * 1.6448536269514722
 """Distance between the 5th and the 95th percentile of a normal distribution, in standard deviations."""
 
+MOST_RANKS = 12
+"""Ranks for which rows are partitioned; for more they are sorted."""
+
 DECIMALS = 6
 """Statistics are rounded to nm, so that the order of summation decides no tie."""
 
@@ -116,37 +119,41 @@ def distance_statistics(positions: np.ndarray, *, valid_frames: int) -> tuple[np
     tracks = np.ascontiguousarray(positions.transpose(2, 1, 0))
     for m in range(markers - 1):  # one marker at a time bounds the memory
         squares = np.square(tracks[:, m + 1 :] - tracks[:, m, None])
-        distances = np.sort(np.sqrt(squares[0] + squares[1] + squares[2]), axis=1)
+        distances = np.sqrt(squares[0] + squares[1] + squares[2])
         joint = frames - np.isnan(distances).sum(axis=1)
         known = joint >= max(valid_frames, 1)
-        low, middle, high = (percentile(distances[known], joint[known], share) for share in (0.05, 0.5, 0.95))
+        low, middle, high = percentiles(distances[known], joint[known], (0.05, 0.5, 0.95))
         others = m + 1 + np.flatnonzero(known)
         median[m, others] = median[others, m] = middle
         deviation[m, others] = deviation[others, m] = (high - low) / NORMAL_RANGE
     return median, deviation
 
 
-def percentile(ordered: np.ndarray, count: np.ndarray, share: float) -> np.ndarray:
-    """Compute a percentile of the first values of each row, interpolated linearly.
+def percentiles(values: np.ndarray, count: np.ndarray, shares: Sequence[float]) -> np.ndarray:
+    """Compute percentiles of each row, interpolated linearly.
 
     Parameters
     ----------
-    ordered : ndarray, shape (rows, n)
-        Values, ascending in each row.
+    values : ndarray, shape (rows, n)
+        Values; NaN = unknown.
     count : ndarray of int, shape (rows,)
-        Number of values that count in each row.
-    share : float
-        The percentile, 0 to 1.
+        Number of known values in each row, 1 at least.
+    shares : sequence of float
+        The percentiles, 0 to 1.
 
     Returns
     -------
-    ndarray, shape (rows,)
-        The percentile of each row.
+    ndarray, shape (shares, rows)
+        The percentiles of each row.
     """
-    position = share * (count - 1)
+    position = np.array(shares)[:, None] * (count - 1)
     lower = np.floor(position).astype(int)
     upper = np.minimum(lower + 1, count - 1)
-    row = np.arange(len(ordered))
+    # NaN come last. Where all rows have as many values, few ranks have to be in their places.
+    ranks = np.unique([lower, upper])
+    few = 0 < len(ranks) <= MOST_RANKS
+    ordered = np.partition(values, ranks, axis=1) if few else np.sort(values, axis=1)
+    row = np.arange(len(values))
     below = ordered[row, lower]
     interpolated: np.ndarray = below + (position - lower) * (ordered[row, upper] - below)
     return interpolated

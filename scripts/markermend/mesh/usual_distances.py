@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from markermend.core.recording import Recording
-from markermend.mesh.pair_statistics import distance_statistics, percentile, recording_name, thin
+from markermend.mesh.pair_statistics import distance_statistics, percentiles, recording_name, thin
 
 DECIMALS = 2
 """Distances are rounded to 0.01 mm."""
@@ -91,11 +91,12 @@ def recording_distances(positions: np.ndarray, *, min_frames: int) -> np.ndarray
     tracks = np.ascontiguousarray(positions.transpose(2, 1, 0))
     for m in range(len(median) - 1):  # one marker at a time bounds the memory
         distance = np.sqrt(np.square(tracks[:, m + 1 :] - tracks[:, m, None]).sum(axis=0))
-        absolute = np.sort(np.abs(distance - median[m, m + 1 :, None]), axis=1)
+        absolute = np.abs(distance - median[m, m + 1 :, None])
         joint = np.count_nonzero(~np.isnan(absolute), axis=1)
         known = joint > 0
         others = m + 1 + np.flatnonzero(known)
-        deviation[m, others] = deviation[others, m] = MAD_SIGMA * percentile(absolute[known], joint[known], 0.5)
+        (middle,) = percentiles(absolute[known], joint[known], (0.5,))
+        deviation[m, others] = deviation[others, m] = MAD_SIGMA * middle
     return np.stack([median, deviation, spread])
 
 

@@ -133,13 +133,14 @@ def test_half_of_the_percentile_range_counts_artifacts_little():
     assert np.std(positions[:, 1, 0]) > 50
 
 
-@pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 1.0])
-def test_percentiles_equal_those_of_numpy(share):
-    rng = np.random.default_rng(9)
-    rows = [np.sort(rng.normal(0, 1, n)) for n in (1, 2, 7, 20)]
-    ordered = np.array([np.pad(row, (0, 20 - len(row)), constant_values=np.nan) for row in rows])
-    found = pair_statistics.percentile(ordered, np.array([len(row) for row in rows]), share)
-    assert found == pytest.approx([np.percentile(row, 100 * share) for row in rows])
+@pytest.mark.parametrize("known", [(1, 2, 7, 20), (20, 20), (3, 3, 3)])
+def test_percentiles_equal_those_of_numpy(known):
+    values = np.random.default_rng(9).normal(0, 1, (len(known), 20))
+    for row, count in zip(values, known, strict=True):
+        row[np.random.default_rng(count).permutation(20)[count:]] = np.nan
+    shares = (0.0, 0.05, 0.5, 1.0)
+    found = pair_statistics.percentiles(values, np.array(known, int), shares)
+    assert found == pytest.approx(np.nanpercentile(values, [100 * share for share in shares], axis=1))
 
 
 def test_a_recording_without_a_name_has_an_empty_one():
