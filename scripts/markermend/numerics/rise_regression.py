@@ -73,10 +73,9 @@ class RiseRegression:
         PulseResponses
             For all pairs: heights (i, j, axes) and deviations (i, j), without meaning where a change returns before it has risen.
         """
-        begun, ended = starts[:, None], stops
         both = self.blocks[starts + length, starts + length] - 2 * self.blocks[starts, starts + length]
         rising = (both + self.blocks[starts, starts]) / length**2
-        shared = (self.ramps[begun + length, ended] - self.ramps[begun, ended]) / length
+        shared = (self.ramps[starts + length] - self.ramps[starts])[:, stops] / length
         information = rising[:, None] - 2 * shared + self.steps[stops, stops]
         some = information > 0
         inverse = np.where(some, 1 / np.where(some, information, 1.0), np.inf)
