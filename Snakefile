@@ -47,10 +47,13 @@ rule all:
 if workflow.is_main_process:
     # Also after a dry run: what was read once is not read again.
     atexit.register(plan.data.checksums.save)
+    missing = find_missing(files, plan.data.entries)
+    plan.failures.update((*place, "export") for place in missing)
 
 
 onstart:
     plan.data.checksums.save()
+    in_one_line(lambda: count_missing(files, missing))
     if repeats_papers():
         papers.write_lists()
     if cleans():

@@ -224,6 +224,15 @@ def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tm
     assert NOTHING in finished.plan(**places).text
 
 
+def test_a_cleaned_file_that_is_gone_is_written_anew(finished):
+    path = finished.results / "S01/a/cleaned.c3d"
+    before = path.read_bytes()
+    path.unlink()
+    assert finished.plan().parameters_changed == {"export_c3d"}
+    finished.run()
+    assert path.read_bytes() == before and NOTHING in finished.plan().text
+
+
 def damage(path: Path) -> None:
     """Flip one bit in the middle of a file, and keep its date."""
     content, file = bytearray(path.read_bytes()), path.stat()

@@ -1,12 +1,10 @@
-"""The failures that may pass: what a person reads of one, and their count beside the results, by which the next run tries again."""
+"""The failures that may pass: what a person reads of one."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 from markermend.core.recording import SourceChanged
-from markermend.storage.atomic import NotWritten, not_written
 
 
 def describe(error: Exception) -> str:
@@ -31,29 +29,3 @@ def describe(error: Exception) -> str:
     if isinstance(error, PermissionError) and error.filename:
         return f"{os.fsdecode(error.filename)} cannot be read: permission denied. Allow reading it, and run again"
     return f"{type(error).__name__}: {text}"
-
-
-def count_failure(folder: Path, stage: str, reason: str) -> None:
-    """Append a failure to failures.tsv; the workflow reads how many there are.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder of the stage's outputs.
-    stage : str
-        Its name.
-    reason : str
-        Why it failed.
-
-    Raises
-    ------
-    NotWritten
-        Where it cannot be counted.
-    """
-    path = folder / "failures.tsv"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with open(path, "a", encoding="utf-8") as file:
-            file.write(f"{stage}\t{' '.join(reason.split())}\n")
-    except OSError as error:
-        raise NotWritten(not_written(path, error)) from error

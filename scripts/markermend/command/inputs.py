@@ -13,10 +13,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from markermend.command.failures import count_failure
 from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums, source_file
 from markermend.storage.atomic import sha256
+from markermend.storage.failure_counts import count_failure
 from markermend.storage.installation import workflow_folder
 
 log = logging.getLogger("markermend")

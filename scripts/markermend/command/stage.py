@@ -22,7 +22,7 @@ from types import SimpleNamespace
 from typing import Any, Literal, get_args, get_origin
 
 from markermend.command import inputs
-from markermend.command.failures import count_failure, describe
+from markermend.command.failures import describe
 from markermend.command.kept_outputs import are_current, dependencies_hash
 from markermend.core.recording import BadRecording, SetAside
 from markermend.options.description import Option, full_meaning, peel
@@ -31,6 +31,7 @@ from markermend.options.reader import BadOptions, parse
 from markermend.options.reporting import NoOptions
 from markermend.storage import output_checksums, stage_files
 from markermend.storage.atomic import NotWritten
+from markermend.storage.failure_counts import count_failure
 from markermend.storage.folder_names import printable
 
 log = logging.getLogger("markermend")

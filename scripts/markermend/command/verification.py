@@ -9,9 +9,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from markermend.command.failures import count_failure
 from markermend.storage import output_checksums, tab_separated
 from markermend.storage.atomic import sha256
+from markermend.storage.failure_counts import count_failure
 from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
 from markermend.storage.source_checksums import SourceChecksums
 
