@@ -14,8 +14,10 @@ from __future__ import annotations
 
 import argparse
 import csv
+import json
 import os
 import shlex
+import shutil
 import statistics
 import subprocess
 import sys
@@ -93,6 +95,10 @@ class Version:
         snakemake = [str(Path(sys.executable).with_name("snakemake")), "--cores", "1"]
         config = ["--config", f"recordings={recordings}", f"results={results}"]
         self.workflow = Cost.of([*snakemake, *config], project).seconds
+        for path in results.glob("*/*/08_qc.json"):
+            quality = json.loads(path.read_text(encoding="utf-8"))
+            if quality["status"] == "set aside":
+                raise SystemExit(f"{project} sets the recording aside: {quality['reason']}")
         summary = [*snakemake, "--detailed-summary", *config]
         printed = subprocess.run(summary, cwd=project, check=True, capture_output=True, text=True).stdout
         self.jobs: dict[str, Job] = {}
@@ -127,7 +133,7 @@ def measure(recording: Path, projects: Sequence[Path], runs: int) -> list[dict[s
         ENVIRONMENT["PYTHONPYCACHEPREFIX"] = str(Path(temporary) / "compiled")
         folder = Path(temporary) / "recordings" / recording.parent.name
         folder.mkdir(parents=True)
-        (folder / recording.name).symlink_to(recording.resolve())
+        shutil.copyfile(recording, folder / recording.name)
         versions = [
             Version(project, folder.parent, Path(temporary) / f"results{number}")
             for number, project in enumerate(projects)
