@@ -57,7 +57,7 @@ class LocalRidgeOptions:
     max_lag_s: PositiveSeconds = 2
     """Longest lag of the autocovariance of the residual."""
 
-    border_s: PositiveSeconds = 0.15
+    border_s: PositiveSeconds = 0.3
     """Time on either side of a gap whose samples are used."""
 
     max_leverage: Positive = 20
