@@ -16,6 +16,9 @@ STATUSES = ("cleaned", "unchanged", "static", "set aside")
 LISTED = 10
 """Largest number of recordings set aside, and of those not finished, that a terminal names; the report names all."""
 
+TRACEBACK = "ERROR Traceback"
+"""Beginning of such a line that says where; another says why."""
+
 PLOTTING_SCRIPT = "plotly.min.js"
 """The script that pages load from the report's folder."""
 
@@ -74,7 +77,9 @@ def _last_error(logs: Path) -> str:
     """The last error in the logs of a recording; where they have none, the place to look at."""
     for path in sorted(logs.glob("*.log"), key=lambda path: path.stat().st_mtime, reverse=True):
         errors = [
-            line for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if line.startswith(ERROR)
+            line
+            for line in path.read_text(encoding="utf-8", errors="replace").splitlines()
+            if line.startswith(ERROR) and not line.startswith(TRACEBACK)
         ]
         if errors:
             return errors[-1].removeprefix(ERROR)

@@ -30,7 +30,9 @@ def test_what_was_not_finished_is_named_with_its_last_error(tmp_path):
     paths = [tmp_path / "S01" / name / "08_qc.json" for name in ("killed", "full", "torn")]
     for path in paths:
         (path.parent / "logs").mkdir(parents=True)
-    (paths[1].parent / "logs/fill.log").write_text("INFO fill.py\nERROR fill: x was not written\n")
+    (paths[1].parent / "logs/fill.log").write_text(
+        "INFO fill.py\nERROR fill: x was not written\nERROR Traceback (most recent call last):\n"
+    )
     (paths[1].parent / "logs/repair.log").write_text("ERROR repair: of an earlier run\n")
     os.utime(paths[1].parent / "logs/repair.log", (1e9, 1e9))
     paths[2].write_text('{"status": "clea')
