@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from markermend.command.inputs import original_checksum
 from markermend.storage import output_checksums, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
@@ -16,7 +17,7 @@ from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
 from markermend.storage.source_checksums import SourceChecksums
 
 MISSING = "not there"
-"""Stands for the checksum of a file that is not there or cannot be read."""
+"""Stands for the checksum of a file that is not there, cannot be read, or is no file."""
 
 UNRECORDED = "nothing recorded"
 """Stands for a checksum that should have been recorded."""
@@ -101,11 +102,19 @@ def _source(folder: Path, path: str | None) -> Iterator[Checked]:
         return
     if expected is not None:
         name = path or f"the original of {folder.parent.name}/{folder.name}"
-        yield Checked(name, expected, _checksum(Path(path)) if path else UNRECORDED)
+        yield Checked(name, expected, _original(Path(path)) if path else UNRECORDED)
+
+
+def _original(path: Path) -> str:
+    """The checksum of an original, which is looked at before it is opened: a pipe has no end."""
+    try:
+        return original_checksum(path, within=None) or MISSING
+    except OSError:
+        return MISSING
 
 
 def _checksum(path: Path) -> str:
-    """The checksum of a file."""
+    """The checksum of a result."""
     try:
         return sha256(path)
     except OSError:

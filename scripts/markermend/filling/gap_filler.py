@@ -65,6 +65,7 @@ class GapFiller:
         self._radius_options = ensemble.options.radius
         self._evaluations: dict[GapKind, Evaluation] = {}
         self._kinds: dict[Gap, GapKind] = {}
+        self._absent: dict[Gap, frozenset[int]] = {}
 
     def fill(self, scene: GrowingScene, gaps: Sequence[Gap], stretches: Mapping[Gap, Gap] = NO_STRETCHES) -> FilledGaps:
         """Fill gaps in their order.
@@ -121,7 +122,7 @@ class GapFiller:
 
     def _seen_since(self, scene: Scene, gap: Gap) -> frozenset[int]:
         """Near neighbours that a scene shows throughout a gap, but did not when it was filled."""
-        return self._kinds[gap].absent - self._ensemble.kind(scene, gap, ()).absent
+        return self._absent[gap] - self._ensemble.kind(scene, gap, ()).absent
 
     def _without_doubtful_pieces(self, scene: Scene, stretches: Sequence[Gap]) -> Scene:
         """The scene without the short pieces that contradict what is predicted for their stretches."""
@@ -138,7 +139,8 @@ class GapFiller:
     def _evaluation(self, scene: Scene, gap: Gap) -> Evaluation:
         """Errors on pseudo-gaps, measured once for all gaps of a kind."""
         kind = self._ensemble.kind(scene, gap, self._evaluations)
-        self._kinds[gap] = kind
+        # The neighbours that are missing are the gap's own, also where a known kind stands in for its kind.
+        self._kinds[gap], self._absent[gap] = kind, self._ensemble.kind(scene, gap, ()).absent
         if kind not in self._evaluations:
             self._evaluations[kind] = self._ensemble.evaluate(scene, gap)
         return self._evaluations[kind]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from markermend.planning.result_files import ResultFiles
 from markermend.storage.atomic import write_list
+from markermend.storage.failure_counts import count_failure
 
 PARTIAL = 315532800
 """The time of the last change of such a report, that of 1 January 1980: older than all that the next run makes it of."""
@@ -41,8 +42,7 @@ def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str]
         write_list(files.unfinished_list, unfinished)
         with open(f"{files.report}/logs/report.log", "w", encoding="utf-8") as log:
             subprocess.run(command, stderr=log, check=False)
-        with open(f"{files.report}/failures.tsv", "a", encoding="utf-8") as failures:
-            failures.write("report\tnot all recordings were finished\n")
+        count_failure(Path(files.report), "report", "not all recordings were finished")
         for file in outputs.values():
             if Path(files.report, file).exists():
                 os.utime(Path(files.report, file), (PARTIAL, PARTIAL))

@@ -82,6 +82,8 @@ def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
     assert different(results) == {str(source): (before, sha256(source))}
     source.unlink()
     assert different(results) == {str(source): (before, MISSING)}
+    os.mkfifo(source)
+    assert different(results) == {str(source): (before, MISSING)}
     (results / "report/logs/sources.json").unlink()
     assert different(results) == {"the original of S01/walk": (before, UNRECORDED)}
 

@@ -35,11 +35,19 @@ class Recorder:
 
 
 def filled(
-    errors=None, *, name="recorder", limits=NO_LIMITS, reuse=True, gaps=(FIRST, SECOND, OTHER), trials=0, pieces=()
+    errors=None,
+    *,
+    name="recorder",
+    limits=NO_LIMITS,
+    reuse=True,
+    gaps=(FIRST, SECOND, OTHER),
+    trials=0,
+    pieces=(),
+    kinds=12,
 ):
     member = Recorder(errors or {}, name)
     # Without pseudo-gaps the prior radii stand.
-    ensemble = Ensemble([member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}))
+    ensemble = Ensemble([member], ensemble_options(pseudo_gaps=trials, max_gap_s_of_member={}, max_gap_kinds=kinds))
     positions = rigid_body()
     for gap in gaps:
         positions[gap.samples] = np.nan
@@ -119,6 +127,11 @@ def test_gaps_of_which_neighbours_were_filled_later_are_filled_again_with_the_sa
     assert not again[FIRST.samples].any() and not again[SECOND.samples].any()
     assert result.accepted[FIRST].deviation == pytest.approx(np.full(10, 2.0))
     assert growing.current().present.all()
+
+
+def test_a_gap_whose_neighbours_were_all_seen_is_not_filled_again_where_another_kind_stands_in_for_its_own():
+    _, member, _ = filled(kinds=1)
+    assert [(marker, start) for marker, start, _ in member.scenes] == [(1, 100), (1, 150), (4, 100), (1, 100)]
 
 
 def test_without_filled_inputs_nothing_is_filled_again():
