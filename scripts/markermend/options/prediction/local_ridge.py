@@ -57,7 +57,7 @@ class LocalRidgeOptions:
     max_lag_s: PositiveSeconds = 2
     """Longest lag of the autocovariance of the residual."""
 
-    border_s: PositiveSeconds = 0.3
+    border_s: PositiveSeconds = 0.15
     """Time on either side of a gap whose samples are used."""
 
     max_leverage: Positive = 20
@@ -92,6 +92,9 @@ class GaussianProcessOptions:
 
     length_scale: Positive = 1
     """Length scale of the kernel, in units of the typical distance of two poses."""
+
+    border_s: PositiveSeconds = 0.3
+    """Time on either side of a gap whose samples are used."""
 
     offset_share: Share = 0.8
     """Share of the mean of a stretch of time about which its training frames are taken, since markers shift slowly; 0 for none."""
