@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import heapq
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -18,6 +19,9 @@ from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
 from markermend.planning.result_files import ResultFiles
 from markermend.storage.source_checksums import ABSENT, SourceChecksums
+
+SOURCE_STAGES = ("ingest", "export")
+"""The stages that read originals."""
 
 
 class Wildcards(Protocol):
@@ -145,7 +149,13 @@ class DataSet:
         return f"(?={any_of(folders)})[^/]+" if folders else "(?!)"
 
 
-def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) -> tuple[DataSet, list[str]]:
+def find_data_set(
+    options: Mapping[str, Any],
+    results: str,
+    *,
+    schemas: Path,
+    failures: Mapping[tuple[str, str, str], int] | None = None,
+) -> tuple[DataSet, list[str]]:
     """Find the data set that a config names.
 
     Parameters
@@ -156,6 +166,8 @@ def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) ->
         Absolute path of the folder of results, which holds no recordings.
     schemas : Path
         The folder of the schemas.
+    failures : mapping of (str, str, str) to int, optional
+        How often each stage failed so far, by subject, recording and stage.
 
     Returns
     -------
@@ -172,7 +184,10 @@ def find_data_set(options: Mapping[str, Any], results: str, *, schemas: Path) ->
     entries, missing, left_out = _entries(options["general"], results, schemas)
     meshes = discovery.supplied_meshes(entries, options["mesh"].files)
     decisions, warnings = discovery.find_decisions(options, list(entries.values()))
-    checksums = SourceChecksums(Path(ResultFiles(results).sources))
+    failed = Counter[str]()
+    for (subject, recording, stage), count in (failures or {}).items():
+        failed[f"{subject}/{recording}"] += count if stage in SOURCE_STAGES else 0
+    checksums = SourceChecksums(Path(ResultFiles(results).sources), failed)
     return DataSet(entries, checksums, meshes, decisions, missing), [*left_out, *warnings]
 
 

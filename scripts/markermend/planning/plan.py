@@ -310,12 +310,13 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
     options = planning_config.check({key: config[key] for key in config if key != EXPERIMENTS}, deployed=deployed)
     results = planning_config.folder(options["general"].results)
     files = ResultFiles(results)
-    data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas")
+    failures = planning_config.failures(results)
+    data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas", failures=failures)
     return Plan(
         options=options,
         project=project,
         files=files,
         data=data,
-        failures=planning_config.failures(results),
+        failures=failures,
         warnings=[*planning_config.warnings(options), *warnings, *code_changes(project, Path(files.provenance))],
     )

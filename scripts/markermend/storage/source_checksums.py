@@ -1,6 +1,6 @@
 """The checksums of the original files: their content decides what is made again, whatever their dates and names.
 
-An original is read only where path, size, inode or either time differ from those of the last time.
+An original is read only where path, size, inode or either time differ from those of the last time, or a stage that reads it has failed since.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import json
 import os
 import stat
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NotRequired, TypedDict
 
@@ -35,11 +36,14 @@ class SourceRecord(TypedDict):
         Checksum of its bytes, or `not there`.
     file : list of int, optional
         Size, inode, time of the last change of the content and of anything, in ns.
+    failures : int, optional
+        How often the stages that read it had failed.
     """
 
     path: str
     sha256: str
     file: NotRequired[list[int]]
+    failures: NotRequired[int]
 
 
 class SourceChecksums:
@@ -49,19 +53,23 @@ class SourceChecksums:
     ----------
     path : Path
         The file that records them.
+    failures : mapping of str to int, optional
+        How often the stages that read the original of a recording have failed so far. What they read may not be what was recorded:
+        some file systems keep no time of the last change, and the record may be damaged.
     """
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, failures: Mapping[str, int] | None = None) -> None:
+        self._path, self._failures = path, failures or {}
         self._recorded: dict[str, SourceRecord] | None = None
         self._current: dict[str, SourceRecord] = {}
 
     @property
     def recorded(self) -> dict[str, SourceRecord]:
-        """What was recorded before, by recording; nothing where there is no record that can be read."""
+        """What was recorded before, by recording; nothing where there is no file that can be read, or it is damaged there."""
         if self._recorded is None:
             try:
-                self._recorded = dict(json.loads(self._path.read_text(encoding="utf-8")))
+                found = dict(json.loads(self._path.read_text(encoding="utf-8")))
+                self._recorded = {name: record for name, record in found.items() if _is_record(record)}
             except (OSError, ValueError, TypeError):
                 self._recorded = {}
         return self._recorded
@@ -82,7 +90,7 @@ class SourceChecksums:
             The sha256 of its bytes; `not there` where there is no file that can be read.
         """
         if recording not in self._current:
-            self._current[recording] = self._look(self.recorded.get(recording), source)
+            self._current[recording] = self._look(recording, source)
         return self._current[recording]["sha256"]
 
     def save(self) -> None:
@@ -94,19 +102,27 @@ class SourceChecksums:
         except OSError:
             return
 
-    def _look(self, recorded: SourceRecord | None, source: str) -> SourceRecord:
+    def _look(self, recording: str, source: str) -> SourceRecord:
         """The record of a file as it is: as recorded, or read."""
+        recorded, failures = self.recorded.get(recording), self._failures.get(recording, 0)
         try:
             before = _recognise(source)
-            if recorded and recorded["path"] == source and recorded.get("file") == before:
+            known = recorded and (recorded["path"], recorded.get("file"), recorded.get("failures", 0))
+            if recorded and known == (source, before, failures):
                 return recorded
             checksum, now = sha256(Path(source)), time.time_ns()
             # Else it may be written to once more without getting another time.
             if before == _recognise(source) and now - max(before[2:]) > SETTLED_NS:
-                return {"path": source, "sha256": checksum, "file": before}
+                found: SourceRecord = {"path": source, "sha256": checksum, "file": before}
+                return {**found, "failures": failures} if failures else found
             return {"path": source, "sha256": checksum}
         except OSError:
             return {"path": source, "sha256": ABSENT}
+
+
+def _is_record(found: object) -> bool:
+    """Whether something is a record of an original."""
+    return isinstance(found, dict) and all(isinstance(found.get(key), str) for key in ("path", "sha256"))
 
 
 def _recognise(source: str) -> list[int]:

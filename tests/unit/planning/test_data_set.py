@@ -12,6 +12,7 @@ from markermend.options.config import read_config
 from markermend.planning.data_set import DataSet, find_data_set
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
+from markermend.storage import source_checksums
 from markermend.storage.atomic import sha256
 from support.paths import PROJECT
 
@@ -51,6 +52,22 @@ def test_an_original_is_identified_by_its_content(plan, config, tmp_path):
     assert plan.data.source_hash(strange) == before
     again = make_plan(config, PROJECT, deployed=False)
     assert again.data.source_hash(strange) == sha256(tmp_path / "{x}.csv") != before
+
+
+@pytest.mark.parametrize(("stage", "again"), [("ingest", True), ("export", True), ("fill", False)])
+def test_an_original_is_read_again_where_a_stage_that_reads_it_has_failed_since(
+    plan, config, tmp_path, monkeypatch, stage, again
+):
+    monkeypatch.setattr(source_checksums.time, "time_ns", lambda: 10**19)
+    read, wrong = plan.data.source_hash(job()), "0" * 64
+    plan.data.checksums.save()
+    record = Path(plan.files.sources)
+    record.write_text(record.read_text().replace(read, wrong))
+    assert make_plan(config, PROJECT, deployed=False).data.source_hash(job()) == wrong
+    failures = tmp_path / "out/S%201/walk/failures.tsv"
+    failures.parent.mkdir(parents=True)
+    failures.write_text(f"{stage}\twalk.c3d changed while the run was on\n")
+    assert make_plan(config, PROJECT, deployed=False).data.source_hash(job()) == (read if again else wrong)
 
 
 def test_what_the_table_says_of_a_recording_becomes_flags(plan):

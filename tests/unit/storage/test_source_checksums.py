@@ -114,13 +114,25 @@ def test_names_that_are_no_text_can_be_recorded(tmp_path, reads):
     assert len(reads) == 1
 
 
-@pytest.mark.parametrize("content", ["", "[1", "[1]", "7"])
+@pytest.mark.parametrize("content", ["", "[1", "[1]", "7", '{"S01/walk": 7}', '{"S01/walk": {"sha256": "0"}}'])
 def test_a_record_that_cannot_be_read_is_made_again(tmp_path, walk, content):
     record = tmp_path / "logs/sources.json"
     record.parent.mkdir()
     record.write_text(content)
     assert look(tmp_path, walk=walk) == {"walk": sha256(walk)}
     assert SourceChecksums(record).recorded.keys() == {WALK}
+
+
+def test_an_original_is_read_again_where_a_stage_that_reads_it_has_failed_since(tmp_path, walk, reads):
+    record = tmp_path / "logs/sources.json"
+    look(tmp_path, walk=walk)
+    record.write_text(record.read_text().replace(sha256(walk), "0" * 64))
+    assert look(tmp_path, walk=walk) == {"walk": "0" * 64}
+    for _ in range(2):
+        checksums = SourceChecksums(record, {WALK: 1})
+        assert checksums.of(WALK, str(walk)) == sha256(walk)
+        checksums.save()
+    assert reads == ["walk.c3d"] * 2
 
 
 def test_the_record_is_written_only_where_something_is_new_and_keeps_other_recordings(tmp_path, walk):
