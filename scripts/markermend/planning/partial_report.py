@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -15,6 +15,9 @@ from markermend.storage.failure_counts import count_failure
 
 PARTIAL = 315532800
 """The time of the last change of such a report, that of 1 January 1980: older than all that the next run makes it of."""
+
+STALE = PARTIAL + 86400
+"""The time given to the report of an earlier run while another is made, which it keeps where that fails: it is older than the results."""
 
 
 def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str], *, script: Path) -> None:
@@ -33,16 +36,25 @@ def write(files: ResultFiles, finished: Sequence[str], unfinished: Sequence[str]
         The command of the rule `report`.
     """
     inputs = {"qc": files.quality_list, "unfinished": files.unfinished_list}
-    outputs = {"index": "index.html", "summary": "summary.tsv", "script": "plotly.min.js"}
+    outputs = {
+        name: Path(files.report, file)
+        for name, file in {"index": "index.html", "summary": "summary.tsv", "script": "plotly.min.js"}.items()
+    }
     command = [sys.executable, str(script)]
     command += [word for name, path in inputs.items() for word in (f"--{name}", f"@{path}")]
-    command += [word for name, file in outputs.items() for word in (f"--{name}", f"{files.report}/{file}")]
+    command += [word for name, path in outputs.items() for word in (f"--{name}", str(path))]
     with suppress(OSError):
+        _date(outputs.values(), STALE)
+        count_failure(Path(files.report), "report", "not all recordings were finished")
         write_list(files.quality_list, finished)
         write_list(files.unfinished_list, unfinished)
         with open(f"{files.report}/logs/report.log", "w", encoding="utf-8") as log:
             subprocess.run(command, stderr=log, check=False)
-        count_failure(Path(files.report), "report", "not all recordings were finished")
-        for file in outputs.values():
-            if Path(files.report, file).exists():
-                os.utime(Path(files.report, file), (PARTIAL, PARTIAL))
+        _date((path for path in outputs.values() if path.exists() and path.stat().st_mtime != STALE), PARTIAL)
+
+
+def _date(paths: Iterable[Path], seconds: int) -> None:
+    """Set the times of files, as far as they are there."""
+    for path in paths:
+        if path.exists():
+            os.utime(path, (seconds, seconds))

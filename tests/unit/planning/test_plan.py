@@ -171,6 +171,18 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
 
 
+def test_an_earlier_report_is_not_taken_for_one_of_what_is_finished(tmp_path, plan, capsys):
+    (tmp_path / "out/S%201/walk").mkdir(parents=True)
+    write_json(tmp_path / "out/S%201/walk/08_qc.json", {"status": "cleaned"})
+    index = tmp_path / "out/report/index.html"
+    index.parent.mkdir()
+    index.write_text("earlier")
+    # There is no command that makes a report.
+    replace(plan, project=tmp_path).close([SimpleNamespace()])
+    assert f"The report was not written again: {index} is older than the results" in capsys.readouterr().err
+    assert index.read_text() == "earlier"
+
+
 def test_a_disk_without_room_is_named_at_the_end(plan, capsys, monkeypatch):
     def refuse(dir):
         raise OSError(errno.ENOSPC, "No space left on device")
