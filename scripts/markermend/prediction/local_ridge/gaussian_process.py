@@ -115,7 +115,7 @@ class LocalGaussian(LocalRidge):
     options : LocalRidgeOptions
         Options of the frame, the inputs, the linear part and the kriging, as in the local ridge.
     gaussian : GaussianProcessOptions
-        Options of the part that is a function of the pose.
+        Options of the part that is a function of the pose, and what takes the place of some of those options.
     """
 
     name = "local_gp"
