@@ -51,6 +51,12 @@ if workflow.is_main_process:
     plan.failures.update((*place, "export") for place in missing)
 
 
+def pending():
+    """What the jobs that were not finished are about, but for those of experiments, on which the report does not depend."""
+    jobs = workflow.dag.needrun_jobs()
+    return [job.wildcards for job in jobs if not of_experiments(job.rule.name, papers.folder)]
+
+
 onstart:
     plan.data.checksums.save()
     in_one_line(lambda: count_missing(files, missing))
@@ -59,7 +65,7 @@ onstart:
     if cleans():
         in_one_line(plan.write_lists)
         # However the run ends: an exception within Snakemake calls neither of the hooks below.
-        atexit.register(lambda: plan.close([job.wildcards for job in workflow.dag.needrun_jobs()]))
+        atexit.register(lambda: plan.close(pending()))
 
 
 onsuccess:
