@@ -14,10 +14,7 @@ from markermend.storage import output_checksums, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
 from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
-from markermend.storage.source_checksums import SourceChecksums
-
-MISSING = "not there"
-"""Stands for the checksum of a file that is not there, cannot be read, or is no file."""
+from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 UNRECORDED = "nothing recorded"
 """Stands for a checksum that should have been recorded."""
@@ -108,9 +105,9 @@ def _source(folder: Path, path: str | None) -> Iterator[Checked]:
 def _original(path: Path) -> str:
     """The checksum of an original, which is looked at before it is opened: a pipe has no end."""
     try:
-        return original_checksum(path, within=None) or MISSING
+        return original_checksum(path, within=None) or ABSENT
     except OSError:
-        return MISSING
+        return ABSENT
 
 
 def _checksum(path: Path) -> str:
@@ -118,7 +115,7 @@ def _checksum(path: Path) -> str:
     try:
         return sha256(path)
     except OSError:
-        return MISSING
+        return ABSENT
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -5,10 +5,10 @@ import os
 
 import pytest
 
-from markermend.command.verification import MISSING, UNRECORDED, check, main
+from markermend.command.verification import UNRECORDED, check, main
 from markermend.storage import output_checksums
 from markermend.storage.atomic import sha256
-from markermend.storage.source_checksums import SourceChecksums
+from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 WRITTEN = {
     "S01": {"mesh": ["mesh.json"]},
@@ -73,7 +73,7 @@ def test_a_changed_file_is_listed_with_both_checksums_whatever_its_date(results,
 def test_a_missing_file_is_listed(results):
     before = sha256(results / "S01/walk/cleaned.c3d")
     (results / "S01/walk/cleaned.c3d").unlink()
-    assert different(results) == {"S01/walk/cleaned.c3d": (before, MISSING)}
+    assert different(results) == {"S01/walk/cleaned.c3d": (before, ABSENT)}
 
 
 def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
@@ -81,9 +81,9 @@ def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
     source.write_text("turn")
     assert different(results) == {str(source): (before, sha256(source))}
     source.unlink()
-    assert different(results) == {str(source): (before, MISSING)}
+    assert different(results) == {str(source): (before, ABSENT)}
     os.mkfifo(source)
-    assert different(results) == {str(source): (before, MISSING)}
+    assert different(results) == {str(source): (before, ABSENT)}
     (results / "report/logs/sources.json").unlink()
     assert different(results) == {"the original of S01/walk": (before, UNRECORDED)}
 
