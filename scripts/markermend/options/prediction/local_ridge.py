@@ -94,7 +94,7 @@ class GaussianProcessOptions:
     """Length scale of the kernel, in units of the typical distance of two poses."""
 
     border_s: PositiveSeconds = 0.3
-    """Time on either side of a gap whose samples are used."""
+    """Time on either side of a gap whose samples are used, at least; that of local_ridge if it is longer."""
 
     offset_share: Share = 0.8
     """Share of the mean of a stretch of time about which its training frames are taken, since markers shift slowly; 0 for none."""

@@ -122,7 +122,9 @@ class LocalGaussian(LocalRidge):
 
     def __init__(self, options: LocalRidgeOptions, gaussian: GaussianProcessOptions) -> None:
         frames = min(options.max_training_frames, gaussian.max_training_frames)
-        super().__init__(replace(options, max_training_frames=frames, border_s=gaussian.border_s))
+        super().__init__(
+            replace(options, max_training_frames=frames, border_s=max(options.border_s, gaussian.border_s))
+        )
         self.gaussian = gaussian
 
     def _stretch(self, length: int, rate: float) -> int | None:
