@@ -213,8 +213,10 @@ def test_errors_do_not_depend_on_the_rate():
             rng=rng,
         ).recording
         gaps = [(m, int(begin * rate), int((begin + 0.5) * rate)) for m, begin in ((3, 2), (12, 2.2), (17, 5))]
-        # Of five pseudo-gaps, those that happen to be drawn matter more to the weights than the rate.
-        done = fill(first(whole, markers=20), gaps, averaging={"pseudo_gaps": 12})
+        # Of five pseudo-gaps, those that happen to be drawn matter more to the weights than the rate; and more frames teach more.
+        process = replace(fillings.predictor_options().local_gp, max_training_frames=350)
+        predictors = replace(fillings.predictor_options(), local_gp=process)
+        done = fill(first(whole, markers=20), gaps, averaging={"pseudo_gaps": 12}, predictors=predictors)
         filled_well(done, gaps=3, error=0.5)
         errors.append(done.distance.mean())
     assert errors[0] == pytest.approx(errors[1], rel=0.25)

@@ -94,11 +94,11 @@ class Project:
         return Plan(jobs, set(changed[1].split(", ")) if changed else set(), text)
 
     def outputs(self, results: Path | None = None) -> dict[str, bytes]:
-        """Every result, by its path; not logs, Snakemake's records and the facts of the run, which have clocks."""
+        """Every result, by its path; not logs, Snakemake's records and the facts of the run, which have clocks, nor counts of failures."""
         top = results or self.results
         files = (
             path
             for path in top.rglob("*")
-            if path.is_file() and not {"logs", "provenance.json", ".snakemake"} & set(path.parts)
+            if path.is_file() and not {"logs", "provenance.json", ".snakemake", "failures.tsv"} & set(path.parts)
         )
         return {path.relative_to(top).as_posix(): path.read_bytes() for path in files}

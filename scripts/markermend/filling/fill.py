@@ -107,7 +107,7 @@ def fill_scene(
     growing = GrowingScene(scene)
 
     def filler(ensemble: Ensemble, limits: ErrorLimits) -> GapFiller:
-        return GapFiller(ensemble, limits=limits, reuse=options.reuse_filled, piece_tolerance=options.piece_tolerance)
+        return GapFiller(ensemble, limits=limits, options=options)
 
     batches = [filler(ensembles.default, ErrorLimits.of(options)).fill(growing, plan.ordinary, plan.stretches)]
     for method, gaps in plan.confirmed.items():

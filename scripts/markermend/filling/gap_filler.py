@@ -17,6 +17,7 @@ from markermend.filling.gap import Gap, GapKind
 from markermend.filling.growing_scene import GrowingScene
 from markermend.filling.member_weights import Evaluation
 from markermend.filling.short_pieces import widened, without_doubtful_pieces
+from markermend.options.filling import FillOptions
 from markermend.prediction.interpolation import KINDS
 from markermend.prediction.scene import Scene
 
@@ -53,15 +54,12 @@ class GapFiller:
         The predictors.
     limits : ErrorLimits
         Gaps whose expected errors exceed them stay open.
-    reuse : bool
-        Whether filled samples are inputs for the gaps of other markers.
-    piece_tolerance : float
-        Largest distance of a trusted short piece from its prediction, as a multiple of the radius of the 95 % ball.
+    options : FillOptions
+        Whether filled samples are inputs, whether gaps are filled again, and which short pieces are trusted.
     """
 
-    def __init__(self, ensemble: Ensemble, *, limits: ErrorLimits, reuse: bool, piece_tolerance: float) -> None:
-        self._ensemble, self._limits, self._reuse = ensemble, limits, reuse
-        self._piece_tolerance = piece_tolerance
+    def __init__(self, ensemble: Ensemble, *, limits: ErrorLimits, options: FillOptions) -> None:
+        self._ensemble, self._limits, self._options = ensemble, limits, options
         self._radius_options = ensemble.options.radius
         self._evaluations: dict[GapKind, Evaluation] = {}
         self._kinds: dict[Gap, GapKind] = {}
@@ -104,7 +102,8 @@ class GapFiller:
                 _report_progress(len(filled) + len(refused), len(gaps))
             for gap in inputs:
                 scene.add(gap, filled[gap])
-        self._fill_again(scene, filled, [gap for gap in gaps if gap not in stretches])
+        if self._options.fill_again:
+            self._fill_again(scene, filled, [gap for gap in gaps if gap not in stretches])
         return self._calibrate(filled, refused)
 
     def _fill_again(self, scene: GrowingScene, filled: dict[Gap, Filling], gaps: Iterable[Gap]) -> None:
@@ -127,7 +126,7 @@ class GapFiller:
     def _without_doubtful_pieces(self, scene: Scene, stretches: Sequence[Gap]) -> Scene:
         """The scene without the short pieces that contradict what is predicted for their stretches."""
         return without_doubtful_pieces(
-            scene, stretches, self._fill, radius=self._piece_tolerance * self._radius_options.outer
+            scene, stretches, self._fill, radius=self._options.piece_tolerance * self._radius_options.outer
         )
 
     def _fill(self, scene: Scene, gap: Gap) -> Filling:
@@ -152,7 +151,7 @@ class GapFiller:
         """
         from_neighbours = not set(filling.weights) <= set(KINDS)
         prior = self._radius_options.inner, self._radius_options.outer
-        return self._reuse and from_neighbours and self._excess(filling, prior) is None
+        return self._options.reuse_filled and from_neighbours and self._excess(filling, prior) is None
 
     def _excess(self, filling: Filling, radii: tuple[float, float]) -> Reason | None:
         """Why a filling is too uncertain, given the radii of its balls; None where it is not."""

@@ -263,6 +263,11 @@ class FillOptions:
     reuse_filled: bool = True
     """Whether filled markers are inputs for those that are filled later."""
 
+    fill_again: bool = True
+    """Whether gaps are filled once more of which near neighbours were filled later.
+
+    Change it when filling takes too long where many markers are missing at once (`false`)."""
+
     smoothing_s: Seconds = 0
     """Window of a moving median, then a moving mean, over what was filled; 0 for none (0.07 in the program released with tits2018)."""
 

@@ -12,7 +12,7 @@ from markermend.filling.gap import Gap
 from markermend.filling.gap_filler import GapFiller
 from markermend.filling.growing_scene import GrowingScene
 from markermend.prediction.interface import Prediction
-from support.fillings import ensemble_options, rigid_body, scene
+from support.fillings import ensemble_options, fill_options, rigid_body, scene
 
 FIRST, SECOND, OTHER = Gap(1, 100, 110), Gap(1, 150, 160), Gap(4, 100, 110)
 NO_LIMITS = ErrorLimits()
@@ -40,6 +40,7 @@ def filled(
     name="recorder",
     limits=NO_LIMITS,
     reuse=True,
+    again=True,
     gaps=(FIRST, SECOND, OTHER),
     trials=0,
     pieces=(),
@@ -54,7 +55,9 @@ def filled(
     for frame, place in pieces:
         positions[frame, 1] = place
     growing = GrowingScene(scene(positions))
-    filler = GapFiller(ensemble, limits=limits, reuse=reuse, piece_tolerance=1.0)
+    filler = GapFiller(
+        ensemble, limits=limits, options=fill_options(reuse_filled=reuse, fill_again=again, piece_tolerance=1.0)
+    )
     return filler.fill(growing, gaps, dict.fromkeys(gaps, STRETCH) if pieces else {}), member, growing
 
 
@@ -134,6 +137,7 @@ def test_a_gap_whose_neighbours_were_all_seen_is_not_filled_again_where_another_
     assert [(marker, start) for marker, start, _ in member.scenes] == [(1, 100), (1, 150), (4, 100), (1, 100)]
 
 
-def test_without_filled_inputs_nothing_is_filled_again():
-    _, member, _ = filled(reuse=False)
+@pytest.mark.parametrize("changed", [{"reuse": False}, {"again": False}], ids=str)
+def test_without_filled_inputs_or_where_it_is_not_wanted_nothing_is_filled_again(changed):
+    _, member, _ = filled(**changed)
     assert [(marker, start) for marker, start, _ in member.scenes] == [(1, 100), (1, 150), (4, 100)]
