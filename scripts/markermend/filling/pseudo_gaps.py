@@ -73,7 +73,8 @@ def pseudo_gaps(scene: Scene, gap: Gap, options: EnsembleOptions) -> list[Pseudo
     recording has one border only: its pseudo-gaps hide as much again on the other side, at least 1 s. The gap itself
     stays hidden.
 
-    Several pseudo-gaps share a scene, in which all of them are hidden, so that predictors are trained once for all.
+    Several pseudo-gaps share a scene, in which all of them are hidden; predictors that cannot share the training of the whole
+    scene are trained once for all of them.
 
     Parameters
     ----------

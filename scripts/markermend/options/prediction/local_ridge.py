@@ -38,7 +38,7 @@ class LocalRidgeOptions:
     """Penalty of the regression: the variance of the noise on an input."""
 
     max_training_frames: Count = 2500
-    """Training frames, at most; they are evenly spaced.
+    """Training frames, at most; they are scattered evenly over the recording.
 
     Change it when recordings are long and their motion is varied (higher, at the cost of time)."""
 
