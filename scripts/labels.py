@@ -11,21 +11,21 @@ from typing import Any
 from markermend.command import detector, detector_stage
 from markermend.detection.labels import detect_labels
 from markermend.options.detection.labels import LabelsOptions
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import stage_files
 
 STAGE = detector_stage.command("labels", __doc__, LabelsOptions, finds="faults of labels")
 
 
 def work(call: Any) -> str:
-    recording = stage_files.read_recording(call.markers)
-    mesh = mesh_file.read(call.mesh, recording.facts["recording"], recording.markers)
+    recording = call.files.recording(call.markers)
+    mesh = call.files.mesh(call.mesh, recording)
     found, warnings = detect_labels(**detector.labels_arguments(recording, mesh, call.options))
     stage_files.write_events(call.events, found, {**call.facts, "warnings": warnings})
     return detector_stage.result(found)
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    STAGE.run(work, argv)
+    detector_stage.run(STAGE, work, argv)
 
 
 if __name__ == "__main__":

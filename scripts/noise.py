@@ -25,7 +25,7 @@ def work(call: detector_stage.DetectorCall) -> str:
 
 
 def main(argv: Sequence[str] | None = None) -> None:
-    STAGE.run(work, argv)
+    detector_stage.run(STAGE, work, argv)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 """CPU time and memory of each stage's command on recordings, beside the last table and another version of the project.
 
 Reads: recordings; a checkout of another version.
-Writes: for each recording a line to stdout for each stage, for all of them and for Snakemake.
+Writes: for each recording a line to stdout for each stage, for all jobs and for Snakemake.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.stages ../shared/data/clean/85_12.c3d --other ../markermend-before
 
 The workflow cleans each recording, then the commands of its jobs run again in processes of their own with one thread: medians of several
-runs, in which the versions take turns. `start_s` is what a command needs to print its help: Python, imports and flags. `last` is the CPU
+runs, in which the versions take turns. Detectors that run in one job (`detect`) run by themselves, too; all jobs together are without these. `start_s` is what a command needs to print its help: Python, imports and flags. `last` is the CPU
 time in the table that `--tsv` replaces.
 """
 
@@ -27,6 +27,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from benchmarks.support import result_tables
+from markermend.core.artifacts import DETECTORS
+from markermend.storage import output_checksums
 
 PROJECT = Path(__file__).resolve().parents[2]
 """The folder of the project."""
@@ -76,6 +78,14 @@ class Job:
             path.unlink(missing_ok=True)
         self.runs.append(Cost.of(self.command, project))
 
+    def cost(self) -> dict[str, float]:
+        """Medians over the runs, and the largest memory."""
+        return {
+            "start_s": statistics.median(cost.seconds for cost in self.starts),
+            "cpu_s": statistics.median(cost.seconds for cost in self.runs),
+            "megabytes": max(cost.megabytes for cost in self.runs),
+        }
+
 
 class Version:
     """A version of the project that cleaned a recording.
@@ -105,26 +115,25 @@ class Version:
         for row in reversed(list(csv.DictReader(printed.splitlines(), delimiter="\t"))):
             if row["shellcmd"] != "-":
                 self.jobs.setdefault(row["rule"], Job(row["shellcmd"])).outputs.append(Path(row["output_file"]))
+        self.detectors = {
+            record.stage: Job(shlex.join(record.command), [folder.parent / name for name in record.outputs])
+            for folder in results.glob("*/*/logs")
+            for record in output_checksums.records(folder.parent)
+            if record.stage in DETECTORS and record.stage not in self.jobs
+        }
 
     def run(self) -> None:
         """Run the command of each stage once."""
-        for job in self.jobs.values():
+        for job in (*self.jobs.values(), *self.detectors.values()):
             job.run(self.project)
 
     def costs(self) -> dict[str, dict[str, float]]:
         """Medians over the runs by stage, their sums, and what Snakemake needed in addition."""
-        rows = {
-            stage: {
-                "start_s": statistics.median(cost.seconds for cost in job.starts),
-                "cpu_s": statistics.median(cost.seconds for cost in job.runs),
-                "megabytes": max(cost.megabytes for cost in job.runs),
-            }
-            for stage, job in self.jobs.items()
-        }
+        rows = {stage: job.cost() for stage, job in self.jobs.items()}
         starts, seconds = (sum(row[name] for row in rows.values()) for name in ("start_s", "cpu_s"))
         rows["all"] = {"start_s": starts, "cpu_s": seconds, "megabytes": max(row["megabytes"] for row in rows.values())}
         rows["snakemake"] = {"cpu_s": self.workflow - seconds}
-        return rows
+        return {**{stage: job.cost() for stage, job in self.detectors.items()}, **rows}
 
 
 def measure(recording: Path, projects: Sequence[Path], runs: int) -> list[dict[str, dict[str, float]]]:

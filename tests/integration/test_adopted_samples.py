@@ -50,6 +50,7 @@ def run(source, folder, config):
     files = {name: str(own / name) for name in ("01_markers.parquet", "02_labels.parquet", "02_frozen.parquet")}
     body = str(folder / "mesh.json")
     common = ["--markers", files["01_markers.parquet"], "--mesh", body]
+    code = ["--code", ""]
     found = [files["02_labels.parquet"], files["02_frozen.parquet"]]
 
     def options(name):
@@ -69,8 +70,8 @@ def run(source, folder, config):
         ]
     )
     mesh.main(["--markers", files["01_markers.parquet"], "--mesh-files", "--mesh", body, *options("mesh")])
-    labels.main([*common, "--earlier", "--events", found[0], *options("labels")])
-    frozen.main([*common, "--earlier", found[0], "--events", found[1], *options("frozen")])
+    labels.main([*common, *code, "--earlier", "--events", found[0], *options("labels")])
+    frozen.main([*common, *code, "--earlier", found[0], "--events", found[1], *options("frozen")])
     at = {name: str(own / f"{name}.parquet") for name in ("06", "06_changes", "07", "07_changes", "originals")}
     decided = ["--decisions=[]"]
     repair.main(
@@ -87,7 +88,7 @@ def run(source, folder, config):
         ]
     )
     fill.main(
-        ["--repaired", at["06"], "--repairs", at["06_changes"], "--mesh", body, "--poses", "--code", "", "--filled", at["07"],
+        ["--repaired", at["06"], "--repairs", at["06_changes"], "--mesh", body, "--poses", *code, "--filled", at["07"],
          "--changes", at["07_changes"], *options("fill"), *decided]
     )  # fmt: skip
     written = ["--changes", str(own / "changes.tsv"), "--certificate", str(own / "certificate.json")]

@@ -30,6 +30,7 @@ def test_what_is_asked_for_is_imported():
     [
         "ingest",
         "mesh",
+        "detect",
         "labels",
         "frames",
         "frozen",

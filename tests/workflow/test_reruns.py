@@ -15,12 +15,12 @@ from pathlib import Path
 import pytest
 import yaml
 
+from markermend.core.artifacts import DETECTORS
 from markermend.planning import code_hashes
+from markermend.storage import stage_files
 from support.workflow_runs import Project, write_recording
 
-CHAIN = [
-    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "fill", "export_c3d", "qc", "report",
-]  # fmt: skip
+CHAIN = ["ingest", "mesh", "detect", "repair", "fill", "export_c3d", "qc", "report"]
 NOTHING = "Nothing to be done"
 FAULT = """
 import os, sys
@@ -65,8 +65,13 @@ def places(rows: Iterable[dict[str, str]]) -> list[tuple[str, ...]]:
     return [tuple(row[name] for name in ("marker", "first_frame", "last_frame", "class")) for row in rows]
 
 
-def script(rule):
-    return rule.split("_")[0]
+def scripts(rule):
+    """The scripts that a job of a rule runs."""
+    return ["detect", *DETECTORS] if rule == "detect" else [rule.split("_")[0]]
+
+
+def code_of(project, rule):
+    return str([code_hashes.code(project.folder / f"scripts/{script}.py") for script in scripts(rule)])
 
 
 def test_a_second_run_has_nothing_to_do_and_neither_has_one_after_a_touch(finished):
@@ -108,14 +113,13 @@ def test_an_original_is_recognised_by_its_content_whatever_its_date_or_name(fini
     [
         "markermend/storage/stage_files.py",
         "markermend/mesh/segment_tree.py",
+        "markermend/detection/tails.py",
         "markermend/export/write_back.py",
         "fill.py",
     ],
 )
 def test_an_edit_reruns_the_first_stage_that_uses_the_module_and_what_follows(finished, module):
-    users = [
-        stage for stage in CHAIN if module in str(code_hashes.code(finished.folder / f"scripts/{script(stage)}.py"))
-    ]
+    users = [rule for rule in CHAIN if module in code_of(finished, rule)]
     with edited(finished.folder / "scripts" / module, "\n# edited\n"):
         plan = finished.plan()
     assert plan.parameters_changed == {users[0]}
@@ -124,18 +128,45 @@ def test_an_edit_reruns_the_first_stage_that_uses_the_module_and_what_follows(fi
 
 
 @pytest.mark.parametrize(
-    ("stage", "change"),
+    ("rule", "change"),
     [
-        ("steps", {"steps": {"threshold_sigmas": 7.5}}),
-        ("steps", {"advanced": {"steps": {"paper": {"window_s": 0.2}}}}),
+        ("detect", {"steps": {"threshold_sigmas": 7.5}}),
+        ("detect", {"advanced": {"steps": {"paper": {"window_s": 0.2}}}}),
         ("qc", {"qc": {"plots": 7}}),
     ],
 )
-def test_an_option_reruns_its_stage_and_what_follows(finished, stage, change, tmp_path):
+def test_an_option_reruns_its_job_and_what_follows(finished, rule, change, tmp_path):
     (tmp_path / "study.yaml").write_text(yaml.safe_dump(change))
     plan = finished.plan("--configfile", str(tmp_path / "study.yaml"))
-    assert plan.parameters_changed == {stage}
-    assert plan.jobs == {**dict.fromkeys(CHAIN[CHAIN.index(stage) : -1], 2), "report": 1, "all": 1}
+    assert plan.parameters_changed == {rule}
+    assert plan.jobs == {**dict.fromkeys(CHAIN[CHAIN.index(rule) : -1], 2), "report": 1, "all": 1}
+
+
+def test_an_option_of_a_detector_reruns_it_and_no_detector_before(finished, tmp_path):
+    before = finished.outputs()
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"slow": {"threshold_sigmas": 7.5}}))
+    finished.run("--configfile", str(tmp_path / "study.yaml"))
+    log = (finished.results / "S01/a/logs/detect.log").read_text()
+    kept = re.findall(r"^INFO (\w+): the outputs are kept", log, re.MULTILINE)
+    assert kept == [stage for stage in DETECTORS if stage != "slow"]
+    assert NOTHING in finished.plan("--configfile", str(tmp_path / "study.yaml")).text
+    finished.run()
+    assert finished.outputs() == before and NOTHING in finished.plan().text
+
+
+def test_events_of_a_detector_can_be_asked_for_and_of_one_that_is_off_are_not_read(finished, tmp_path):
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"detect": ["frozen", "peaks"]}))
+    given = ("--configfile", str(tmp_path / "study.yaml"))
+    slow = finished.results / "S01/a/05_slow.parquet"
+    before = slow.read_bytes()
+    assert finished.plan(str(finished.results / "S01/a/02_peaks.parquet"), *given).jobs == {"detect": 1}
+    slow.write_text("not events")
+    finished.run(*given)
+    assert "05_slow" not in (finished.results / "S01/a/logs/repair.json").read_text()
+    facts = stage_files.read_facts(finished.results / "S01/a/06_repaired.parquet")
+    assert len(facts["inputs"]["events"]) == 2
+    finished.run()
+    assert slow.read_bytes() == before
 
 
 def test_a_run_that_is_started_in_another_folder_notices_the_same(finished, tmp_path):
@@ -143,7 +174,7 @@ def test_a_run_that_is_started_in_another_folder_notices_the_same(finished, tmp_
     here = finished.command("--dry-run", "--snakefile", str(finished.folder / "Snakefile"))
     for arguments, expected in (
         ((), NOTHING),
-        (("--configfile", "study.yaml"), r"changed since last execution:\n\s+steps"),
+        (("--configfile", "study.yaml"), r"changed since last execution:\n\s+detect"),
     ):
         done = subprocess.run(
             [*here, *arguments], cwd=tmp_path, stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True, check=True
@@ -254,7 +285,7 @@ def test_a_damaged_file_is_made_anew_and_alters_no_result(finished):
 def test_a_damaged_file_of_a_subject_is_made_anew_by_the_next_run(finished):
     before = finished.outputs()
     damage(finished.results / "S01/mesh.json")
-    text = finished.run("--forcerun", "frozen")
+    text = finished.run("--forcerun", "detect")
     assert (
         "set aside: S01/a: mesh.json is not as mesh wrote it: the file is damaged; the next run makes it anew" in text
     )

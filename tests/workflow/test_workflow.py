@@ -12,14 +12,14 @@ from pathlib import Path
 import pytest
 import yaml
 
+from markermend.core.artifacts import DETECTORS
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
 from markermend.planning.recordings import FORMATS
 from support.workflow_runs import PROJECT, Project, write_recording
 
-STAGES = (
-    "ingest", "mesh", "labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow", "repair", "poses", "fill", "export", "qc", "report",
-)  # fmt: skip
+RULES = ("ingest", "mesh", "detect", "repair", "poses", "fill", "export", "qc", "report")
+STAGES = tuple(stage for rule in RULES for stage in (DETECTORS if rule == "detect" else [rule]))
 
 
 def stage_of(name):
@@ -36,6 +36,7 @@ def test_a_command_has_the_options_of_its_section(name):
     own = {option.name for option in stage_options(SECTIONS[name])}
     assert own <= required - files
     given = {
+        **{stage: {"code"} for stage in DETECTORS},
         "ingest": {"recording", "subject", "kind", "rate", "sha256", "within"},
         "repair": {"decisions"},
         "fill": {"decisions", "code"},
@@ -54,7 +55,7 @@ def test_a_folder_of_every_format_is_planned_whole(project):
         (project.recordings / name).parent.mkdir(parents=True, exist_ok=True)
         (project.recordings / name).touch()
     plan = project.plan()
-    every = dict.fromkeys((*STAGES[2 : STAGES.index("poses")], "fill", "qc", "ingest"), 4)
+    every = dict.fromkeys(("ingest", "detect", "repair", "fill", "qc"), 4)
     exports = dict.fromkeys(["export_c3d", "export_trc", "export_csv", "export_tsv"], 1)
     assert plan.jobs == {**every, **exports, "mesh": 2, "poses": 2, "report": 1, "all": 1}
     assert "OMP_NUM_THREADS" not in plan.text
@@ -63,7 +64,7 @@ def test_a_folder_of_every_format_is_planned_whole(project):
 def test_on_a_cluster_every_stage_but_the_report_travels_in_a_group():
     profile = yaml.safe_load((PROJECT / "profiles/slurm/profile.yaml").read_text())
     groups = dict(entry.split("=") for entry in profile["groups"])
-    assert {rule.split("_")[0] for rule in groups} == {*STAGES} - {"report"}
+    assert {rule.split("_")[0] for rule in groups} == {*RULES} - {"report"}
     assert {f"export_{suffix}" for suffix in FORMATS} < set(groups)
     assert {entry.split("=")[0] for entry in profile["group-components"]} == set(groups.values())
 
@@ -157,7 +158,7 @@ def test_a_bad_file_is_set_aside_with_its_reason_and_the_run_ends_well(hostile):
 def test_detectors_that_are_not_wanted_leave_no_trace(hostile):
     folder, text = hostile
     assert {path.name[:2] for path in folder.glob("out/*/*/0*.parquet")} == {"01", "06", "07"}
-    assert "peaks.py" not in text
+    assert "detect.py" not in text
 
 
 def test_a_logged_command_can_be_pasted_anywhere(hostile):

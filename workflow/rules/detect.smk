@@ -1,36 +1,34 @@
-"""Find the artifacts, one class after the other in their strict order; a class that is not in `detect` has no job.
+"""Find the artifacts, one class after the other in their strict order, in one job; a class that is not in `detect` has no file.
 
-Reads: 01_markers.parquet, mesh.json, the events of the classes before.
+Reads: 01_markers.parquet, mesh.json.
 Writes: 02_labels.parquet, 02_frames.parquet, 02_frozen.parquet, 02_tails.parquet, 02_peaks.parquet, 03_noise.parquet, 04_steps.parquet, 05_slow.parquet.
 """
 
-for stage in plan.detectors:
+if plan.detectors:
 
-    rule:
-        name:
-            stage
+    rule detect:
         input:
             markers=files.markers,
             mesh=files.mesh,
-            earlier=plan.events(before=stage),
         output:
-            events=files.events[stage],
+            # Not removed before the job, which keeps those whose detector has the same inputs, options and code.
+            events=update(plan.events),
         log:
-            f"{files.logs}/{stage}.log",
+            f"{files.logs}/detect.log",
         benchmark:
-            f"{files.logs}/{stage}.tsv"
+            f"{files.logs}/detect.tsv"
         conda:
             "../../envs/base.yaml"
         threads: 1
         resources:
             mem_mb=2000,
-            runtime=10,
+            runtime=30,
         params:
-            code=plan.code(stage),
-            options=plan.stage_options(stage),
-            failures=plan.failed(stage),
+            code=plan.code("detect"),
+            detectors=plan.detectors_file,
+            failures=plan.failed(*plan.detectors),
         message:
-            "Detect {rule} in {wildcards.subject}/{wildcards.recording}"
+            "Detect artifacts in {wildcards.subject}/{wildcards.recording}"
         shell:
-            "{PYTHON:q} {SCRIPTS:q}/{rule}.py --markers {input.markers:q} --mesh {input.mesh:q}"
-            " --earlier {input.earlier:q} --events {output.events:q} {params.options} 2> {log:q}"
+            "{PYTHON:q} {SCRIPTS:q}/detect.py --markers {input.markers:q} --mesh {input.mesh:q}"
+            " --detectors {params.detectors:q} --events {output.events:q} 2> {log:q}"

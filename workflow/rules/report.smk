@@ -10,7 +10,7 @@ rule qc:
     input:
         markers=files.markers,
         mesh=files.mesh,
-        events=plan.events(),
+        events=plan.events,
         repaired=files.repaired,
         filled=files.filled,
         changes=files.changes,

@@ -10,7 +10,7 @@ rule repair:
     input:
         markers=files.markers,
         mesh=files.mesh,
-        events=plan.events(),
+        events=plan.events,
     output:
         repaired=files.repaired,
         changes=files.repairs,

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from markermend.command.detector import detector_arguments, under_right_labels
+from markermend.command.detector_inputs import DetectorInputs
 from markermend.command.presets import Published, preset_detector
 from markermend.command.stage import Stage
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.options.detection.detector import DetectorOptions
-from markermend.storage import mesh_file, stage_files
+from markermend.storage import stage_files
 
 
 class DetectorCall(Protocol):
@@ -30,6 +31,8 @@ class DetectorCall(Protocol):
         The section of the detector.
     facts : dict of str to Any
         Stage, options and checksums of the inputs, to be stored with the events.
+    files : DetectorInputs
+        Reads the files.
     """
 
     markers: Path
@@ -38,6 +41,7 @@ class DetectorCall(Protocol):
     events: Path
     options: DetectorOptions
     facts: dict[str, Any]
+    files: DetectorInputs
 
 
 def command(name: str, description: str, options: type, *, finds: str) -> Stage:
@@ -66,7 +70,40 @@ def command(name: str, description: str, options: type, *, finds: str) -> Stage:
         "earlier", "events of the detectors before: labels to exchange, samples to leave out", many=True, optional=True
     )
     stage.writes("events", f"the {finds} found")
+    stage.keeps_outputs()
     return stage
+
+
+def run(
+    stage: Stage,
+    work: Callable[[Any], str],
+    argv: Sequence[str] | None = None,
+    *,
+    script: Path | None = None,
+    files: DetectorInputs | None = None,
+) -> None:
+    """Run the command of a detector.
+
+    Parameters
+    ----------
+    stage : Stage
+        The command.
+    work : callable
+        What it does (`Stage.run`); the files that it reads are read through `DetectorCall.files`.
+    argv : sequence of str, optional
+        The arguments, in place of the command line's.
+    script : Path, optional
+        See `Stage.run`.
+    files : DetectorInputs, optional
+        What detectors before it have read in this process.
+    """
+    own = files or DetectorInputs()
+
+    def with_files(call: Any) -> str:
+        call.files = own
+        return work(call)
+
+    stage.run(with_files, argv, script=script, checksums=own.checksums)
 
 
 def arguments(call: DetectorCall) -> tuple[dict[str, Any], list[Event]]:
@@ -89,10 +126,9 @@ def arguments(call: DetectorCall) -> tuple[dict[str, Any], list[Event]]:
     SetAside
         If an earlier stage set the recording aside.
     """
-    recording = stage_files.read_recording(call.markers)
-    mesh = mesh_file.read(call.mesh, recording.facts["recording"], recording.markers)
-    earlier = [event for path in call.earlier for event in stage_files.read_events(path)]
-    return detector_arguments(recording, mesh, earlier, options=call.options)
+    recording = call.files.recording(call.markers)
+    mesh = call.files.mesh(call.mesh, recording)
+    return detector_arguments(recording, mesh, call.files.events(call.earlier), options=call.options)
 
 
 def write(call: DetectorCall, found: list[Event], recorded_under: Sequence[Event], facts: dict[str, Any]) -> None:

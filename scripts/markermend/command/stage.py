@@ -36,6 +36,9 @@ from markermend.storage.folder_names import printable
 
 log = logging.getLogger("markermend")
 
+Checksums = Callable[..., str | list[str]]
+"""Computes the checksums of inputs, as inputs.checksums does."""
+
 
 class Stage:
     """One stage as a command: every flag is required, none may be abbreviated.
@@ -164,6 +167,8 @@ class Stage:
         argv: Sequence[str] | None = None,
         *,
         set_aside: Callable[[Any, SetAside], None] | None = None,
+        script: Path | None = None,
+        checksums: Checksums = inputs.checksums,
     ) -> None:
         """Parse the flags, work, log one line of result.
 
@@ -175,6 +180,10 @@ class Stage:
             The arguments, in place of the command line's.
         set_aside : callable, optional
             How to write the outputs of a recording that was set aside, where a note in their place will not do.
+        script : Path, optional
+            The script of the stage, where `argv` are arguments for it: log and records then name it, whatever command this process is.
+        checksums : callable, optional
+            Computes the checksums of inputs (inputs.checksums).
 
         Raises
         ------
@@ -183,7 +192,7 @@ class Stage:
         """
         logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
         try:
-            self._run(work, argv, set_aside)
+            self._run(work, argv, set_aside, script, checksums)
         except NotWritten as error:
             log.error("%s: %s", self.name, error)
             raise SystemExit(1) from error
@@ -193,10 +202,14 @@ class Stage:
         work: Callable[[Any], str | None],
         argv: Sequence[str] | None,
         set_aside: Callable[[Any, SetAside], None] | None,
+        script: Path | None,
+        checksums: Checksums,
     ) -> None:
         """As `run`; NotWritten where an output cannot be written."""
         arguments = vars(self.parser.parse_args(argv))
-        log.info("%s", shlex.join([sys.executable, *([sys.argv[0], *argv] if argv is not None else sys.argv)]))
+        words = sys.argv if argv is None else [str(script) if script else sys.argv[0], *argv]
+        command = [sys.executable, *words]
+        log.info("%s", shlex.join(command))
         made = [
             cls(**{option.name: arguments[option.name] for option in options}) for cls, options in self._classes.items()
         ]
@@ -208,7 +221,7 @@ class Stage:
         started = time.perf_counter()
 
         def prepare_and_work() -> str | None:
-            call.facts = self._facts(arguments, made)
+            call.facts = self._facts(arguments, made, checksums)
             return self._work_or_keep(work, call, arguments.get("code"))
 
         result, failure = self._attempt(prepare_and_work, call, arguments)
@@ -221,8 +234,8 @@ class Stage:
             else:
                 for name in self.outputs:
                     stage_files.set_aside(getattr(call, name), failure.stage, failure.reason)
-        command = [] if argv is not None else [sys.executable, *sys.argv]
-        output_checksums.write(self.name, self._written(call), command=command, dependencies=call.dependencies)
+        known = command if argv is None or script else []
+        output_checksums.write(self.name, self._written(call), command=known, dependencies=call.dependencies)
         log.info("%s: %s (%.2f s)", self.name, result or "done", time.perf_counter() - started)
 
     def _work_or_keep(self, work: Callable[[Any], str | None], call: Any, code: str | None) -> str | None:
@@ -243,22 +256,22 @@ class Stage:
         paths = [path for given in named for path in ([given] if isinstance(given, Path) else given)]
         return [path for path in paths if path.is_file()]
 
-    def _facts(self, arguments: dict[str, Any], options: Sequence[Any]) -> dict[str, Any]:
+    def _facts(self, arguments: dict[str, Any], options: Sequence[Any], checksums: Checksums) -> dict[str, Any]:
         """What the outputs store: the stage, its options, and the checksums of its inputs."""
         return {
             "stage": self.name,
             "options": {name: own for each in options for name, own in passed(each).items()},
-            "inputs": {name: self._checksum(name, arguments) for name in self.inputs},
+            "inputs": {name: self._checksum(name, arguments, checksums) for name in self.inputs},
         }
 
-    def _checksum(self, name: str, arguments: dict[str, Any]) -> Any:
+    def _checksum(self, name: str, arguments: dict[str, Any], checksums: Checksums) -> Any:
         """The checksums of an input."""
         own = arguments[self.outputs[0]].parent
         if self._original and name == "source":
             return inputs.original_checksum(arguments[name], within=arguments["within"])
         if name in self._lenient:
             return inputs.checksums_or_none(arguments[name], own=own)
-        return inputs.checksums(arguments[name], own=own)
+        return checksums(arguments[name], own=own)
 
     def _attempt(
         self, work: Callable[[], str | None], call: Any, arguments: dict[str, Any]

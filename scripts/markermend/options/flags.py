@@ -62,6 +62,22 @@ def flag(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
+def flags(options: Any) -> list[str]:
+    """Write options as flags.
+
+    Parameters
+    ----------
+    options : Any
+        An instance of a class of options.
+
+    Returns
+    -------
+    list of str
+        `--name=value` for each, so that a leading dash or `@` means nothing; lists and mappings are JSON.
+    """
+    return [f"{flag(name)}={text(value)}" for name, value in passed(options).items()]
+
+
 def write_flags(options: Any) -> str:
     """Write options as flags, quoted for a shell.
 
@@ -73,6 +89,6 @@ def write_flags(options: Any) -> str:
     Returns
     -------
     str
-        `--name=value` for each, so that a leading dash or `@` means nothing; lists and mappings are JSON.
+        The flags.
     """
-    return shlex.join(f"{flag(name)}={text(value)}" for name, value in passed(options).items())
+    return shlex.join(flags(options))

@@ -7,6 +7,7 @@ Writes: lists of files beside the results, and the facts of the run.
 from __future__ import annotations
 
 import hashlib
+import json
 import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -19,7 +20,7 @@ from typing import Any
 import markermend
 from markermend.core.artifacts import DETECTORS
 from markermend.options.config import write_config
-from markermend.options.flags import write_flags
+from markermend.options.flags import flags, write_flags
 from markermend.options.general import EXPERIMENTS
 from markermend.planning import code_hashes, partial_report, run_facts, run_summary
 from markermend.planning import config as planning_config
@@ -73,6 +74,21 @@ class Plan:
         """The detectors that run, in their strict order."""
         return [stage for stage in DETECTORS if stage in self.options["general"].detect]
 
+    @cached_property
+    def detector_flags(self) -> dict[str, list[str]]:
+        """The options and the code of each detector that runs, as flags of its command."""
+        return {stage: [f"--code={self.code(stage)}", *flags(self.options[stage])] for stage in self.detectors}
+
+    @cached_property
+    def detectors_file(self) -> str:
+        """The file of these flags: its name is another where a flag is, and the job that reads it runs again.
+
+        The flags themselves would be in the command that Snakemake records of each of the files that the job writes, in all a hundred
+        thousand bytes a recording.
+        """
+        content = json.dumps(self.detector_flags, sort_keys=True)
+        return self.files.detectors.format(checksum=hashlib.sha256(content.encode()).hexdigest()[:16])
+
     @property
     def trains_networks(self) -> bool:
         """Whether neural networks help to fill, which need torch."""
@@ -124,21 +140,10 @@ class Plan:
             raise BadDataSet(self.data.missing)
         return self.report_files
 
-    def events(self, before: str | None = None) -> list[str]:
-        """Name the events files of the detectors that run.
-
-        Parameters
-        ----------
-        before : str, optional
-            A detector; only those before it are named.
-
-        Returns
-        -------
-        list of str
-            Patterns of the files, in the order of the detectors.
-        """
-        stages = self.detectors if before is None else self.detectors[: self.detectors.index(before)]
-        return [self.files.events[stage] for stage in stages]
+    @property
+    def events(self) -> list[str]:
+        """The events files of the detectors that run, as patterns in their order."""
+        return [self.files.events[stage] for stage in self.detectors]
 
     def subject_markers(self, wildcards: Wildcards) -> list[str]:
         """The ingested trajectories of the recordings that the mesh of the subject is inferred from; see `DataSet.entry`."""
@@ -214,13 +219,13 @@ class Plan:
 
         return of_stage
 
-    def failed(self, stage: str) -> Callable[[Wildcards], int]:
-        """Count the failures of a stage: one more, and the next run tries again.
+    def failed(self, *stages: str) -> Callable[[Wildcards], int]:
+        """Count the failures of the stages of a job: one more, and the next run tries again.
 
         Parameters
         ----------
-        stage : str
-            Its name.
+        *stages : str
+            Their names.
 
         Returns
         -------
@@ -228,14 +233,15 @@ class Plan:
             Gives the number of failures on what a job is about.
         """
 
-        def of_stage(wildcards: Wildcards) -> int:
+        def of_job(wildcards: Wildcards) -> int:
             subject, recording = getattr(wildcards, "subject", "report"), getattr(wildcards, "recording", "")
-            return self.failures[subject, recording, stage]
+            return sum(self.failures[subject, recording, stage] for stage in stages)
 
-        return of_stage
+        return of_job
 
     def write_lists(self) -> None:
-        """Write the lists of files that meshes, poses and the report are made of: a command line has no room for thousands."""
+        """Write the flags of detectors, and lists of files for meshes, poses and report: a command line has no room for thousands."""
+        write_json(Path(self.detectors_file), self.detector_flags)
         write_list(self.files.quality_list, self.report_files)
         if len(self.batches) > 1:
             for name, paths in self.batches.items():

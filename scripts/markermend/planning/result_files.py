@@ -136,6 +136,11 @@ class ResultFiles:
         return f"{self.subject}/logs/repaired.txt"
 
     @property
+    def detectors(self) -> str:
+        """The flags of the detectors, with the wildcard `{checksum}` of this file itself."""
+        return f"{self.report}/logs/detectors_{{checksum}}.json"
+
+    @property
     def batch(self) -> str:
         """The folder of a batch of recordings of the report, with the wildcard `{batch}`."""
         return f"{self.report}/batches/{{batch}}"

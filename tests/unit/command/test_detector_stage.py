@@ -9,6 +9,7 @@ import pytest
 
 import mesh as mesh_script
 from markermend.command import detector_stage
+from markermend.command.detector_inputs import DetectorInputs
 from markermend.core.events import Event
 from markermend.options.config import read_config
 from markermend.options.flags import write_flags
@@ -42,7 +43,9 @@ def files(tmp_path_factory, walker):
 
 def arguments(files, earlier, preset="default"):
     options = read_config({"peaks": {"preset": preset}})["peaks"]
-    call = SimpleNamespace(markers=files.markers, mesh=files.mesh, earlier=earlier, options=options)
+    call = SimpleNamespace(
+        markers=files.markers, mesh=files.mesh, earlier=earlier, options=options, files=DetectorInputs()
+    )
     given, recorded_under = detector_stage.arguments(call)
     return given["scene"].positions, given["earlier"], recorded_under
 

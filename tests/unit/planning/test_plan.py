@@ -5,6 +5,7 @@ import json
 import shlex
 import tempfile
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -13,7 +14,7 @@ from markermend.core.artifacts import DETECTORS
 from markermend.core.recording import SetAside
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
-from markermend.planning.plan import make_plan
+from markermend.planning.plan import Plan, make_plan
 from markermend.planning.recordings import BadDataSet
 from markermend.report import recording_report
 from markermend.storage.atomic import write_json
@@ -55,13 +56,26 @@ def test_a_subject_has_poses_where_its_recordings_are_filled_from_each_other(pla
         assert make_plan(other, PROJECT, deployed=False).poses(job()) == []
 
 
-def test_a_detector_looks_at_the_events_of_those_before_it(plan, config):
+def test_detectors_that_run_have_events_in_their_strict_order(plan, config):
     assert plan.detectors == list(DETECTORS)
-    assert plan.events() == [plan.files.events[stage] for stage in DETECTORS]
-    assert plan.events(before=DETECTORS[0]) == []
+    assert plan.events == [plan.files.events[stage] for stage in DETECTORS]
     some = make_plan({**config, "detect": ["slow", "peaks"]}, PROJECT, deployed=False)
-    assert some.detectors == ["peaks", "slow"]
-    assert some.events(before="slow") == [plan.files.events["peaks"]]
+    assert some.detectors == list(some.detector_flags) == ["peaks", "slow"]
+    assert some.events == [plan.files.events["peaks"], plan.files.events["slow"]]
+
+
+def test_the_flags_of_detectors_lie_in_a_file_that_has_another_name_where_one_changes(plan, config, monkeypatch):
+    plan.write_lists()
+    assert json.loads(Path(plan.detectors_file).read_text()) == plan.detector_flags
+    code, *options = plan.detector_flags["slow"]
+    assert code == f"--code={plan.code('slow')}"
+    assert options == shlex.split(plan.stage_options("slow")(job()))
+    assert make_plan(config, PROJECT, deployed=False).detectors_file == plan.detectors_file
+    changed = [{**config, "detect": ["peaks"]}, {**config, "frozen": {**config["frozen"], "min_frames": 9}}]
+    names = {make_plan(each, PROJECT, deployed=False).detectors_file for each in changed}
+    monkeypatch.setattr(Plan, "code", lambda plan, stage: "edited")
+    names.add(make_plan(config, PROJECT, deployed=False).detectors_file)
+    assert len({*names, plan.detectors_file}) == 4
 
 
 def test_trc_is_written_besides_text_and_on_request_besides_c3d(plan, config):
@@ -109,6 +123,7 @@ def test_a_failure_counts_for_what_the_job_is_about(tmp_path, plan, config):
     again = make_plan(config, PROJECT, deployed=False)
     assert plan.failed("fill")(job()) == 0
     assert again.failed("fill")(job()) == 2 and again.failed("fill")(job(recording="run")) == 0
+    assert again.failed("fill", "qc")(job()) == 2 and again.failed("qc", "export")(job()) == 0
     assert again.failed("mesh")(SimpleNamespace(subject="S%201")) == 1
     assert again.failed("report")(SimpleNamespace()) == 1
     assert again.failed("collect")(SimpleNamespace(batch="2_of_2")) == 1
