@@ -7,7 +7,7 @@ RESULTS ?= results
 # Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo papers test test-papers wheel lint config lock clean
+.PHONY: demo papers test test-papers test-cluster wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -23,11 +23,15 @@ papers: .venv/ready
 	@echo "$(abspath $(RESULTS))/papers/index.html"
 
 test: lint
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network and not cluster"
 
 # The experiments of the papers at quick size, on a synthetic person: some minutes.
 test-papers: .venv/ready
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m slow tests/workflow/test_papers.py
+
+# A small SLURM cluster on this machine; skipped where SLURM is not installed, or without root.
+test-cluster: .venv/ready
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m cluster tests/workflow/test_cluster.py
 
 # The package in an empty environment; needs a package index.
 wheel: .venv/ready

@@ -38,6 +38,13 @@ localrules:
     all,
 
 
+if workflow.remote_exec:
+    # Within a job of a cluster: a small workstation. Its recordings are scheduled on its CPUs (--cores), as processes of this one Snakemake. SLURM's
+    # plug-in would have started them one after the other, each by a Snakemake of its own.
+    workflow.localrules(*(rule.name for rule in workflow.rules))
+    workflow.global_resources["_nodes"] = None
+
+
 rule all:
     default_target: True
     input:

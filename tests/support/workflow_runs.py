@@ -68,9 +68,10 @@ class Project:
         shutil.copy(PROJECT / "Snakefile", self.folder)
 
     def command(self, *arguments: str, results: Path | None = None, recordings: Path | None = None) -> list[str]:
-        """The user's command."""
+        """The user's command, on two cores where no profile says on how many."""
         config = [f"recordings={recordings or self.recordings}", f"results={results or self.results}"]
-        return [sys.executable, "-m", "snakemake", "--cores", "2", *arguments, "--config", *config]
+        cores = [] if "--profile" in arguments else ["--cores", "2"]
+        return [sys.executable, "-m", "snakemake", *cores, *arguments, "--config", *config]
 
     def run(self, *arguments: str, environment: dict[str, str] | None = None, status: int = 0, **places: Path) -> str:
         """Run the user's command in the project's folder; it must end with the given exit status."""

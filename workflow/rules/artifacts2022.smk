@@ -45,8 +45,8 @@ rule artifacts2022_networks:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("artifacts2022_networks"),
         seed=papers.options.seed,
@@ -72,8 +72,8 @@ rule artifacts2022_runs:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("artifacts2022_runs"),
         seed=papers.options.seed,
@@ -101,8 +101,8 @@ rule artifacts2022_readings:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("artifacts2022_readings"),
         seed=papers.options.seed,
@@ -129,8 +129,8 @@ rule artifacts2022_slow:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=120,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(120),
     params:
         code=plan.code("artifacts2022_slow"),
         seed=papers.options.seed,
@@ -158,8 +158,8 @@ rule artifacts2022_repairs:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=120,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(120),
     params:
         code=plan.code("artifacts2022_repairs"),
         seed=papers.options.seed,
@@ -188,8 +188,8 @@ rule artifacts2022_operators:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("artifacts2022_operators"),
         seed=papers.options.seed,
@@ -222,8 +222,8 @@ rule artifacts2022_tables:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("artifacts2022_tables"),
         runs=artifacts2022_lists,

@@ -21,8 +21,8 @@ if plan.detectors:
             "../../envs/base.yaml"
         threads: 1
         resources:
-            mem_mb=2000,
-            runtime=30,
+            mem_mb=plan.data.need(2000),
+            runtime=plan.data.need(30),
         params:
             code=plan.code("detect"),
             detectors=plan.detectors_file,

@@ -57,8 +57,8 @@ rule papers_recording:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("papers_recording"),
         recording=papers.recording_flags,
@@ -80,8 +80,8 @@ rule papers_script:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=1000,
-        runtime=5,
+        mem_mb=plan.data.need(1000),
+        runtime=plan.data.need(5),
     params:
         code=plan.code("papers_script"),
     message:
@@ -109,8 +109,8 @@ rule papers_page:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("papers_page", "evaluation/templates", "report/templates"),
         options=papers.paper_options,
@@ -136,8 +136,8 @@ rule papers_index:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("papers_index", "evaluation/templates", "report/templates"),
     message:

@@ -29,8 +29,8 @@ rule gaps2021_runs:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=240,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(240),
     params:
         code=plan.code("gaps2021_runs"),
         seed=papers.options.seed,
@@ -56,8 +56,8 @@ rule gaps2021_descriptors:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("gaps2021_descriptors"),
         options=gaps2021["descriptors"].flag,
@@ -90,8 +90,8 @@ rule gaps2021_tables:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("gaps2021_tables"),
         runs=gaps2021["runs"].list_file,

@@ -16,8 +16,8 @@ rule ingest:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(5),
     params:
         code=plan.code("ingest"),
         options=plan.stage_options("ingest"),
@@ -46,8 +46,8 @@ rule mesh:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=20,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(20),
     params:
         code=plan.code("mesh"),
         options=plan.stage_options("mesh"),

@@ -43,8 +43,8 @@ rule pma2018_runs:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("pma2018_runs"),
         seed=papers.options.seed,
@@ -76,8 +76,8 @@ rule pma2018_tables:
         "../../envs/evaluate.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("pma2018_tables"),
         runs=pma2018["runs"].list_file,

@@ -26,8 +26,8 @@ rule qc:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("qc", "report/templates"),
         options=plan.stage_options("qc"),
@@ -53,8 +53,8 @@ rule collect:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=plan.data.need(2000),
+        runtime=plan.data.need(10),
     params:
         code=plan.code("collect"),
         failures=plan.failed("collect"),
@@ -80,8 +80,8 @@ rule report:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=20,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(20),
     params:
         code=plan.code("report", "report/templates"),
         options=plan.stage_options("report"),

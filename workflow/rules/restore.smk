@@ -22,8 +22,8 @@ rule repair:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=30,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(30),
     params:
         code=plan.code("repair"),
         options=plan.stage_options("repair"),
@@ -51,8 +51,8 @@ rule poses:
         "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=20,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(20),
     params:
         code=plan.code("poses"),
         options=plan.stage_options("poses"),
@@ -83,8 +83,8 @@ rule fill:
         "../../envs/torch.yaml" if plan.trains_networks else "../../envs/base.yaml"
     threads: 1
     resources:
-        mem_mb=4000,
-        runtime=60,
+        mem_mb=plan.data.need(4000),
+        runtime=plan.data.need(60),
     params:
         code=plan.code("fill"),
         options=plan.stage_options("fill"),
@@ -123,8 +123,8 @@ for suffix in FORMATS:
             "../../envs/base.yaml"
         threads: 1
         resources:
-            mem_mb=2000,
-            runtime=10,
+            mem_mb=plan.data.need(2000),
+            runtime=plan.data.need(10),
         params:
             code=plan.code("export"),
             options=plan.stage_options("export"),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import heapq
+import math
+import os
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -22,6 +24,9 @@ from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 SOURCE_STAGES = ("ingest", "export")
 """The stages that read originals."""
+
+LARGE_MB = 20.0
+"""Size of an original up to which its jobs need what their rules state, in MB."""
 
 
 class Wildcards(Protocol):
@@ -125,6 +130,40 @@ class DataSet:
         """The decisions on the recording alone, as a flag; see `DataSet.entry`."""
         decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
         return f"--decisions={text(decided)}"
+
+    def need(self, amount: int) -> Callable[[Wildcards, int], int]:
+        """State how much memory or time a job may take, for a cluster to reserve it.
+
+        Parameters
+        ----------
+        amount : int
+            What suffices for an original of up to LARGE_MB. For a larger one it grows in proportion.
+
+        Returns
+        -------
+        callable
+            Gives the amount for a job and how often it is tried, from 1: as many times the amount, since it has been too little before.
+        """
+
+        def of_job(wildcards: Wildcards, attempt: int) -> int:
+            return math.ceil(amount * attempt * max(1.0, self._megabytes(wildcards) / LARGE_MB))
+
+        return of_job
+
+    def _megabytes(self, wildcards: Wildcards) -> float:
+        """Size of the original file; 0 where there is none, or the job is about several recordings."""
+        folders = getattr(wildcards, "subject", ""), getattr(wildcards, "recording", "")
+        if folders not in self._sizes:
+            try:
+                self._sizes[folders] = os.path.getsize(self.entries[folders].source) / 1e6
+            except (KeyError, OSError):
+                self._sizes[folders] = 0.0
+        return self._sizes[folders]
+
+    @cached_property
+    def _sizes(self) -> dict[Folders, float]:
+        """The sizes of the original files that were looked up so far, in MB."""
+        return {}
 
     def mesh_files(self, wildcards: Wildcards) -> list[str]:
         """The mesh files that the user supplies for the subject; see `DataSet.entry`."""

@@ -1,6 +1,7 @@
 """The data set of a run, asked as the rules ask it."""
 
 import json
+import os
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -52,6 +53,16 @@ def test_an_original_is_identified_by_its_content(plan, config, tmp_path):
     assert plan.data.source_hash(strange) == before
     again = make_plan(config, PROJECT, deployed=False)
     assert again.data.source_hash(strange) == sha256(tmp_path / "{x}.csv") != before
+
+
+def test_a_job_may_take_more_for_a_large_original_and_with_each_attempt(plan, config, tmp_path):
+    need, subject = plan.data.need(2000), SimpleNamespace(subject="S%201")
+    assert [need(job(), attempt) for attempt in (1, 2, 3)] == [need(subject, attempt) for attempt in (1, 2, 3)]
+    assert [need(job(), attempt) for attempt in (1, 2, 3)] == [2000, 4000, 6000]
+    os.truncate(tmp_path / "walk.c3d", 50_000_000)
+    need = make_plan(config, PROJECT, deployed=False).data.need(2000)
+    (tmp_path / "run.trc").unlink()
+    assert (need(job(), 1), need(job(), 2), need(job("S%201", "run"), 1), need(subject, 1)) == (5000, 10000, 2000, 2000)
 
 
 @pytest.mark.parametrize(("stage", "again"), [("ingest", True), ("export", True), ("fill", False)])
