@@ -56,10 +56,12 @@ def adopt(
     Returns
     -------
     ndarray of float, shape (frames, markers, 3)
-        A copy that differs in the findings alone, whose samples are those of the trajectories bit for bit.
+        A copy that differs in the findings alone, whose samples are those of the trajectories bit for bit; the positions themselves
+        where there are no findings.
     """
-    given = positions.copy()
-    for event in adopted:
+    findings = list(adopted)
+    given = positions.copy() if findings else positions
+    for event in findings:
         span = slice(event.start, event.stop)
         given[span, markers.index(event.marker)] = tracks[str(event.source)][span]
     return given

@@ -32,13 +32,14 @@ def undo_exchanges(positions: np.ndarray, exchanges: Iterable[Event], markers: S
     Returns
     -------
     ndarray of float, shape (frames, markers, 3)
-        A copy that differs in the exchanged stretches alone, whose samples are the recorded ones bit for bit.
+        A copy that differs in the exchanged stretches alone, whose samples are the recorded ones bit for bit; the positions
+        themselves where there are none.
     """
-    corrected = positions.copy()
-    for event in exchanges:
-        if event.partner is not None:
-            span = slice(event.start, event.stop)
-            corrected[span, markers.index(event.marker)] = positions[span, markers.index(event.partner)]
+    partners = [(event, event.partner) for event in exchanges if event.partner is not None]
+    corrected = positions.copy() if partners else positions
+    for event, partner in partners:
+        span = slice(event.start, event.stop)
+        corrected[span, markers.index(event.marker)] = positions[span, markers.index(partner)]
     return corrected
 
 

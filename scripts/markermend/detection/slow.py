@@ -117,15 +117,17 @@ class SlowChanges:
         SlowChanges
             The drifts, scored.
         """
-        regressions = list(predictor.regressions(scene, blocks=options.leverage_blocks))
-        residual, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
-        for own in regressions:
-            residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
         scorer, regression = DriftScorer(scene.rate, options), DriftRegression(scene.rate, options.estimated_drifts)
+        residual, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
+        binned = []
+        for own in predictor.regressions(scene, blocks=options.leverage_blocks):
+            residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
+            # The inputs of all markers in all frames would take many times the memory of the recording.
+            binned.append(regression.binned(own, len(residual)))
         motion = scorer.motion(scene)
         scores = scorer.score(scene, residual, factors, motion)
         scale = regression.scale(scene, residual, motion)
-        models = regression.models(regressions, scale, len(residual))
+        models = regression.models(binned, scale)
         estimated = EstimatedDrifts(regression, models, residual, options)
         matched_evidence = MatchedDriftEvidence(scorer, scores, predictor)
         estimated_evidence = EstimatedDriftEvidence(estimated, scale, predictor)

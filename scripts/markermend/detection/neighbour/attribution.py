@@ -150,9 +150,7 @@ def attribute(
         The statistics by which they were found.
     """
     around = Neighbourhood.of(detector.scene, detector.markers, neighbours)
-    trajectories = detector.measure(detector.scene.positions)
-    candidates = [event for m in range(len(detector.markers)) for event in detector.find_candidates(trajectories, m)]
-    contested = around.contested(candidates, len(detector.scene.positions))
+    contested = around.contested(_candidates(detector), len(detector.scene.positions))
     hidden, residual = hide_candidates(
         predictor, detector.scene, contested, markers=detector.markers, border=detector.border
     )
@@ -161,6 +159,12 @@ def attribute(
         if not attribution.advance():
             break
     return attribution.events, attribution.statistics
+
+
+def _candidates(detector: Detector[Statistics]) -> list[Event]:
+    """Where the trajectories themselves have events, by marker."""
+    trajectories = detector.measure(detector.scene.positions)
+    return [event for m in range(len(detector.markers)) for event in detector.find_candidates(trajectories, m)]
 
 
 @dataclass
@@ -211,7 +215,7 @@ class _Attribution(Generic[Statistics]):
         scene, markers = self.detector.scene, self.detector.markers
         self.hidden |= event_mask(strongest, len(scene.positions), markers, border=self.detector.border)
         self.residual = self.residual.copy()
-        self.residual[:, again] = residuals_without(self.predictor, scene, self.hidden, again)[:, again]
+        self.residual[:, again] = residuals_without(self.predictor, scene, self.hidden, again)
         self.statistics = self.detector.update(self.statistics, self.residual, again)
         for m in again:
             kept = [event for event in self.found[m] if event in self.accepted]

@@ -69,8 +69,8 @@ class BandDetector:
     def __init__(self, scene: Scene, band: Callable[[np.ndarray], np.ndarray], options: ExcessVarianceOptions) -> None:
         self._scene, self._band, self._options = scene, band, options
         self._window = max(samples(options.window_s, scene.rate, odd=True), MIN_WINDOW)
-        self._recorded = self._filtered(scene.positions)
-        motion = np.sqrt(np.maximum(moving_mean((self._recorded**2).sum(axis=2), self._window), 0))
+        own = (self._filtered(trajectory) for trajectory in np.moveaxis(scene.positions, 1, 0))
+        motion = np.sqrt(np.stack([self._mean_product(each, each) for each in own], axis=1))
         self._motion = nearest_neighbours.maximum(motion, scene.neighbours, options.motion_neighbours)
 
     def find(self, residual: np.ndarray) -> list[list[Shaking]]:
@@ -86,20 +86,23 @@ class BandDetector:
         list[list[Shaking]]
             The stretches of each marker, in order.
         """
-        shaking = self._filtered(residual)
-        power, common = (
-            np.maximum(moving_mean((shaking * other).sum(axis=2), self._window), 0)
-            for other in (shaking, self._recorded)
-        )
-        power[np.isnan(shaking[..., 0])] = np.nan
+        power, common = np.empty((2, *residual.shape[:2]))
+        # One marker after the other: all filtered trajectories of a long recording take as much memory as the recording.
+        for m in range(residual.shape[1]):
+            shaking, recorded = self._filtered(residual[:, m]), self._filtered(self._scene.positions[:, m])
+            power[:, m], common[:, m] = (self._mean_product(shaking, other) for other in (shaking, recorded))
+            power[np.isnan(shaking[:, 0]), m] = np.nan
         size = np.minimum(common, power) / np.maximum(np.sqrt(power), MIN_SIZE)
         score = self._score(np.sqrt(power), size)
-        return [self._stretches(size[:, m], score[:, m], shaking[:, m], residual[:, m]) for m in range(score.shape[1])]
+        return [self._stretches(size[:, m], score[:, m], residual[:, m]) for m in range(score.shape[1])]
 
-    def _filtered(self, values: np.ndarray) -> np.ndarray:
-        """Filter trajectories (frames, markers, 3)."""
-        columns = [self._band(column) for column in values.reshape(len(values), -1).T]
-        return np.stack(columns, axis=1).reshape(values.shape)
+    def _filtered(self, trajectory: np.ndarray) -> np.ndarray:
+        """Filter a trajectory (frames, 3)."""
+        return np.stack([self._band(axis) for axis in trajectory.T], axis=1)
+
+    def _mean_product(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Moving mean (frames,) of the inner products of two trajectories (frames, 3), at least 0."""
+        return np.maximum(moving_mean((one * other).sum(axis=1), self._window), 0)
 
     def _score(self, residual_size: np.ndarray, size: np.ndarray) -> np.ndarray:
         """Size of shaking (frames, markers) in units of its threshold, 0 where there is none."""
@@ -125,21 +128,20 @@ class BandDetector:
         found: np.ndarray = np.nan_to_num(score)
         return found
 
-    def _stretches(
-        self, size: np.ndarray, score: np.ndarray, shaking: np.ndarray, residual: np.ndarray
-    ) -> list[Shaking]:
+    def _stretches(self, size: np.ndarray, score: np.ndarray, residual: np.ndarray) -> list[Shaking]:
         """The stretches of one marker whose score stays above 1 for long enough, whatever single samples contribute."""
         found, length = [], samples(self._options.min_duration_s, self._scene.rate)
-        for start, stop in runs(score > 1):
-            if stop - start >= length:
-                around = slice(max(0, start - self._window), stop + self._window)
-                enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
-                inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
-                even = evenness(residual[start:stop])
-                lasting = moving.minimum(score[start:stop], length).max() * even
-                rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
-                if lasting > 1 and even >= self._options.min_evenness:
-                    found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
+        long = [(start, stop) for start, stop in runs(score > 1) if stop - start >= length]
+        shaking = self._filtered(residual) if long else residual
+        for start, stop in long:
+            around = slice(max(0, start - self._window), stop + self._window)
+            enough = np.sqrt(self._options.border_power_fraction) * np.median(size[start:stop])
+            inside = around.start + np.flatnonzero(np.linalg.norm(shaking[around], axis=1) > enough)
+            even = evenness(residual[start:stop])
+            lasting = moving.minimum(score[start:stop], length).max() * even
+            rms = np.sqrt(np.mean(shaking[start:stop] ** 2, axis=0))
+            if lasting > 1 and even >= self._options.min_evenness:
+                found.append(Shaking(int(inside[0]), int(inside[-1]) + 1, float(lasting), rms))
         return found
 
 

@@ -206,7 +206,7 @@ def find_flicker(
         return []
     hidden = claimed | event_mask(candidates, len(claimed), markers, border=detector.border)
     residual = statistics.residual.copy()
-    residual[:, concerned] = residuals_without(predictor, detector.scene, hidden, concerned)[:, concerned]
+    residual[:, concerned] = residuals_without(predictor, detector.scene, hidden, concerned)
     statistics = detector.update(statistics, residual, concerned)
     found = [event for m in concerned for event in detector.find_events(statistics, m)]
     return events.disjoint(_with_claims(event, claimed[:, markers.index(event.marker)]) for event in found)

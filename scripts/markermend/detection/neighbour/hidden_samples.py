@@ -55,17 +55,22 @@ def residuals_without(
     Returns
     -------
     np.ndarray
-        Residuals (frames, markers, 3), mm; NaN where there is no prediction, and for the other markers.
+        Residuals of these markers (frames, len(markers), 3), mm; NaN where there is no prediction.
     """
-    seen = scene.positions.copy()
-    seen[hidden] = np.nan
-    # Each marker is there twice: first as the others see it, then as it was recorded, among the same neighbours.
+    # These markers are there twice: first as the others see them, then as they were recorded, among the same neighbours.
     count, near = len(scene.neighbours), list(scene.neighbours)
-    twice = np.concatenate([seen, scene.positions], axis=1)
+    positions = np.concatenate([scene.positions, scene.positions[:, markers]], axis=1)
+    positions[:, :count][hidden] = np.nan
     both = replace(
-        scene, positions=twice, neighbours=near + near, measured=None, inherited_std=None, segment_mates=None
+        scene,
+        positions=positions,
+        neighbours=near + [near[m] for m in markers],
+        measured=None,
+        inherited_std=None,
+        segment_mates=None,
     )
-    return predictor.residuals(both, count + np.array(markers))[:, count:]
+    # A copy, so that the residuals that were not asked for do not stay in memory.
+    return predictor.residuals(both, count + np.arange(len(markers)))[:, count:].copy()
 
 
 def hide_candidates(
@@ -117,8 +122,9 @@ def _needed(predictor: ResidualSource, scene: Scene, hidden: np.ndarray, residua
     lost = np.isnan(residual).any(axis=2) & scene.present & (hidden | ~near_hidden)
     if not (hidden.any() and lost.any()):
         return needed
-    complete = residuals_without(predictor, scene, np.zeros_like(hidden), np.flatnonzero(lost.any(axis=0)).tolist())
-    lost &= ~np.isnan(complete).any(axis=2)
+    some = np.flatnonzero(lost.any(axis=0)).tolist()
+    complete = residuals_without(predictor, scene, np.zeros_like(hidden), some)
+    lost[:, some] &= ~np.isnan(complete).any(axis=2)
     for m in np.flatnonzero(lost.any(axis=0)).tolist():
         affected = lost[:, m] & near_hidden[:, m]
         needed[np.ix_(affected if affected.any() else np.ones_like(affected), near[m])] = True

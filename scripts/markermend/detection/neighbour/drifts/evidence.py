@@ -186,7 +186,9 @@ class EstimatedDriftEvidence:
         """Fit the model in the scene. See `DriftEvidence.remaining_score`."""
         blocks = self.drifts.options.leverage_blocks
         regressions = self.predictor.regressions(scene, np.array([marker]), blocks=blocks)
-        models = self.drifts.regression.models(regressions, self.scale, len(scene.positions))
+        fitted = self.drifts.regression
+        binned = [fitted.binned(own, len(scene.positions)) for own in regressions]
+        models = fitted.models(binned, self.scale)
         return float(self._estimate(models[marker], event).statistic[0] / self.drifts.own.threshold_sigmas)
 
     def _estimate(self, model: DriftModel, event: Event) -> PulseResponses:

@@ -84,6 +84,24 @@ class DriftModel(CachesResults):
         return min(each, key=lambda own: float(own.deviation[0]), default=nothing)
 
 
+@dataclass(frozen=True, eq=False)
+class BinnedRegression:
+    """A regression of a marker in means over bins.
+
+    Attributes
+    ----------
+    marker : int
+        Index of the marker.
+    target, inputs, residual : np.ndarray
+        Means (bins, ...) of what `LocalRegression` has at its frames; NaN where unknown.
+    """
+
+    marker: int
+    target: np.ndarray
+    inputs: np.ndarray
+    residual: np.ndarray
+
+
 @dataclass(frozen=True)
 class DriftRegression:
     """Fits the models in which drifts are estimated.
@@ -164,17 +182,36 @@ class DriftRegression:
             min_scale=MIN_SCALE_MM,
         )
 
-    def models(self, regressions: Iterable[LocalRegression], scale: np.ndarray, frames: int) -> list[DriftModel]:
+    def binned(self, regression: LocalRegression, frames: int) -> BinnedRegression:
+        """Take means of a regression over bins.
+
+        Parameters
+        ----------
+        regression : LocalRegression
+            The regression of a marker on its neighbours.
+        frames : int
+            Length of the recording.
+
+        Returns
+        -------
+        BinnedRegression
+            Its means.
+        """
+        target, inputs, residual = (
+            bin_means(on_all_frames(values, regression.frames, frames), self.step)
+            for values in (regression.target, regression.inputs, regression.residual)
+        )
+        return BinnedRegression(regression.marker, target, inputs, residual)
+
+    def models(self, regressions: Iterable[BinnedRegression], scale: np.ndarray) -> list[DriftModel]:
         """Fit the models of all markers.
 
         Parameters
         ----------
-        regressions : Iterable[LocalRegression]
+        regressions : Iterable[BinnedRegression]
             Regressions of markers on their neighbours.
         scale : np.ndarray
             Local scale (bins, markers), mm.
-        frames : int
-            Length of the recording.
 
         Returns
         -------
@@ -183,21 +220,17 @@ class DriftRegression:
         """
         parts = list[list[tuple[int, PulseRegression]]]([] for _ in range(scale.shape[1]))
         for own in regressions:
-            parts[own.marker].extend(self._parts(own, scale[:, own.marker], frames))
+            parts[own.marker].extend(self._parts(own, scale[:, own.marker]))
         return [DriftModel(own, len(scale)) for own in parts]
 
-    def _parts(self, own: LocalRegression, scale: np.ndarray, frames: int) -> Iterator[tuple[int, PulseRegression]]:
+    def _parts(self, own: BinnedRegression, scale: np.ndarray) -> Iterator[tuple[int, PulseRegression]]:
         """Regressions over parts of a recording that overlap by the longest drift and its flanks."""
         options, step = self.options, self.step
-        target, inputs, residual = (
-            bin_means(on_all_frames(values, own.frames, frames), step)
-            for values in (own.target, own.inputs, own.residual)
-        )
-        known = np.flatnonzero(~np.isnan(residual).any(axis=1))
+        known = np.flatnonzero(~np.isnan(own.residual).any(axis=1))
         if len(known) < 2 * self.bins(min(options.durations_s)):
             return
         covariance = matched_filter.clipped_covariance(
-            residual / scale[:, None],
+            own.residual / scale[:, None],
             sigmas=options.outlier_sigmas,
             rate=self.rate / step,
             scales_s=np.array(options.correlation_times_s),
@@ -210,8 +243,8 @@ class DriftRegression:
             yield (
                 first,
                 PulseRegression.fit(
-                    target[part],
-                    inputs[part],
+                    own.target[part],
+                    own.inputs[part],
                     scale=scale[part],
                     covariance=covariance,
                     step_s=step / self.rate,
