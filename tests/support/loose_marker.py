@@ -25,5 +25,5 @@ def drifts(change, seed=0, known=None):
     on_all[rows, 0] = residual[rows]
     regression = DriftRegression(RATE, OPTIONS.estimated_drifts)
     own = LocalRegression(0, rows, inputs[rows], target[rows], residual[rows], np.ones(len(rows)))
-    models = regression.models([regression.binned(own, frames)], np.ones((frames // regression.step, 1)))
+    models = regression.models(regression.binned([own], frames), np.ones((frames // regression.step, 1)))
     return EstimatedDrifts(regression, models, on_all, OPTIONS)

@@ -7,7 +7,7 @@ the body moves fast, and where the neighbours fit badly as well.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,7 +25,7 @@ from markermend.detection.neighbour.drifts.smallest import SmallestDriftPredicto
 from markermend.detection.neighbour.lasting.creeps import EstimatedCreeps
 from markermend.detection.neighbour.lasting.shifts import LastingFinder, not_explained
 from markermend.options.detection.slow import SlowOptions
-from markermend.prediction.interface import ScaledResidualSource
+from markermend.prediction.interface import LocalRegression, ScaledResidualSource
 from markermend.prediction.local_ridge.predictor import LocalRidge
 from markermend.prediction.scene import Scene
 
@@ -63,14 +63,16 @@ def detect_slow(
     source = LocalRidge(replace(predictor.options, **options.local_ridge_changes))
     changes = SlowChanges.fit(rest, options, source)
     estimated = EstimatedCreeps(changes.estimated, options.displacement)
-    proposed = {m: course for m in range(len(markers)) if (course := estimated.course(m)) is not None}
+    # One marker after the other: the regressions of all of a long recording are not kept.
+    each = [(estimated.course(m), changes.smallest.height(m)) for m in range(len(markers))]
+    proposed = {m: course for m, (course, _) in enumerate(each) if course is not None}
     lasting = LastingFinder(predictor.options, options.displacement, options.shape).find(rest, markers, proposed)
     drifts = not_explained(
         changes.find(markers), lasting, frames=len(earlier), moments=True, options=options.displacement
     )
     creeps = [event for event in lasting if event.kind == "creep"]
     found = sorted([*drifts, *creeps], key=lambda event: event.order)
-    heights = changes.smallest.heights(rest.neighbours)
+    heights = changes.smallest.attributable(np.array([height for _, height in each]), rest.neighbours)
     return found, {
         name: None if np.isnan(height) else round(height, STATED_DIGITS)
         for name, height in zip(markers, heights.tolist(), strict=True)
@@ -119,11 +121,14 @@ class SlowChanges:
         """
         scorer, regression = DriftScorer(scene.rate, options), DriftRegression(scene.rate, options.estimated_drifts)
         residual, factors = np.full(scene.positions.shape, np.nan), np.full(scene.positions.shape[:2], np.nan)
-        binned = []
-        for own in predictor.regressions(scene, blocks=options.leverage_blocks):
-            residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
-            # The inputs of all markers in all frames would take many times the memory of the recording.
-            binned.append(regression.binned(own, len(residual)))
+
+        def regressions() -> Iterator[LocalRegression]:
+            for own in predictor.regressions(scene, blocks=options.leverage_blocks):
+                residual[own.frames, own.marker], factors[own.frames, own.marker] = own.residual, own.factors
+                yield own
+
+        # Their means alone: the inputs of all markers in all frames would take many times the memory of the recording.
+        binned = list(regression.binned(regressions(), len(residual)))
         motion = scorer.motion(scene)
         scores = scorer.score(scene, residual, factors, motion)
         scale = regression.scale(scene, residual, motion)

@@ -49,7 +49,7 @@ def _reduced(design: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.nda
     for start in range(0, len(design), ROWS):
         own = slice(start, start + ROWS)
         some = np.concatenate([rows, np.column_stack([design[own], target[own]])])
-        rows = np.linalg.qr(some, mode="r") if len(some) > columns + 1 else some
+        rows = np.asarray(np.linalg.qr(some, mode="r")) if len(some) > columns + 1 else some
     return rows[:, :columns], rows[:, columns]
 
 

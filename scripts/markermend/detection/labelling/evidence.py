@@ -113,8 +113,9 @@ class LabelEvidence:
             marker's: it says nothing of which label is right.
         """
         floor = np.nan_to_num(self.usual_likelihood - self.options.max_misfit, nan=-np.inf)
-        own = np.maximum(self.likelihood_without_other, floor[:, None])
-        gain = np.nan_to_num(np.maximum(self.likelihood, floor) - own)
+        gain = np.maximum(self.likelihood, floor)
+        gain -= np.maximum(self.likelihood_without_other, floor[:, None])
+        np.nan_to_num(gain, copy=False)
         both: np.ndarray = gain + gain.transpose(0, 2, 1)
         return both
 

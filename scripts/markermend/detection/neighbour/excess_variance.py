@@ -102,7 +102,8 @@ class BandDetector:
 
     def _mean_product(self, one: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Moving mean (frames,) of the inner products of two trajectories (frames, 3), at least 0."""
-        return np.maximum(moving_mean((one * other).sum(axis=1), self._window), 0)
+        product: np.ndarray = np.maximum(moving_mean((one * other).sum(axis=1), self._window), 0)
+        return product
 
     def _score(self, residual_size: np.ndarray, size: np.ndarray) -> np.ndarray:
         """Size of shaking (frames, markers) in units of its threshold, 0 where there is none."""

@@ -6,6 +6,7 @@ Soft tissue and joints leave larger residuals when the body moves fast, or when 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -146,11 +147,14 @@ def fitted_rise(
         Expected size in units of the level (frames, markers).
     """
     known = np.asfortranarray(np.nan_to_num(relative, nan=1.0))
-    kinds = [np.ones(relative.shape), *(kind + 1.0 for kind in motion)]
+    common = np.ones(relative.shape)
     for m, around in enumerate(neighbours):
         if len(around):
-            kinds[0][:, m] = ranks.median([known[:, other] for other in around[:count]])
-    regressors = np.stack([np.log(kind) - np.median(np.log(kind), axis=0) for kind in kinds], axis=2)
+            common[:, m] = ranks.median([known[:, other] for other in around[:count]])
+    regressors = np.empty((*relative.shape, 1 + len(motion)))
+    for number, kind in enumerate(chain([common], (kind + 1.0 for kind in motion))):
+        logarithm = np.log(kind)
+        regressors[..., number] = logarithm - np.median(logarithm, axis=0)
     some = slice(None, None, step)
     seen = ~np.isnan(relative[some])
     if not seen.any():

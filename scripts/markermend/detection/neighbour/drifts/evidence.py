@@ -187,8 +187,7 @@ class EstimatedDriftEvidence:
         blocks = self.drifts.options.leverage_blocks
         regressions = self.predictor.regressions(scene, np.array([marker]), blocks=blocks)
         fitted = self.drifts.regression
-        binned = [fitted.binned(own, len(scene.positions)) for own in regressions]
-        models = fitted.models(binned, self.scale)
+        models = fitted.models(fitted.binned(regressions, len(scene.positions)), self.scale)
         return float(self._estimate(models[marker], event).statistic[0] / self.drifts.own.threshold_sigmas)
 
     def _estimate(self, model: DriftModel, event: Event) -> PulseResponses:

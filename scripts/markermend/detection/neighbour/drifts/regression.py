@@ -6,12 +6,13 @@ residual. Such drifts need no high sampling rate: everything is done on means ov
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from markermend.core.cache import CachesResults
+from markermend.core.cache import Cache, CachesResults
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals, matched_filter
 from markermend.numerics.matched_filter import raised_cosine
@@ -20,8 +21,27 @@ from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.prediction.interface import LocalRegression
 from markermend.prediction.scene import Scene
 
+KEPT_REGRESSIONS = 120
+"""Regressions that stay in memory: those of all markers where the recording is one part; more, and a long recording would need gigabytes."""
+
 MIN_SCALE_MM = 0.02
 """Smallest local scale of the residual, mm: positions are stored no more precisely."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartOfModel:
+    """The regression of a marker over a part of the recording and for a set of neighbours, fitted when it is needed.
+
+    Attributes
+    ----------
+    first : int
+        Its first bin.
+    fit : callable
+        Fits the regression over the bins from there on.
+    """
+
+    first: int
+    fit: Callable[[], PulseRegression]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,14 +50,28 @@ class DriftModel(CachesResults):
 
     Attributes
     ----------
-    parts : Sequence[tuple[int, PulseRegression]]
-        First bin, and regression over the bins from there on, for each part of the recording and set of neighbours.
+    parts : Sequence[PartOfModel]
+        Those of each part of the recording and set of neighbours.
     bins : int
         Number of bins of the recording.
+    kept : Cache
+        The regressions that were used last, of all markers.
     """
 
-    parts: Sequence[tuple[int, PulseRegression]]
+    parts: Sequence[PartOfModel]
     bins: int
+    kept: Cache
+
+    def regressions(self) -> Iterator[tuple[int, PulseRegression]]:
+        """Fit the regressions, or take those that are kept.
+
+        Yields
+        ------
+        tuple[int, PulseRegression]
+            First bin, and regression over the bins from there on.
+        """
+        for part in self.parts:
+            yield part.first, self.kept.get(part, part.fit)
 
     def responses(self, length: int, *, min_known_share: float) -> PulseResponses:
         """Estimate drifts of a length at all places.
@@ -56,7 +90,7 @@ class DriftModel(CachesResults):
         """
         places = max(0, self.bins - length + 1)
         height, deviation = np.zeros((places, 3)), np.full(places, np.inf)
-        for first, part in self.parts:
+        for first, part in self.regressions():
             own = part.responses(length, min_known_share=min_known_share)
             there = slice(first, first + len(own.deviation))
             better = own.deviation < deviation[there]
@@ -78,7 +112,7 @@ class DriftModel(CachesResults):
         """
         each = [
             part.estimate(shapes[:, first : first + len(part.weighted)] - shapes[:, [first]])
-            for first, part in self.parts
+            for first, part in self.regressions()
         ]
         nothing = PulseResponses(np.zeros((len(shapes), 3)), np.full(len(shapes), np.inf))
         return min(each, key=lambda own: float(own.deviation[0]), default=nothing)
@@ -92,11 +126,17 @@ class BinnedRegression:
     ----------
     marker : int
         Index of the marker.
-    target, inputs, residual : np.ndarray
-        Means (bins, ...) of what `LocalRegression` has at its frames; NaN where unknown.
+    first : int
+        First bin in which it is known.
+    target, inputs : np.ndarray
+        Means (k, ...) of what `LocalRegression` has at its frames, from the first to the last bin in which it is known; NaN where
+        unknown.
+    residual : np.ndarray
+        Means (bins, 3) of its residual, NaN where unknown.
     """
 
     marker: int
+    first: int
     target: np.ndarray
     inputs: np.ndarray
     residual: np.ndarray
@@ -182,26 +222,30 @@ class DriftRegression:
             min_scale=MIN_SCALE_MM,
         )
 
-    def binned(self, regression: LocalRegression, frames: int) -> BinnedRegression:
-        """Take means of a regression over bins.
+    def binned(self, regressions: Iterable[LocalRegression], frames: int) -> Iterator[BinnedRegression]:
+        """Take means of regressions over bins, where they are known for long enough to show a drift.
 
         Parameters
         ----------
-        regression : LocalRegression
-            The regression of a marker on its neighbours.
+        regressions : Iterable[LocalRegression]
+            Regressions of markers on their neighbours.
         frames : int
             Length of the recording.
 
-        Returns
-        -------
+        Yields
+        ------
         BinnedRegression
-            Its means.
+            The means of one of them.
         """
-        target, inputs, residual = (
-            bin_means(on_all_frames(values, regression.frames, frames), self.step)
-            for values in (regression.target, regression.inputs, regression.residual)
-        )
-        return BinnedRegression(regression.marker, target, inputs, residual)
+        for own in regressions:
+            target, inputs, residual = (
+                bin_means(on_all_frames(values, own.frames, frames), self.step)
+                for values in (own.target, own.inputs, own.residual)
+            )
+            known = np.flatnonzero(~np.isnan(residual).any(axis=1))
+            if len(known) >= 2 * self.bins(min(self.options.durations_s)):
+                span = slice(int(known[0]), int(known[-1]) + 1)
+                yield BinnedRegression(own.marker, span.start, target[span].copy(), inputs[span].copy(), residual)
 
     def models(self, regressions: Iterable[BinnedRegression], scale: np.ndarray) -> list[DriftModel]:
         """Fit the models of all markers.
@@ -218,17 +262,14 @@ class DriftRegression:
         list[DriftModel]
             One for each marker; without parts where none can be fitted.
         """
-        parts = list[list[tuple[int, PulseRegression]]]([] for _ in range(scale.shape[1]))
+        kept, parts = Cache(KEPT_REGRESSIONS), list[list[PartOfModel]]([] for _ in range(scale.shape[1]))
         for own in regressions:
             parts[own.marker].extend(self._parts(own, scale[:, own.marker]))
-        return [DriftModel(own, len(scale)) for own in parts]
+        return [DriftModel(own, len(scale), kept) for own in parts]
 
-    def _parts(self, own: BinnedRegression, scale: np.ndarray) -> Iterator[tuple[int, PulseRegression]]:
+    def _parts(self, own: BinnedRegression, scale: np.ndarray) -> Iterator[PartOfModel]:
         """Regressions over parts of a recording that overlap by the longest drift and its flanks."""
         options, step = self.options, self.step
-        known = np.flatnonzero(~np.isnan(own.residual).any(axis=1))
-        if len(known) < 2 * self.bins(min(options.durations_s)):
-            return
         covariance = matched_filter.clipped_covariance(
             own.residual / scale[:, None],
             sigmas=options.outlier_sigmas,
@@ -237,20 +278,20 @@ class DriftRegression:
             max_lag_s=options.max_lag_s,
         )
         size, overlap = self.bins(options.max_part_s), 2 * self.bins(max(options.durations_s))
-        first, stop = int(known[0]), int(known[-1]) + 1
+        first, stop = own.first, own.first + len(own.target)
         while True:
             part = slice(first, min(first + max(size, 2 * overlap), stop))
-            yield (
-                first,
-                PulseRegression.fit(
-                    own.target[part],
-                    own.inputs[part],
-                    scale=scale[part],
-                    covariance=covariance,
-                    step_s=step / self.rate,
-                    coefficient_std=options.coefficient_std,
-                ),
+            rows = slice(part.start - own.first, part.stop - own.first)
+            fit = partial(
+                PulseRegression.fit,
+                own.target[rows],
+                own.inputs[rows],
+                scale=scale[part],
+                covariance=covariance,
+                step_s=step / self.rate,
+                coefficient_std=options.coefficient_std,
             )
+            yield PartOfModel(first, fit)
             if part.stop == stop:
                 return
             first = part.stop - overlap

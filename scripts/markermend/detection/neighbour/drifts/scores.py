@@ -109,12 +109,17 @@ class DriftScorer:
         DriftScores
             The scores; 0 where a near neighbour is briefly missing.
         """
-        steady = np.where(self.briefly_missing_neighbour(scene)[:, :, None], np.nan, residual)
-        each = [self.responses(steady[:, m], factors[:, m]) for m in range(residual.shape[1])]
-        scale = self._scale(scene, np.stack([own for own, _ in each], axis=2), motion)
-        clearest = [self._clearest(*own, scale[:, :, m]) for m, own in enumerate(each)]
-        score, length, scale_mm = (np.stack(own, axis=1) for own in zip(*clearest, strict=True))
-        level = np.stack([median_response(own) for own, _ in each], axis=1)
+        unsteady = self.briefly_missing_neighbour(scene)
+        # All templates in all frames take as much memory as a few copies of the recording: each array is there once.
+        response, deviation = np.empty((2, len(self.lengths), *residual.shape[:2]), np.float32)
+        for m in range(residual.shape[1]):
+            steady = np.where(unsteady[:, m, None], np.nan, residual[:, m])
+            response[..., m], deviation[..., m] = self.responses(steady, factors[:, m])
+        scale = self._scale(scene, response, motion)
+        own = (np.moveaxis(each, 2, 0) for each in (response, deviation, scale))
+        clearest = [self._clearest(*each) for each in zip(*own, strict=True)]
+        score, length, scale_mm = (np.stack(each, axis=1) for each in zip(*clearest, strict=True))
+        level = np.stack([median_response(each) for each in np.moveaxis(response, 2, 0)], axis=1)
         return DriftScores(residual, score, length, scale_mm, scale, level)
 
     def rescore(self, scores: DriftScores, residual: np.ndarray, factors: np.ndarray, *, marker: int) -> np.ndarray:

@@ -36,13 +36,15 @@ class SmallestDriftPredictor:
         """Bins of the drift of which the height is stated."""
         return self.drifts.regression.bins(self.drifts.own.stated_duration_s)
 
-    def heights(self, neighbours: Sequence[np.ndarray]) -> np.ndarray:
-        """Predict the smallest heights of drifts that would have been found at most times.
+    def attributable(self, heights: np.ndarray, neighbours: Sequence[np.ndarray]) -> np.ndarray:
+        """Leave out heights of markers whose drifts would stand out, and could not be attributed to them.
 
         A drift is found if it can be attributed to its marker, which takes neighbours that are predicted well themselves.
 
         Parameters
         ----------
+        heights : np.ndarray
+            The height (markers,) of each, mm, see `height`.
         neighbours : Sequence[np.ndarray]
             For each marker its neighbours, the nearest first.
 
@@ -51,7 +53,7 @@ class SmallestDriftPredictor:
         np.ndarray
             The heights (markers,), mm; NaN where that cannot be said of the marker or of too many of its neighbours.
         """
-        heights, options = np.array([self.height(m) for m in range(len(neighbours))]), self.drifts.options
+        options = self.drifts.options
         known = ~np.isnan(heights)
         near = [np.asarray(around, int)[: options.attribution_neighbours] for around in neighbours]
         share = np.array([known[around].mean() if len(around) else 0.0 for around in near])
@@ -99,7 +101,7 @@ class SmallestDriftPredictor:
         """Smallest heights (places,) at places of each part of the recording, mm; infinite where none is found."""
         drifts, threshold, length = self.drifts, self.threshold_sigmas(marker), self.length
         residual = bin_means(drifts.residual[:, marker], drifts.regression.step)
-        for first, part in drifts.models[marker].parts:
+        for first, part in drifts.models[marker].regressions():
             deviation = part.responses(length, min_known_share=drifts.own.min_known_share).deviation
             places = np.flatnonzero(np.isfinite(deviation))[:: max(1, length // drifts.own.stated_places)]
             if not len(places):

@@ -47,7 +47,7 @@ class EstimatedCreeps:
             The course of the creep that stands out most; None where none does, or a drift stands out more meanwhile.
         """
         model = self.drifts.models[marker]
-        each = [best for first, part in model.parts for best in self._best(first, part)]
+        each = [best for first, part in model.regressions() for best in self._best(first, part)]
         statistic, course = max(each, key=lambda best: best[0], default=(0.0, None))
         if course is None or statistic < self.options.creep_threshold_sigmas:
             return None
