@@ -1,38 +1,87 @@
-"""How the time and memory of the fill stage grow with frames, markers and gaps, on a synthetic person.
+"""How the time and memory of each stage grow with seconds, markers, sampling rate and findings, on a synthetic person.
 
-Writes: three tables to stdout; in each one number varies and the others are those of the base case.
+Writes: tables to stdout; in each one number varies and the others are those of the base case, but for the largest recording.
 
-    PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.scaling
+    PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.scaling --vary seconds markers
 
-Each row is scripts/fill.py with the default options in a process of its own: seconds of a core and peak memory include
-its start and its files. `x` is the ratio to the row above. A gap lasts 1 s, at a random place on a random marker.
+The workflow cleans each recording; then the command of each job runs alone with one thread, and so does that of each detector
+(`benchmarks.runtime.stages`). Seconds of a core and peak memory include the start of the process and its files; `jobs` are those of the
+workflow together, `starts` what they need to start, `snakemake` what the workflow took in addition. As many gaps of half a second as peaks
+of two samples are at random places on random markers.
 """
 
 from __future__ import annotations
 
 import argparse
+import tempfile
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from benchmarks.runtime import stages
+from benchmarks.support import result_tables
+
+# isort: split
+# Sets the number of threads before numpy is imported.
 import numpy as np
 
-from benchmarks.support import result_tables
-from benchmarks.support.fill_runs import Run, fill, walker, with_gaps
-from markermend.core.changes import Outcome
+from benchmarks.support.fill_runs import walker, with_gaps
+from markermend.core.recording import Recording
+from markermend.formats.c3d.writer import Content, write_new
 
-BASE = {"frames": 4_000, "markers": 41, "gaps": 10}
-VARIED = {"frames": (1_000, 4_000, 16_000, 64_000), "markers": (20, 41, 80, 160), "gaps": (3, 10, 30, 100)}
-RATE = 100
+GAP_S = 0.5
+"""Length of a gap, s."""
+
+PEAK_MM = 30.0
+"""Standard deviation of each axis of a peak, mm."""
 
 
-def run(frames: int, markers: int, gaps: int) -> tuple[Run, int]:
-    """Fill a number of gaps; returns the run and the number of gaps that were filled."""
-    rng = np.random.default_rng(7)
-    starts = rng.integers(RATE, frames - 2 * RATE, gaps).tolist()
-    places = [
-        (int(marker), start, start + RATE) for marker, start in zip(rng.integers(0, markers, gaps), starts, strict=True)
-    ]
-    done = fill(with_gaps(walker(frames, markers, RATE), places))
-    return done, sum(change.outcome is Outcome.FILLED for change in done.changes)
+@dataclass(frozen=True)
+class Size:
+    """How large a recording is: seconds, markers, frames per second, and gaps, which are as many as peaks."""
+
+    seconds: int = 40
+    markers: int = 41
+    rate: int = 100
+    findings: int = 10
+
+    @property
+    def frames(self) -> int:
+        """Number of frames."""
+        return self.seconds * self.rate
+
+
+VARIED = {
+    "seconds": [Size(seconds=seconds) for seconds in (2, 15, 60, 240)],
+    "markers": [Size(markers=markers) for markers in (20, 41, 80, 160)],
+    "rate": [Size(rate=rate) for rate in (50, 100, 200, 400)],
+    "findings": [Size(findings=findings) for findings in (3, 10, 30, 100)],
+    "largest": [Size(seconds=1000, markers=60, findings=100)],
+}
+"""The recordings of each table."""
+
+
+def recording(size: Size) -> Recording:
+    """A recording of the synthetic person with gaps and peaks."""
+    rng, gap = np.random.default_rng(7), round(GAP_S * size.rate)
+    markers = rng.integers(0, size.markers, (2, size.findings)).tolist()
+    starts = rng.integers(1, size.frames - gap - 1, (2, size.findings)).tolist()
+    clean = walker(size.frames, size.markers, size.rate)
+    positions = clean.positions.copy()
+    for marker, start in zip(markers[0], starts[0], strict=True):
+        positions[start : start + 2, marker] += rng.normal(0.0, PEAK_MM, 3)
+    gaps = [(marker, start, start + gap) for marker, start in zip(markers[1], starts[1], strict=True)]
+    return with_gaps(replace(clean, positions=positions), gaps)
+
+
+def costs(size: Size) -> dict[str, dict[str, float]]:
+    """What each stage needs, see `benchmarks.runtime.stages.Version.costs`."""
+    made = recording(size)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "S" / "walk.c3d"
+        file.parent.mkdir()
+        write_new(file, Content(labels=made.markers, positions=made.positions, rate=made.rate))
+        [own] = stages.measure(file, [stages.PROJECT], 1)
+    return {**own, "starts": {"cpu_s": own["all"]["start_s"]}}
 
 
 def main() -> None:
@@ -43,18 +92,18 @@ def main() -> None:
     arguments = parser.parse_args()
     rows: list[dict[str, object]] = []
     for varied in arguments.vary:
-        others = ", ".join(f"{value} {name}" for name, value in BASE.items() if name != varied)
-        print(f"\n{others}\n{varied:>8} {'filled':>7} {'seconds':>8} {'x':>5} {'MB':>6} {'x':>5}")
-        before: tuple[float, float] | None = None
-        for value in VARIED[varied]:
-            done, filled = run(**{**BASE, varied: value})
-            now = done.seconds, done.megabytes
-            ratios = [f"{a / b:5.2f}" if before else f"{'':5}" for a, b in zip(now, before or now, strict=True)]
-            print(f"{value:8} {filled:7} {now[0]:8.1f} {ratios[0]} {now[1]:6.0f} {ratios[1]}", flush=True)
-            before = now
-            rows.append(
-                {"varied": varied, **BASE, varied: value, "filled": filled, "seconds": now[0], "megabytes": now[1]}
-            )
+        before: dict[str, dict[str, float]] = {}
+        for size in VARIED[varied]:
+            own = costs(size)
+            print(f"\n{size}\n{'stage':>12}{'seconds':>10}{'x':>7}{'MB':>8}{'x':>7}")
+            for stage, cost in own.items():
+                figures = [cost["cpu_s"], cost.get("megabytes", np.nan)]
+                last = [before.get(stage, {}).get(name, np.nan) for name in ("cpu_s", "megabytes")]
+                ratios = [now / then for now, then in zip(figures, last, strict=True)]
+                print(f"{stage:>12}{figures[0]:10.2f}{ratios[0]:7.2f}{figures[1]:8.0f}{ratios[1]:7.2f}", flush=True)
+                needed = {name: cost.get(name, np.nan) for name in ("start_s", "cpu_s", "megabytes")}
+                rows.append({"varied": varied, **asdict(size), "stage": stage, **needed})
+            before = own
     if arguments.tsv:
         result_tables.write(arguments.tsv, rows)
 

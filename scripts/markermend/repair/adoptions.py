@@ -103,7 +103,7 @@ def adopt_samples(recording: Recording, found: Mapping[str, Sequence[Event]], ru
     free = recording.missing | mask(as_recorded["foreign"], recording.frames, recording.markers)
     positions = adopt(recording.positions, as_recorded["adopted"], recording.unlabelled, recording.markers)
     given = free & mask(as_recorded["adopted"], recording.frames, recording.markers) & ~np.isnan(positions).any(axis=2)
-    positions = np.where(given[..., None], positions, recording.positions)
+    positions = np.where(given[..., None], positions, recording.positions) if given.any() else recording.positions
     remaining = [event for event in labels if event.source is None]
     others = {stage: events for stage, events in found.items() if stage != "labels"}
     return Adoption(

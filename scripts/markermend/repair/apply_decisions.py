@@ -69,7 +69,9 @@ def apply_decisions(
     decisions = [d for d in decisions if d.partner is None or d.partner in recording.markers]
     protected = _mask(recording, (d for d in decisions if d.verb == "protect"))
     declared = _mask(recording, (d for d in decisions if d.verb == "missing")) & ~protected & ~recording.missing
-    remaining = replace(recording, positions=np.where(declared[..., None], np.nan, recording.positions))
+    remaining = recording
+    if declared.any():
+        remaining = replace(recording, positions=np.where(declared[..., None], np.nan, recording.positions))
     decided = DecidedFindings(
         remaining, {stage: [] for stage in DETECTORS}, _declared_missing(recording, declared, decisions)
     )

@@ -164,29 +164,38 @@ class DistanceEstimator:
 
     def _krige(self, marker: int, mate: int, border: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Expected departure (n,) of a distance from the usual one, mm, and its standard deviation (n,), mm."""
-        departure, covariance = self._departure(marker, mate)
-        known, rate = border[~np.isnan(departure[border])], self.scene.rate
-        mean, variance = krige(covariance, observed_s=known / rate, values=departure[known, None], target_s=rows / rate)
+        departure, rate = self._departure(marker, mate, border), self.scene.rate
+        known = ~np.isnan(departure)
+        mean, variance = krige(
+            self._covariance(marker, mate),
+            observed_s=border[known] / rate,
+            values=departure[known, None],
+            target_s=rows / rate,
+        )
         return mean[:, 0], np.sqrt(variance + self.options.min_deviation_mm**2)
 
-    def _departure(self, marker: int, mate: int) -> tuple[np.ndarray, Covariance]:
-        """Departure (frames,) of a distance from the usual one over the recording, mm, and its covariance over time."""
-        if (marker, mate) not in self._departures:
-            positions = self.scene.positions
-            difference = positions[:, marker] - positions[:, mate]
-            length = np.sqrt(np.einsum("ti,ti->t", difference, difference))
-            assert self.scene.shape is not None
-            departure = length - self.scene.shape.distance[marker, mate]
+    def _departure(self, marker: int, mate: int, rows: np.ndarray | slice) -> np.ndarray:
+        """Departure (n,) of a distance from the usual one in some frames, mm."""
+        positions = self.scene.positions
+        difference = positions[rows, marker] - positions[rows, mate]
+        length = np.sqrt(np.einsum("ti,ti->t", difference, difference))
+        assert self.scene.shape is not None
+        departure: np.ndarray = length - self.scene.shape.distance[marker, mate]
+        return departure
+
+    def _covariance(self, marker: int, mate: int) -> Covariance:
+        """Covariance over time of the departure of a distance from the usual one, over the recording."""
+        if (marker, mate) not in self._covariances:
+            departure = self._departure(marker, mate, slice(None))
             scales_s = np.array(self.kriging.correlation_times_s)
-            covariance = fit_covariance(
+            self._covariances[marker, mate] = fit_covariance(
                 departure[:, None], rate=self.scene.rate, scales_s=scales_s, max_lag_s=self.kriging.max_lag_s
             )
-            self._departures[marker, mate] = departure, covariance
-        return self._departures[marker, mate]
+        return self._covariances[marker, mate]
 
     @cached_property
-    def _departures(self) -> dict[tuple[int, int], tuple[np.ndarray, Covariance]]:
-        """Departures and covariances that were computed before, by marker and mate."""
+    def _covariances(self) -> dict[tuple[int, int], Covariance]:
+        """Covariances that were computed before, by marker and mate."""
         return {}
 
 

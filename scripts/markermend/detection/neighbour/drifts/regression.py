@@ -21,7 +21,7 @@ from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
 from markermend.prediction.interface import LocalRegression
 from markermend.prediction.scene import Scene
 
-KEPT_REGRESSIONS = 120
+KEPT_REGRESSIONS = 64
 """Regressions that stay in memory: those of all markers where the recording is one part; more, and a long recording would need gigabytes."""
 
 MIN_SCALE_MM = 0.02
