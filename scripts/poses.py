@@ -8,6 +8,7 @@ read: it stays the same where no pose changes.
 from collections.abc import Sequence
 from typing import Any
 
+from markermend.command.inputs import undamaged
 from markermend.command.stage import Stage
 from markermend.command.subject_poses import sample_subject
 from markermend.filling.pose_sample import join
@@ -15,13 +16,14 @@ from markermend.options.poses import PosesOptions
 from markermend.storage import mesh_file, poses_file
 
 STAGE = Stage("poses", __doc__, PosesOptions)
-STAGE.reads("repaired", "trajectories after repair, of every recording of the subject", many=True)
+STAGE.reads("repaired", "trajectories after repair, of every recording of the subject", many=True, lenient=True)
 STAGE.reads("mesh", "meshes of the subject")
 STAGE.writes("poses", "poses of the subject")
 
 
 def work(call: Any) -> str:
-    samples, sources = sample_subject(call.repaired, mesh_file.read_groups(call.mesh), options=call.options)
+    repaired = undamaged(call.repaired, call.facts["inputs"]["repaired"])
+    samples, sources = sample_subject(repaired, mesh_file.read_groups(call.mesh), options=call.options)
     poses = join(samples)
     facts = {"stage": call.facts["stage"], "options": call.facts["options"], "sources": sources}
     poses_file.write(call.poses, poses, facts)

@@ -7,11 +7,13 @@ and a failure is counted of the stage that wrote the file, so that the next run 
 
 from __future__ import annotations
 
+import importlib.util
 import logging
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums, source_file
@@ -20,6 +22,9 @@ from markermend.storage.failure_counts import count_failure
 from markermend.storage.installation import workflow_folder
 
 log = logging.getLogger("markermend")
+
+LONGEST_S = 3600
+"""Seconds after which a command that makes a file anew is given up: the longest `runtime` of a stage's rule."""
 
 
 def checksums(paths: Path | Sequence[Path], *, own: Path) -> str | list[str]:
@@ -71,6 +76,32 @@ def checksums_or_none(paths: Sequence[Path], *, own: Path) -> list[str | None]:
     return found
 
 
+def undamaged(paths: Sequence[Path], checksums: Sequence[str | None]) -> list[Path]:
+    """Choose the recordings of a subject that are there as they were written; the others are made anew by the next run, and this with them.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        A file of each recording.
+    checksums : sequence of str or None
+        What `checksums_or_none` gives.
+
+    Returns
+    -------
+    list of Path
+        Those that have a checksum.
+
+    Raises
+    ------
+    BadRecording
+        Where there are none.
+    """
+    found = [path for path, checksum in zip(paths, checksums, strict=True) if checksum is not None]
+    if not found:
+        raise BadRecording("no recording of the subject is as it was written; the next run makes them anew")
+    return found
+
+
 def original_checksum(path: Path, *, within: Path | None) -> str | None:
     """Compute the checksum of an original, of which no stage of ours has a record.
 
@@ -100,7 +131,10 @@ def _checksum(path: Path, own: Path) -> str:
     except FileNotFoundError as error:
         raise BadRecording(f"{path.name} is not there: is it a broken link, or was it moved?") from error
     record = output_checksums.find(path)
-    if record is None or record.outputs[path.name] == checksum:
+    if record is None:
+        _check_records(path)
+        return checksum
+    if record.outputs[path.name] == checksum:
         return checksum
     # What belongs to a folder above is read by others, too, and might be made many times at once; results that were moved would be
     # made where they were.
@@ -111,15 +145,41 @@ def _checksum(path: Path, own: Path) -> str:
     raise SetAside(record.stage, reason)
 
 
+def _check_records(path: Path) -> None:
+    """Check that no record which may be that of a file cannot be read."""
+    damaged = output_checksums.unreadable(path.parent)
+    reason = f"{path.name} has no record that can be read; the next run makes it anew"
+    for stage in damaged:
+        count_failure(path.parent, stage, reason)
+    if damaged:
+        raise SetAside(damaged[0], reason)
+
+
 def _make_anew(path: Path, record: output_checksums.OutputRecord) -> bool:
     """Run the command that wrote a file once more, and say whether the file is as it was."""
-    # Results may come from elsewhere, and a record may name any command: none but the stage's own is run.
+    # Results may come from elsewhere, and a record may name any command: none but the stage's own is run, which writes there alone.
     script = workflow_folder() / "scripts" / f"{record.stage}.py"
     if len(record.command) < 2 or Path(record.command[1]).resolve() != script.resolve():
         return False
+    if {output.parent for output in _outputs(script, record.command[2:])} != {path.parent}:
+        return False
     log.warning("%s is damaged: running %s once more, which wrote it", path.name, record.stage)
     try:
-        subprocess.run([sys.executable, str(script), *record.command[2:]], check=True)
+        subprocess.run([sys.executable, str(script), *record.command[2:]], check=True, timeout=LONGEST_S)
         return sha256(path) == record.outputs[path.name]
-    except (OSError, subprocess.CalledProcessError):
+    except (OSError, subprocess.SubprocessError):
         return False
+
+
+def _outputs(script: Path, words: Sequence[str]) -> list[Path]:
+    """The files that the command of a stage would write; none where its arguments are not of this version."""
+    found = importlib.util.spec_from_file_location(script.stem, script)
+    assert found is not None and found.loader is not None
+    module: Any = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    try:
+        arguments = vars(module.STAGE.parser.parse_args(words))
+    except SystemExit:
+        return []
+    named = [arguments[name] for name in module.STAGE.outputs]
+    return [path for given in named for path in ([given] if isinstance(given, Path) else given)]

@@ -19,7 +19,10 @@ from markermend.storage.source_checksums import ABSENT, SourceChecksums
 UNRECORDED = "nothing recorded"
 """Stands for a checksum that should have been recorded."""
 
-ALWAYS_RECORDED = ("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json")
+ALWAYS_RECORDED = (
+    *("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
+    *("index.html", "summary.tsv", "plotly.min.js", "qc.json"),
+)
 """Files of which a checksum must be recorded."""
 
 
@@ -46,6 +49,22 @@ class Checked:
     def differs(self) -> bool:
         """Whether the file is not as it was."""
         return self.expected != self.found
+
+    def folder(self, results: Path) -> Path:
+        """Find the folder of the outputs of its stage.
+
+        Parameters
+        ----------
+        results : Path
+            The folder of results.
+
+        Returns
+        -------
+        Path
+            The folder that it is in; that above for a record.
+        """
+        parent = (results / self.file).parent
+        return parent.parent if parent.name == output_checksums.FOLDER else parent
 
 
 def check(results: Path) -> Iterator[Checked]:
@@ -86,6 +105,8 @@ def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
         recorded |= record.outputs.keys()
         for name, expected in record.outputs.items():
             yield Checked(str(place / name), expected, _checksum(folder / name), record.stage)
+    for stage in output_checksums.unreadable(folder):
+        yield Checked(str(place / output_checksums.FOLDER / f"{stage}.json"), "a record", "cannot be read", stage)
     for path in sorted({path for pattern in ALWAYS_RECORDED for path in folder.glob(pattern)}):
         if path.name not in recorded:
             yield Checked(str(place / path.name), UNRECORDED, _checksum(path))
@@ -143,7 +164,7 @@ def main(arguments: Sequence[str]) -> int:
     if different:
         rows = [[printable(one.file), one.expected, one.found] for one in different]
         print(tab_separated.lines([["file", "expected", "found"], *rows]), end="")
-    for folder, stage in {((flags.results / one.file).parent, one.stage) for one in different if one.stage}:
+    for folder, stage in {(one.folder(flags.results), one.stage) for one in different if one.stage}:
         if flags.remake:
             count_failure(folder, stage, "its outputs are not as it wrote them")
     print(f"{len(checked) - len(different)} files are as they were, {len(different)} differ", file=sys.stderr)

@@ -125,6 +125,28 @@ def records(folder: Path) -> Iterator[OutputRecord]:
             yield record
 
 
+def unreadable(folder: Path) -> list[str]:
+    """Find the stages whose record cannot be read, as after a loss of power.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of their outputs.
+
+    Returns
+    -------
+    list of str
+        Names of the files that are no JSON, without their suffix.
+    """
+    names = []
+    for path in sorted((folder / FOLDER).glob("*.json")):
+        try:
+            json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            names.append(path.stem)
+    return names
+
+
 def find(path: Path) -> OutputRecord | None:
     """Find the record of a file.
 

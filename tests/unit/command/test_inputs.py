@@ -11,7 +11,19 @@ from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums
 from markermend.storage.atomic import sha256
 
-WRITE = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_text(sys.argv[2])\n"
+WRITE = """
+import argparse, pathlib, time, types
+parser = argparse.ArgumentParser()
+for name in ("events", "other"):
+    parser.add_argument(f"--{name}", type=pathlib.Path, nargs=None if name == "events" else "*", default=[])
+parser.add_argument("--text")
+STAGE = types.SimpleNamespace(parser=parser, outputs=["events", "other"])
+if __name__ == "__main__":
+    flags = parser.parse_args()
+    time.sleep(60 * (flags.text == "never"))
+    for path in (flags.events, *flags.other):
+        path.write_text(flags.text)
+"""
 
 
 @pytest.fixture
@@ -30,7 +42,7 @@ def peaks(tmp_path, script):
     path = tmp_path / "S01/walk/02_peaks.parquet"
     path.parent.mkdir(parents=True)
     path.write_text("peaks")
-    output_checksums.write("peaks", [path], command=[sys.executable, script, str(path), "peaks"])
+    output_checksums.write("peaks", [path], command=[sys.executable, script, "--events", str(path), "--text", "peaks"])
     return path
 
 
@@ -53,6 +65,15 @@ def test_a_file_of_which_nothing_is_recorded_is_read_as_it_is(peaks, tmp_path):
     assert checksums(peaks, own=peaks.parent) == sha256(peaks)
 
 
+@pytest.mark.parametrize("content", ["", '{"outputs": {"02_pea'])
+def test_a_file_whose_record_cannot_be_read_is_made_anew_by_the_next_run(peaks, content):
+    (peaks.parent / "logs/peaks.json").write_text(content)
+    with pytest.raises(SetAside, match=r"02_peaks.parquet has no record that can be read") as note:
+        checksums(peaks, own=peaks.parent)
+    assert note.value.stage == "peaks"
+    assert (peaks.parent / "failures.tsv").read_text().startswith("peaks\t")
+
+
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(BadRecording, match=r"02_peaks.parquet is not there"):
         checksums(tmp_path / "02_peaks.parquet", own=tmp_path)
@@ -66,12 +87,19 @@ def test_a_damaged_file_is_made_anew(peaks, bit):
     assert not (peaks.parent / "failures.tsv").exists()
 
 
-@pytest.mark.parametrize("harm", ["other bytes", "fails", "another command", "unknown"])
-def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, script, harm):
+@pytest.mark.parametrize(
+    "harm", ["other bytes", "fails", "another command", "another version", "elsewhere", "never ends", "unknown"]
+)
+def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, script, harm, tmp_path, monkeypatch):
+    monkeypatch.setattr(inputs, "LONGEST_S", 2)
+    own = [sys.executable, script, "--events", str(peaks)]
     command = {
-        "other bytes": [sys.executable, script, str(peaks), "other"],
-        "fails": [sys.executable, script, str(peaks)],
-        "another command": [sys.executable, "-c", WRITE, str(peaks), "peaks"],
+        "other bytes": [*own, "--text", "other"],
+        "fails": own,
+        "another command": [sys.executable, "-c", WRITE, *own[2:], "--text", "peaks"],
+        "another version": [*own, "--text", "peaks", "--unknown"],
+        "elsewhere": [*own, "--text", "peaks", "--other", str(tmp_path / "elsewhere.txt")],
+        "never ends": [*own, "--text", "never"],
         "unknown": [],
     }[harm]
     output_checksums.write("peaks", [peaks], command=command)
@@ -82,6 +110,14 @@ def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, s
         checksums(peaks, own=peaks.parent)
     assert note.value.stage == "peaks"
     assert (peaks.parent / "failures.tsv").read_text().split("\t")[0] == "peaks"
+    assert not (tmp_path / "elsewhere.txt").exists()
+
+
+def test_a_subject_does_without_its_damaged_recordings(peaks, tmp_path):
+    other = peaks.with_name("02_frozen.parquet")
+    assert inputs.undamaged([peaks, other], ["a", None]) == [peaks]
+    with pytest.raises(BadRecording, match="the next run makes them anew"):
+        inputs.undamaged([peaks, other], [None, None])
 
 
 def test_results_that_were_moved_are_not_made_where_they_were(peaks, tmp_path):

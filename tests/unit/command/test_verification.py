@@ -95,6 +95,19 @@ def test_a_file_of_which_nothing_is_recorded_is_listed_and_a_note_of_a_person_is
     assert different(results) == {"S01/walk/01_markers.parquet": (UNRECORDED, sha256(path))}
 
 
+@pytest.mark.parametrize("content", ["", '{"outputs": {'])
+def test_a_record_that_cannot_be_read_is_listed_with_its_files_which_are_made_anew_on_request(results, capsys, content):
+    (results / "report/logs/report.json").write_text(content)
+    index = results / "report/index.html"
+    assert different(results) == {
+        "report/logs/report.json": ("a record", "cannot be read"),
+        "report/index.html": (UNRECORDED, sha256(index)),
+    }
+    lines(results, capsys, "--remake")
+    (failures,) = results.rglob("failures.tsv")
+    assert failures == results / "report/failures.tsv" and failures.read_text().startswith("report\t")
+
+
 def test_the_next_run_makes_anew_what_differs_on_request(results, capsys):
     (results / "S01/walk/cleaned.c3d").write_text("edited")
     (results / "S01/walk/changes.tsv").unlink()

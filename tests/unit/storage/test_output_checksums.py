@@ -37,6 +37,7 @@ def test_what_is_no_record_is_passed_over(folder, content):
     (folder / "logs/fill.json").write_text(content)
     assert output_checksums.read(folder, "fill") is None
     assert [record.stage for record in output_checksums.records(folder)] == ["qc"]
+    assert output_checksums.unreadable(folder) == (["fill"] if content in ("", "{") else [])
 
 
 def test_a_removed_record_is_none_and_may_be_removed_twice(folder):
