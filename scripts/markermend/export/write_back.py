@@ -79,7 +79,7 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
         raise SourceChanged(f"{source.name} has changed since it was ingested; the next run ingests it again")
     differs = changed(measured, restored)
     columns = facts["columns"]
-    with atomic.replacing(cleaned) as temporary:
+    with atomic.replacing(cleaned, source=source) as temporary:
         if differs.any():
             result = files.write_back(
                 source,
@@ -132,7 +132,7 @@ def pass_through(source: Path, cleaned: Path, note: SetAside, *, within: Path | 
         A certificate that says so, without a checksum of a file that was not read. JSON values.
     """
     before = _checksum(source, within)
-    with atomic.replacing(cleaned) as temporary:
+    with atomic.replacing(cleaned, source=source) as temporary:
         if before is None:
             temporary.touch()
         else:

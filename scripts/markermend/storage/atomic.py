@@ -6,6 +6,7 @@ import errno
 import hashlib
 import json
 import os
+import platform
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -38,13 +39,15 @@ def sha256(path: Path) -> str:
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def replacing(path: Path, *, source: Path | None = None) -> Iterator[Path]:
     """Replace a file as a whole, or not at all.
 
     Parameters
     ----------
     path : Path
         The file; its folder is made where it is not there.
+    source : Path, optional
+        The file that the block reads while it writes.
 
     Yields
     ------
@@ -56,13 +59,15 @@ def replacing(path: Path) -> Iterator[Path]:
     NotWritten
         Where the file cannot be written. Other errors of the block, such as those of a file that it reads, are left as they are.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    start = f".{path.name}.{platform.node()}."
+    temporary = path.with_name(f"{start}{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        _remove_abandoned(path.parent, start)
         yield temporary
         os.replace(temporary, path)
     except OSError as error:
-        if isinstance(error, NotWritten) or not _concerns(error, path, temporary):
+        if isinstance(error, NotWritten) or not _concerns(error, path, temporary, source):
             raise
         raise NotWritten(not_written(path, error)) from error
     finally:
@@ -70,11 +75,43 @@ def replacing(path: Path) -> Iterator[Path]:
             temporary.unlink(missing_ok=True)
 
 
-def _concerns(error: OSError, path: Path, temporary: Path) -> bool:
-    """Whether an error is one of writing a file. Copying names the file that it reads even where the disk is full."""
-    if error.errno in (*FULL, errno.EROFS) or error.filename is None:
+def _remove_abandoned(folder: Path, start: str) -> None:
+    """Remove the temporary files of processes of this machine that were killed; their names end with the numbers of these."""
+    for name in os.listdir(folder):
+        if name.startswith(start) and not _is_alive(name.removeprefix(start)):
+            with suppress(OSError):
+                (folder / name).unlink()
+
+
+def _is_alive(number: str) -> bool:
+    """Whether there is a process of a number, as far as that can be found out."""
+    try:
+        # Elsewhere this would end the process.
+        if os.name == "posix":
+            os.kill(int(number), 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, ValueError, OverflowError):
         return True
+    return True
+
+
+def _concerns(error: OSError, path: Path, temporary: Path, source: Path | None) -> bool:
+    """Whether an error is one of writing a file. Copying names the file that it reads even where the disk is full."""
+    if error.errno in (*FULL, errno.EROFS):
+        return True
+    if error.filename is None:
+        return source is None or _can_be_read(source)
     return Path(os.fsdecode(error.filename)) in (path, temporary, *path.parents)
+
+
+def _can_be_read(path: Path) -> bool:
+    """Whether a file can be read to its end."""
+    try:
+        sha256(path)
+    except OSError:
+        return False
+    return True
 
 
 def not_written(path: Path, error: OSError) -> str:

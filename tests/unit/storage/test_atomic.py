@@ -3,11 +3,15 @@
 import errno
 import os
 import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
 from markermend.storage import atomic
 from markermend.storage.atomic import NotWritten
+from support.paths import PROJECT
 
 
 def test_a_file_that_fails_to_be_written_stays_as_it_was(tmp_path):
@@ -64,6 +68,52 @@ def test_a_file_that_the_block_reads_keeps_its_own_error(tmp_path):
     with pytest.raises(FileNotFoundError) as failure, atomic.replacing(tmp_path / "copy") as temporary:
         shutil.copyfile(tmp_path / "gone", temporary)
     assert str(failure.value.filename) == str(tmp_path / "gone")
+
+
+def test_what_a_killed_process_left_is_removed_and_what_a_running_one_writes_is_not(tmp_path):
+    writing = """
+import pathlib, sys, time
+from markermend.storage import atomic
+with atomic.replacing(pathlib.Path(sys.argv[1])) as temporary:
+    temporary.write_text("half")
+    print(flush=True)
+    time.sleep(60)
+"""
+    environment = {**os.environ, "PYTHONPATH": str(PROJECT / "scripts")}
+    command = [sys.executable, "-c", writing, str(tmp_path / "a.txt")]
+    killed, running = (subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) for _ in range(2))
+    try:
+        for process in (killed, running):
+            process.stdout.readline()
+        assert len(os.listdir(tmp_path)) == 2
+        killed.kill()
+        killed.wait()
+        atomic.write_text(tmp_path / "a.txt", "whole")
+        left = set(os.listdir(tmp_path)) - {"a.txt"}
+        assert [name.rpartition(".")[2] for name in left] == [str(running.pid)]
+    finally:
+        for process in (killed, running):
+            process.kill()
+            process.communicate()
+
+
+def test_a_source_that_cannot_be_read_any_longer_is_not_taken_for_a_disk_that_cannot_be_written(tmp_path):
+    """Reading an open file fails without a name. The memory of a process is such a file: nothing lies at its beginning."""
+    source = Path("/proc/self/mem")
+    if not source.exists():
+        pytest.skip("there is no such file")
+
+    def read_and_write(**reads):
+        with atomic.replacing(tmp_path / "copy", **reads) as temporary, open(source, "rb") as file:
+            temporary.write_bytes(file.read())
+
+    with pytest.raises(OSError) as failure:
+        read_and_write(source=source)
+    assert failure.value.errno == errno.EIO and not isinstance(failure.value, NotWritten)
+    (tmp_path / "readable").touch()
+    for reads in ({}, {"source": tmp_path / "readable"}):
+        with pytest.raises(NotWritten, match="Input/output error"):
+            read_and_write(**reads)
 
 
 def test_a_folder_is_made_and_checked_and_nothing_is_left_in_it(tmp_path, monkeypatch):
