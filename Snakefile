@@ -54,14 +54,22 @@ rule all:
 if workflow.is_main_process:
     # Also after a dry run: what was read once is not read again.
     atexit.register(plan.data.checksums.save)
-    missing = find_missing(files, plan.data.entries)
-    plan.failures.update((*place, "export") for place in missing)
+    missing = find_missing(plan)
+    plan.failures.update(missing)
 
 
 def pending():
     """What the jobs that were not finished are about, but for those of experiments, on which the report does not depend."""
     jobs = workflow.dag.needrun_jobs()
     return [job.wildcards for job in jobs if not of_experiments(job.rule.name, papers.folder)]
+
+
+def part():
+    """The recordings of this part of a run (`--batch`); None where the run is whole, and for the last part, with the report."""
+    batch = workflow.dag_settings.batch
+    if batch is None or batch.is_final:
+        return None
+    return {(job.wildcards.subject, job.wildcards.recording) for job in workflow.dag.jobs if job.rule.name == "qc"}
 
 
 onstart:
@@ -72,14 +80,14 @@ onstart:
     if cleans():
         in_one_line(plan.write_lists)
         # However the run ends: an exception within Snakemake calls neither of the hooks below.
-        atexit.register(lambda: plan.close(pending()))
+        atexit.register(lambda: plan.close(pending(), part()))
 
 
 onsuccess:
     if cleans():
-        in_one_line(plan.write_facts)
+        in_one_line(lambda: plan.write_facts(finished=part() is None))
 
 
 onerror:
     if cleans():
-        in_one_line(plan.write_facts)
+        in_one_line(lambda: plan.write_facts(finished=False))

@@ -31,6 +31,13 @@ if os.path.basename(sys.orig_argv[1]) == "repair.py":
         raise MemoryError
     os.replace = fail_once
 """
+NO_ROOM = """
+import os, sys
+if os.path.basename(sys.orig_argv[1]) == "fill.py":
+    def fail(source, target):
+        raise OSError(28, "No space left on device")
+    os.replace = fail
+"""
 
 
 @pytest.fixture(scope="module")
@@ -255,13 +262,32 @@ def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tm
     assert NOTHING in finished.plan(**places).text
 
 
-def test_a_cleaned_file_that_is_gone_is_written_anew(finished):
-    path = finished.results / "S01/a/cleaned.c3d"
-    before = path.read_bytes()
-    path.unlink()
-    assert finished.plan().parameters_changed == {"export_c3d"}
+def test_results_that_are_gone_are_made_anew(finished):
+    before = finished.outputs()
+    for name in ("S01/a/changes.tsv", "S02/b/page.html"):
+        (finished.results / name).unlink()
+    assert finished.plan().parameters_changed == {"export_c3d", "qc"}
     finished.run()
-    assert path.read_bytes() == before and NOTHING in finished.plan().text
+    assert finished.outputs() == before and NOTHING in finished.plan().text
+
+
+def test_after_a_run_that_failed_the_plan_names_the_module_still(finished, tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(NO_ROOM)
+    with edited(finished.folder / "scripts/fill.py", "\n# edited\n"):
+        text = finished.run(environment={"PYTHONPATH": str(tmp_path)}, status=1)
+        assert "code changed since the last run: fill.py (of fill)" in text
+        assert "code changed since the last run: fill.py (of fill)" in finished.plan().text
+    assert "code changed" not in finished.run()
+
+
+def test_a_part_of_a_run_says_what_it_did_and_the_last_one_writes_the_report(finished, tmp_path):
+    results = tmp_path / "results"
+    text = finished.run("--batch", "report=1/2", results=results)
+    assert "1 recordings: 1 cleaned" in text and "not finished" not in text
+    assert text.strip().splitlines()[-1] == "This part of the run is closed; the last part writes the report."
+    assert "Report: " in finished.run("--batch", "report=2/2", results=results).strip().splitlines()[-1]
+    undisturbed, parts = finished.outputs(), finished.outputs(results)
+    assert {name: parts[name] == content for name, content in undisturbed.items()} == dict.fromkeys(undisturbed, True)
 
 
 def damage(path: Path) -> None:

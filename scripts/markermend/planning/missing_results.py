@@ -1,52 +1,85 @@
-"""Cleaned files that were written and are gone: Snakemake makes no file anew on which nothing that must be made depends."""
+"""Results that were written and are gone: Snakemake makes none anew as long as the report, in the end, is there."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
 from markermend.planning.discovery import Folders
-from markermend.planning.recordings import Entry
-from markermend.planning.result_files import ResultFiles
+from markermend.planning.plan import Plan
+from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.storage.failure_counts import count_failure
 
-STAGE = "export"
-"""The stage that writes cleaned files."""
+Missing = tuple[str, str, str]
+"""Folder of the subject, or `report`; folder of the recording, or nothing; the stage of which a result is gone."""
 
 
-def find_missing(files: ResultFiles, entries: Mapping[Folders, Entry]) -> list[Folders]:
-    """Find the recordings whose cleaned file is gone.
+def find_missing(plan: Plan) -> list[Missing]:
+    """Find the stages of which a result is gone; the folder of each recording is listed once.
 
     Parameters
     ----------
-    files : ResultFiles
-        Names of the result files.
-    entries : mapping of Folders to Entry
-        The recordings, by the names of their folders.
+    plan : Plan
+        The recordings, and what is written for each.
 
     Returns
     -------
-    list of Folders
-        Those that have a certificate, which is written last, and no cleaned file.
+    list of Missing
+        The stages of recordings that were judged, those of their subjects, and the report where it was made of a recording that is no
+        longer judged; what has not been made yet is not gone.
     """
-    missing = []
-    for (subject, recording), entry in entries.items():
-        folder = files.recording.format(subject=subject, recording=recording)
-        written = os.path.exists(files.certificate.format(subject=subject, recording=recording))
-        if written and not os.path.exists(f"{folder}/cleaned.{entry.format}"):
-            missing.append((subject, recording))
+    stages = {suffix: _stages(plan, suffix) for suffix in {entry.format for entry in plan.data.entries.values()}}
+    missing: list[Missing] = []
+    judged: list[Folders] = []
+    for (subject, recording), entry in plan.data.entries.items():
+        there = _names(plan.files.recording.format(subject=subject, recording=recording))
+        if QUALITY in there:
+            judged.append((subject, recording))
+            missing += [
+                (subject, recording, stage) for stage, own in stages[entry.format].items() if not there.issuperset(own)
+            ]
+    for subject in dict(judged):
+        shared = {"mesh": plan.files.mesh, **({"poses": plan.files.poses} if plan.pools(subject) else {})}
+        missing += [
+            (subject, "", stage) for stage, path in shared.items() if not os.path.exists(path.format(subject=subject))
+        ]
+    if len(judged) < len(plan.data.entries) and os.path.exists(f"{plan.files.report}/index.html"):
+        missing += [("report", "", stage) for stage in ("collect", "report")]
     return missing
 
 
-def count_missing(files: ResultFiles, missing: Iterable[Folders]) -> None:
-    """Count a failure of export for each recording whose cleaned file is gone, so that it is written anew.
+def _stages(plan: Plan, suffix: str) -> dict[str, set[str]]:
+    """Names of the files that each stage writes for a recording of a format."""
+    files = plan.files
+    trc = [f"{files.recording}/cleaned.trc"] if plan.writes_trc(suffix) else []
+    written = {
+        "ingest": [files.markers],
+        **{stage: [files.events[stage]] for stage in plan.detectors},
+        "repair": [files.repaired, files.repairs],
+        "fill": [files.filled, files.changes],
+        "export": [f"{files.recording}/cleaned.{suffix}", *trc, files.change_table, files.originals, files.certificate],
+        "qc": [files.quality, files.page],
+    }
+    return {stage: set(map(os.path.basename, own)) for stage, own in written.items()}
+
+
+def _names(folder: str) -> set[str]:
+    """The names in a folder; none where it is not there."""
+    try:
+        return set(os.listdir(folder))
+    except OSError:
+        return set()
+
+
+def count_missing(files: ResultFiles, missing: Iterable[Missing]) -> None:
+    """Count a failure of each stage of which a result is gone, so that it is made anew.
 
     Parameters
     ----------
     files : ResultFiles
         Names of the result files.
-    missing : iterable of Folders
+    missing : iterable of Missing
         What `find_missing` found.
 
     Raises
@@ -54,6 +87,5 @@ def count_missing(files: ResultFiles, missing: Iterable[Folders]) -> None:
     NotWritten
         Where a failure cannot be counted.
     """
-    for subject, recording in missing:
-        folder = Path(files.recording.format(subject=subject, recording=recording))
-        count_failure(folder, STAGE, "the cleaned file is gone")
+    for subject, recording, stage in missing:
+        count_failure(Path(files.results, subject, recording), stage, "a result is gone")

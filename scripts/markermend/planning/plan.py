@@ -10,7 +10,7 @@ import hashlib
 import json
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import cached_property
@@ -27,6 +27,7 @@ from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
+from markermend.planning.discovery import Folders
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
@@ -155,10 +156,23 @@ class Plan:
 
     def poses(self, wildcards: Wildcards) -> list[str]:
         """The poses of the subject, where its recordings are filled from each other; see `DataSet.entry`."""
+        return [self.files.poses.format(subject=wildcards.subject)] if self.pools(wildcards.subject) else []
+
+    def pools(self, subject: str) -> bool:
+        """Say whether the recordings of a subject are filled from each other.
+
+        Parameters
+        ----------
+        subject : str
+            Folder name of the subject.
+
+        Returns
+        -------
+        bool
+            Whether it has several, and the options and members of filling allow it.
+        """
         fill = self.options["fill"]
-        pools = fill.pool and learn_from_pool(fill.members)
-        pools = pools and len(self.data.subjects[wildcards.subject]) > 1
-        return [self.files.poses.format(subject=wildcards.subject)] if pools else []
+        return fill.pool and learn_from_pool(fill.members) and len(self.data.subjects[subject]) > 1
 
     def _of_subject(self, pattern: str, subject: str) -> list[str]:
         """A file of each of the recordings that stand for a subject."""
@@ -253,34 +267,43 @@ class Plan:
             ):
                 write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
 
-    def write_facts(self) -> None:
-        """Write the facts of the run."""
+    def write_facts(self, *, finished: bool) -> None:
+        """Write the facts of the run.
+
+        Parameters
+        ----------
+        finished : bool
+            Whether all results are of this run. Else the facts of an earlier run are left: the code in them is that which the next run
+            compares with.
+        """
+        if not finished and Path(self.files.provenance).exists():
+            return
         facts = run_facts.run_facts(
             self.project, config=write_config(self.options), recordings=len(self.data.entries), started=self.started
         )
         write_json(Path(self.files.provenance), facts)
 
-    def close(self, pending: Sequence[Any]) -> None:
+    def close(self, pending: Sequence[Any], part: Collection[Folders] | None = None) -> None:
         """Print the summary of the run, whatever became of it; warnings again, which a long run has hidden.
 
         Parameters
         ----------
         pending : sequence of Wildcards
             The wildcards of the jobs that were not finished; where there are any, the report is made of what was finished.
+        part : collection of Folders, optional
+            The recordings of the run, where it is a part that comes before the report.
         """
         places = {(getattr(job, "subject", None), getattr(job, "recording", None)) for job in pending}
-        unfinished = {
-            quality
-            for entry, quality in zip(self.data.entries, map(Path, self.quality_files), strict=True)
-            if entry in places or not quality.exists()
-        }
-        if pending:
-            finished = [path for path in self.quality_files if Path(path) not in unfinished]
+        quality_files = dict(zip(self.data.entries, map(Path, self.quality_files), strict=True))
+        unfinished = {path for entry, path in quality_files.items() if entry in places or not path.exists()}
+        if pending and part is None:
+            finished = [str(path) for path in quality_files.values() if path not in unfinished]
             partial_report.write(
                 self.files, finished, sorted(map(str, unfinished)), script=self.project / "scripts/report.py"
             )
-        index = Path(self.files.report) / "index.html"
-        lines = [*self.warnings, run_summary.summary([*map(Path, self.quality_files)], index, unfinished)]
+        about = [path for entry, path in quality_files.items() if part is None or entry in part]
+        index = Path(self.files.report) / "index.html" if part is None else None
+        lines = [*self.warnings, run_summary.summary(about, index, unfinished)]
         try:
             check_writable(Path(self.files.results))
         except NotWritten as error:

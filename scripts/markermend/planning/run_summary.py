@@ -26,15 +26,16 @@ ERROR = "ERROR "
 """Beginning of a line of a log that says why a stage failed."""
 
 
-def summary(paths: Sequence[Path], report: Path, unfinished: Collection[Path] = ()) -> str:
+def summary(paths: Sequence[Path], report: Path | None, unfinished: Collection[Path] = ()) -> str:
     """Sum up a run: recordings by outcome, changed samples, what was set aside or not finished and why.
 
     Parameters
     ----------
     paths : sequence of Path
         Quality files of the recordings; those that do not exist or cannot be read count as unfinished.
-    report : Path
-        First page of the report; the last line names it, or says that it was not written or is older than the results.
+    report : Path or None
+        First page of the report; the last line names it, or says that it was not written or is older than the results. None where the run
+        is a part that comes before the report.
     unfinished : collection of Path, optional
         Those of the quality files that are not of the results as they are now.
 
@@ -86,8 +87,10 @@ def _last_error(logs: Path) -> str:
     return f"see {logs}"
 
 
-def _of_report(report: Path, judged: Sequence[Path]) -> str:
+def _of_report(report: Path | None, judged: Sequence[Path]) -> str:
     """Where the report is, or that it was not written."""
+    if report is None:
+        return "This part of the run is closed; the last part writes the report."
     if not report.exists():
         return f"The report was not written: {report}: {_last_error(report.parent / 'logs')}"
     if report.stat().st_mtime == PARTIAL:

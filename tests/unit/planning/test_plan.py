@@ -105,7 +105,7 @@ def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_i
 
 
 def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
-    plan.write_facts()
+    plan.write_facts(finished=True)
     assert not make_plan(config, PROJECT, deployed=False).warnings
     path = tmp_path / "out/report/provenance.json"
     facts = json.loads(path.read_text())
@@ -155,7 +155,7 @@ def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan
     path = tmp_path / "out/S%201/run/08_qc.json"
     path.parent.mkdir(parents=True)
     path.write_text(json.dumps(quality))
-    plan.write_facts()
+    plan.write_facts(finished=True)
     replace(plan, warnings=["decisions: line 2 is about none"]).close([])
     text = capsys.readouterr().err
     assert (
@@ -165,6 +165,32 @@ def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan
     facts = json.loads((tmp_path / "out/report/provenance.json").read_text())
     assert facts["recordings"] == 3 and facts["config"]["results"] == str(tmp_path / "out")
     assert "markermend/filling/fill.py" in str(facts["code"]["fill"])
+
+
+def test_a_run_that_fails_leaves_the_facts_of_the_one_before(tmp_path, plan):
+    path = tmp_path / "out/report/provenance.json"
+    plan.write_facts(finished=False)
+    assert json.loads(path.read_text())["recordings"] == 3
+    path.write_text("of the run before")
+    plan.write_facts(finished=False)
+    assert path.read_text() == "of the run before"
+    plan.write_facts(finished=True)
+    assert json.loads(path.read_text())["recordings"] == 3
+
+
+def test_a_part_of_a_run_is_summed_up_alone(tmp_path, plan, capsys):
+    path = tmp_path / "out/S%201/walk/08_qc.json"
+    path.parent.mkdir(parents=True)
+    path.write_text(json.dumps({"status": "cleaned", "changed_samples": 2}))
+    plan.close([], {("S%201", "walk")})
+    assert capsys.readouterr().err.splitlines() == [
+        "1 recordings: 1 cleaned; 2 samples changed",
+        "This part of the run is closed; the last part writes the report.",
+    ]
+    plan.close([job(recording="run")], {("S%201", "walk"), ("S%201", "run")})
+    text = capsys.readouterr().err
+    assert "2 recordings: 1 cleaned, 1 unfinished" in text and "not finished: S%201/run: see" in text
+    assert not (tmp_path / "out/report/index.html").exists()
 
 
 def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tmp_path, plan, capsys):
