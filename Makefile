@@ -7,7 +7,7 @@ RESULTS ?= results
 # Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo papers test test-papers test-cluster wheel lint config lock clean
+.PHONY: demo papers test test-papers test-cluster faults wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -32,6 +32,10 @@ test-papers: .venv/ready
 # A small SLURM cluster on this machine; skipped where SLURM is not installed, or without root.
 test-cluster: .venv/ready
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m cluster tests/workflow/test_cluster.py
+
+# What faults do to results, FAULTS=kills for one kind: minutes.
+faults: .venv/ready
+	OMP_NUM_THREADS=1 PYTHONPATH=scripts:tests $(BIN)/python -m faults $(FAULTS)
 
 # The package in an empty environment; needs a package index.
 wheel: .venv/ready
