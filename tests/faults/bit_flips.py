@@ -6,12 +6,12 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from faults.judgement import RECORDS_OF_SNAKEMAKE, results
+from faults.judgement import results
 from faults.stages import STAGES
 from faults.trial import Outcome, Trial
 from faults.workplace import Workplace
 from markermend.command import verification
-from markermend.storage import output_checksums
+from markermend.storage import output_checksums, snakemake_records
 
 READERS = {
     "S01/walk/01_markers.parquet": ("mesh", "repair"),
@@ -101,14 +101,19 @@ def flip_records(place: Workplace, *, fault: str) -> Outcome:
 
 
 def flip_snakemake(place: Workplace, *, seed: int) -> Outcome:
-    """Flip a bit of every record of Snakemake; let a stage run again."""
+    """Flip a bit of every record of Snakemake; those that cannot be read must be named, and let their jobs run again on request."""
     place.restore(finished=True)
     rng = random.Random(seed)
-    paths = sorted(path for path in (place.results / RECORDS_OF_SNAKEMAKE / "metadata").rglob("*") if path.is_file())
+    paths = sorted(path for path in (place.results / snakemake_records.FOLDER).rglob("*") if path.is_file())
     for path in paths:
         flip(path, rng)
-    ended = place.run("--forcerun", "repair")
-    return Outcome(["in records of Snakemake"] * len(paths), [*place.unsaid(ended), *place.finish(ended)])
+    named = sum(checked.differs for checked in verification.check(place.results))
+    place.verify("--remake")
+    ended = place.run()
+    happened = ["records of Snakemake named by verify"] * named + ["flips in readable records of Snakemake"] * (
+        len(paths) - named
+    )
+    return Outcome(happened, [*place.unsaid(ended), *place.finish(ended)])
 
 
 def lose_power(place: Workplace, *, stage: str, reader: str) -> Outcome:

@@ -41,7 +41,9 @@ def delete(place: Workplace, *, name: str) -> Outcome:
     place.restore(finished=True)
     remove(place.results / name)
     ended = place.run()
-    return Outcome(["back" if not place.differences() else "not back"], [*place.unsaid(ended), *place.finish(ended)])
+    return Outcome(
+        ["back" if not place.differences() else "back after another run"], [*place.unsaid(ended), *place.finish(ended)]
+    )
 
 
 def remove(path: Path) -> None:

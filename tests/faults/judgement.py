@@ -29,9 +29,12 @@ def results(folder: Path) -> dict[str, Path]:
 def differences(folder: Path, reference: Path, *, unfinished: bool = False) -> list[str]:
     """Name the results that differ from those of an undisturbed run, that are missing, and that should not be there.
 
-    In results that are unfinished, what is missing does not count, nor what a killed process was just writing.
+    In results that are unfinished, what is missing does not count, nor what a killed process was just writing, nor the report, which is of
+    what was finished.
     """
     found, expected = results(folder), results(reference)
+    if unfinished:
+        found = {name: path for name, path in found.items() if not name.startswith("report/")}
     differs = [name for name in found.keys() & expected.keys() if not same(found[name], expected[name])]
     lines = [f"{name} differs" for name in differs]
     if not unfinished:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from markermend.command.inputs import original_checksum
-from markermend.storage import output_checksums, tab_separated
+from markermend.storage import output_checksums, snakemake_records, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
 from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
@@ -18,6 +18,9 @@ from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 UNRECORDED = "nothing recorded"
 """Stands for a checksum that should have been recorded."""
+
+READABLE, UNREADABLE = "a record", "cannot be read"
+"""Stand for the checksums of a record of which none is known."""
 
 ALWAYS_RECORDED = (
     *("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
@@ -78,13 +81,16 @@ def check(results: Path) -> Iterator[Checked]:
     Yields
     ------
     Checked
-        Each file of which a checksum is recorded, or should be: results by their folders, then originals.
+        Each file of which a checksum is recorded, or should be: results by their folders, then originals. Records only where they cannot be
+        read.
     """
     subjects = [path for path in _folders(results) if path.name not in RESERVED_SUBJECTS]
     recordings = [path for subject in subjects for path in _folders(subject) if path.name != output_checksums.FOLDER]
     report = [results / "report", *_folders(results / "report/batches")]
     for folder in [*report, *sorted([*subjects, *recordings])]:
         yield from _outputs(folder, results)
+    for path in snakemake_records.unreadable(results):
+        yield Checked(str(path.relative_to(results)), READABLE, UNREADABLE)
     sources = SourceChecksums(results / "report/logs/sources.json").recorded
     for recording in recordings:
         source = sources.get(f"{recording.parent.name}/{recording.name}")
@@ -106,7 +112,7 @@ def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
         for name, expected in record.outputs.items():
             yield Checked(str(place / name), expected, _checksum(folder / name), record.stage)
     for stage in output_checksums.unreadable(folder):
-        yield Checked(str(place / output_checksums.FOLDER / f"{stage}.json"), "a record", "cannot be read", stage)
+        yield Checked(str(place / output_checksums.FOLDER / f"{stage}.json"), READABLE, UNREADABLE, stage)
     for path in sorted({path for pattern in ALWAYS_RECORDED for path in folder.glob(pattern)}):
         if path.name not in recorded:
             yield Checked(str(place / path.name), UNRECORDED, _checksum(path))
@@ -167,5 +173,7 @@ def main(arguments: Sequence[str]) -> int:
     for folder, stage in {(one.folder(flags.results), one.stage) for one in different if one.stage}:
         if flags.remake:
             count_failure(folder, stage, "its outputs are not as it wrote them")
+    if flags.remake:
+        snakemake_records.renew(flags.results)
     print(f"{len(checked) - len(different)} files are as they were, {len(different)} differ", file=sys.stderr)
     return int(bool(different))

@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 
 from markermend.planning.code_hashes import code
+from markermend.storage import snakemake_records
 
 
 def code_changes(project: Path, provenance: Path) -> list[str]:
@@ -37,3 +38,27 @@ def code_changes(project: Path, provenance: Path) -> list[str]:
         for module in {entry.partition(":")[0] for entry in changed}:
             users.setdefault(module, []).append(script)
     return [f"code changed since the last run: {module} (of {', '.join(users[module])})" for module in sorted(users)]
+
+
+def unnoticed_changes(results: Path, provenance: Path) -> list[str]:
+    """Warn where changes cannot be noticed.
+
+    Parameters
+    ----------
+    results : Path
+        The folder of results.
+    provenance : Path
+        The facts of the last run, if there was one.
+
+    Returns
+    -------
+    list of str
+        A line where Snakemake's records of the results are gone.
+    """
+    records = (results / snakemake_records.FOLDER).parent
+    if not provenance.exists() or records.is_dir():
+        return []
+    return [
+        f"the records in {records} are gone: options, code and originals that have changed since the results were "
+        "made are not noticed; --forceall makes all results anew"
+    ]

@@ -25,7 +25,7 @@ from markermend.options.general import EXPERIMENTS
 from markermend.planning import code_hashes, partial_report, run_facts, run_summary
 from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
-from markermend.planning.code_changes import code_changes
+from markermend.planning.code_changes import code_changes, unnoticed_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import BadDataSet
@@ -341,11 +341,15 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
     files = ResultFiles(results)
     failures = planning_config.failures(results)
     data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas", failures=failures)
+    changes = [
+        *code_changes(project, Path(files.provenance)),
+        *unnoticed_changes(Path(results), Path(files.provenance)),
+    ]
     return Plan(
         options=options,
         project=project,
         files=files,
         data=data,
         failures=failures,
-        warnings=[*planning_config.warnings(options), *warnings, *code_changes(project, Path(files.provenance))],
+        warnings=[*planning_config.warnings(options), *warnings, *changes],
     )

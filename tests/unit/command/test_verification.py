@@ -108,6 +108,16 @@ def test_a_record_that_cannot_be_read_is_listed_with_its_files_which_are_made_an
     assert failures == results / "report/failures.tsv" and failures.read_text().startswith("report\t")
 
 
+def test_a_record_of_snakemake_that_cannot_be_read_is_listed_and_replaced_on_request(results, capsys):
+    folder = results / ".snakemake/metadata"
+    folder.mkdir(parents=True)
+    (folder / "L3Jl").write_text('{"params": []}')
+    (folder / "c3Vs").write_bytes(b"\xb5")
+    assert different(results) == {".snakemake/metadata/c3Vs": ("a record", "cannot be read")}
+    assert lines(results, capsys, "--remake")[0] == 1
+    assert different(results) == {}
+
+
 def test_the_next_run_makes_anew_what_differs_on_request(results, capsys):
     (results / "S01/walk/cleaned.c3d").write_text("edited")
     (results / "S01/walk/changes.tsv").unlink()

@@ -34,7 +34,8 @@ def test_equal_results_differ_in_nothing_whatever_the_clocks(folders):
 @pytest.mark.parametrize("name", FILES)
 def test_each_result_that_differs_is_named(folders, name):
     (folders[0] / name).write_text(name[::-1])
-    assert differences(*folders) == differences(*folders, unfinished=True) == [f"{name} differs"]
+    assert differences(*folders) == [f"{name} differs"]
+    assert differences(*folders, unfinished=True) == ([] if name.startswith("report") else [f"{name} differs"])
 
 
 def test_what_is_missing_and_what_is_left_over_counts_in_finished_results(folders):

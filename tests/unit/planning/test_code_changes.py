@@ -5,7 +5,7 @@ import json
 import pytest
 
 from markermend.planning import code_hashes
-from markermend.planning.code_changes import code_changes
+from markermend.planning.code_changes import code_changes, unnoticed_changes
 
 
 @pytest.fixture
@@ -51,3 +51,14 @@ def test_without_an_earlier_run_nothing_is_said(project, text):
     if text is not None:
         path.write_text(text)
     assert code_changes(project, path) == []
+
+
+def test_where_the_records_are_gone_a_line_says_that_changes_are_not_noticed(tmp_path):
+    provenance = tmp_path / "report/provenance.json"
+    assert unnoticed_changes(tmp_path, provenance) == []
+    provenance.parent.mkdir()
+    provenance.touch()
+    (line,) = unnoticed_changes(tmp_path, provenance)
+    assert f"the records in {tmp_path}/.snakemake are gone" in line and "--forceall" in line
+    (tmp_path / ".snakemake").mkdir()
+    assert unnoticed_changes(tmp_path, provenance) == []

@@ -106,6 +106,7 @@ def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_i
 
 def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
     plan.write_facts(finished=True)
+    (tmp_path / "out/.snakemake").mkdir()
     assert not make_plan(config, PROJECT, deployed=False).warnings
     path = tmp_path / "out/report/provenance.json"
     facts = json.loads(path.read_text())
