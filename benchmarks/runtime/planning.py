@@ -10,7 +10,8 @@ The recordings are empty files, all of one subject or five of each. Seconds of a
 - part: the same of the first of four parts, `--batch report=1/4`;
 - dry_run: `snakemake --dry-run` of the same, which in addition writes out every job and its command;
 - current: `snakemake --dry-run` where all results are there;
-- one_more: the same with one recording more.
+- one_more: the same with one recording more;
+- run_current: a run where all results are there, which has nothing to do.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from benchmarks.support import result_tables
@@ -32,7 +34,10 @@ COUNTS = (100, 1_000)
 FEW = 5
 """Recordings of each subject, where there are many subjects."""
 
-CASES = ("start", "part", "dry_run", "current", "one_more")
+FIRST = ("start", "part", "dry_run")
+"""Cases in which nothing is there yet."""
+
+CASES = (*FIRST, "current", "run_current", "one_more")
 PART = ("--batch", "report=1/4")
 POLL_S = 0.02
 
@@ -52,9 +57,9 @@ def write_recordings(folder: Path, count: int, subjects: int) -> None:
         path.touch()
 
 
-def dry_run(folder: Path) -> tuple[float, float]:
-    """Seconds of a core and MB of a dry run."""
-    command = [sys.executable, "-c", WATCH, sys.executable, "-m", "snakemake", "--dry-run", *arguments(folder)]
+def whole(folder: Path, *more: str) -> tuple[float, float]:
+    """Seconds of a core and MB of a run that ends by itself."""
+    command = [sys.executable, "-c", WATCH, sys.executable, "-m", "snakemake", *more, *arguments(folder)]
     with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile("w+") as output:
         subprocess.run(command, stdout=output, stderr=errors, check=True)
         output.seek(0)
@@ -83,20 +88,33 @@ def start(folder: Path, *more: str) -> tuple[float, float]:
         run.wait()
 
 
-def measure(case: str, count: int, subjects: int) -> tuple[float, float]:
-    """Seconds of a core and MB of one case."""
+def measure(case: str, folder: Path) -> tuple[float, float]:
+    """Seconds of a core and MB of one case, on recordings in a folder, with results if there are any."""
+    if case in ("start", "part"):
+        return start(folder, *(PART if case == "part" else ()))
+    if case == "one_more":
+        (folder / "recordings/S00000/new.c3d").touch()
+    return whole(folder, *([] if case == "run_current" else ["--dry-run"]))
+
+
+def measure_all(cases: Collection[str], count: int, subjects: int) -> Iterator[tuple[str, float, float]]:
+    """The cases, each with seconds of a core and MB; those in which results are there share them."""
+    for case in (case for case in FIRST if case in cases):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary).resolve()
+            write_recordings(folder, count, subjects)
+            yield case, *measure(case, folder)
+    later = [case for case in CASES if case in cases and case not in FIRST]
+    if not later:
+        return
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary).resolve()
         write_recordings(folder, count, subjects)
-        if case in ("start", "part"):
-            return start(folder, *(PART if case == "part" else ()))
-        if case != "dry_run":
-            command = [sys.executable, "-m", "benchmarks.support.planned_results", "--dry-run", *arguments(folder)]
-            quiet = subprocess.DEVNULL
-            subprocess.run(command, check=True, cwd=PROJECT, stdout=quiet, stderr=quiet)
-        if case == "one_more":
-            (folder / "recordings/S00000/new.c3d").touch()
-        return dry_run(folder)
+        command = [sys.executable, "-m", "benchmarks.support.planned_results", "--dry-run", *arguments(folder)]
+        quiet = subprocess.DEVNULL
+        subprocess.run(command, check=True, cwd=PROJECT, stdout=quiet, stderr=quiet)
+        for case in later:
+            yield case, *measure(case, folder)
 
 
 def main() -> None:
@@ -111,11 +129,12 @@ def main() -> None:
     for count in given.counts:
         for subjects in [1 if name == "one" else count // FEW for name in given.subjects]:
             row: dict[str, object] = {"recordings": count, "subjects": subjects}
-            for case in given.cases:
-                seconds, megabytes = measure(case, count, subjects)
+            print(f"{count} recordings, {subjects} subjects:", end="", flush=True)
+            for case, seconds, megabytes in measure_all(given.cases, count, subjects):
                 row |= {f"{case}_seconds": round(seconds, 1), f"{case}_megabytes": round(megabytes)}
+                print(f"  {case} {seconds:.1f} s {megabytes:.0f} MB", end="", flush=True)
+            print()
             rows.append(row)
-            print("  ".join(f"{name} {value}" for name, value in row.items()), flush=True)
             if given.tsv:
                 result_tables.write(given.tsv, rows)
 

@@ -104,6 +104,9 @@ class Version:
         self.project = project
         snakemake = [str(Path(sys.executable).with_name("snakemake")), "--cores", "1"]
         config = ["--config", f"recordings={recordings}", f"results={results}"]
+        # Compiling takes as long as some stages.
+        for command in ([sys.executable, "-m", "compileall", "-q", "scripts"], [*snakemake, "--dry-run", *config]):
+            Cost.of(command, project)
         self.workflow = Cost.of([*snakemake, *config], project).seconds
         for path in results.glob("*/*/08_qc.json"):
             quality = json.loads(path.read_text(encoding="utf-8"))

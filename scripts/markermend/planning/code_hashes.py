@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
 import markermend
+
+BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
+"""The parts of a statement that hold statements."""
 
 
 def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
@@ -35,7 +38,8 @@ def code(script: Path, extra: Iterable[Path] = ()) -> list[str]:
     files = modules(script.resolve(), library)
     for path in extra:
         files += [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
-    return sorted(f"{name_of(file, [folder, library, folder.parent])}:{content_hash(file)}" for file in files)
+    folders = (folder, library, folder.parent)
+    return sorted(f"{name_of(file, folders)}:{content_hash(file)}" for file in files)
 
 
 def modules(script: Path, library: Path) -> list[Path]:
@@ -57,22 +61,37 @@ def modules(script: Path, library: Path) -> list[Path]:
     waiting = [script]
     while waiting:
         file = waiting.pop()
-        own = [own for name in _imported_names(file, content_hash(file)) for own in _files(name, library)]
-        waiting += [each for each in own if each not in found]
-        found |= dict.fromkeys(own)
+        new = [own for own in _imported_files(file, content_hash(file), library) if own not in found]
+        waiting += new
+        found |= dict.fromkeys(new)
     return list(found)
 
 
 @cache
-def _imported_names(file: Path, digest: str) -> tuple[str, ...]:
-    """The modules of the package that a file of this content imports, with names that may be of modules in them."""
+def _imported_files(file: Path, digest: str, library: Path) -> tuple[Path, ...]:
+    """The files that Python runs for the imports of a file of this content, each once."""
+    return tuple(dict.fromkeys(own for name in _imported_names(file) for own in _files(name, library)))
+
+
+def _imported_names(file: Path) -> tuple[str, ...]:
+    """The modules of the package that a file imports, with names that may be of modules in them."""
     names: dict[str, None] = {}
-    for node in ast.walk(ast.parse(file.read_bytes())):
+    for node in _statements(ast.parse(file.read_bytes())):
         if isinstance(node, ast.Import):
             names |= dict.fromkeys(each.name for each in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             names |= dict.fromkeys([node.module, *(f"{node.module}.{each.name}" for each in node.names)])
     return tuple(name for name in names if name.split(".")[0] == markermend.__name__)
+
+
+def _statements(tree: ast.Module) -> Iterator[ast.AST]:
+    """The statements in a module, without what they consist of: no expression imports anything."""
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for part in BLOCKS:
+            waiting += getattr(node, part, ())
 
 
 @cache
@@ -84,14 +103,15 @@ def _files(name: str, library: Path) -> tuple[Path, ...]:
     return tuple(file for file in (*packages, module) if file.is_file())
 
 
-def name_of(file: Path, folders: Iterable[Path]) -> str:
+@cache
+def name_of(file: Path, folders: tuple[Path, ...]) -> str:
     """Name a file by its path from a folder.
 
     Parameters
     ----------
     file : Path
         The file.
-    folders : iterable of Path
+    folders : tuple of Path
         Folders, the first of which that holds the file counts.
 
     Returns
