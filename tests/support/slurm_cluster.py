@@ -106,7 +106,7 @@ class Cluster:
         """What a client prints; nothing where it fails."""
         return subprocess.run(command, env=self.environment, capture_output=True, text=True).stdout
 
-    def wait_until(self, happened: Callable[[], object], seconds: float = 120) -> None:
+    def wait_until(self, happened: Callable[[], object], seconds: float = 600) -> None:
         """Wait until something happened."""
         end = time.monotonic() + seconds
         while not happened():

@@ -31,7 +31,7 @@ if script in ("mesh.py", "repair.py", "fill.py"):
 """Of three stages, the process that comes first gets no further, until its job ends."""
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def cluster():
     with Cluster() as cluster:
         yield cluster
@@ -93,7 +93,7 @@ def test_a_job_that_was_cancelled_or_out_of_time_or_on_a_node_that_was_lost_is_d
             cluster.call("scontrol", "update", f"JobId={slow}", "TimeLimit=1")
             lost, node = hanging("fill.py")
             cluster.lose(node)
-            assert running.wait(timeout=300) == 0, (tmp_path / "log").read_text()
+            assert running.wait(timeout=900) == 0, (tmp_path / "log").read_text()
         finally:
             running.kill()
     subject = {path: content for path, content in project.outputs().items() if path.startswith("S0/")}

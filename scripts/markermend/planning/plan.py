@@ -296,13 +296,14 @@ class Plan:
         places = {(getattr(job, "subject", None), getattr(job, "recording", None)) for job in pending}
         quality_files = dict(zip(self.data.entries, map(Path, self.quality_files), strict=True))
         unfinished = {path for entry, path in quality_files.items() if entry in places or not path.exists()}
-        if pending and part is None:
-            finished = [str(path) for path in quality_files.values() if path not in unfinished]
+        finished = [str(path) for path in quality_files.values() if path not in unfinished]
+        index = Path(self.files.report) / "index.html" if part is None else None
+        # Of nothing no report is made: it would be older than nothing, and the next run would have nothing to do.
+        if pending and index and (finished or index.exists()):
             partial_report.write(
                 self.files, finished, sorted(map(str, unfinished)), script=self.project / "scripts/report.py"
             )
         about = [path for entry, path in quality_files.items() if part is None or entry in part]
-        index = Path(self.files.report) / "index.html" if part is None else None
         lines = [*self.warnings, run_summary.summary(about, index, unfinished)]
         try:
             check_writable(Path(self.files.results))

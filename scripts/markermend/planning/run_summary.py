@@ -91,6 +91,8 @@ def _of_report(report: Path | None, judged: Sequence[Path]) -> str:
     """Where the report is, or that it was not written."""
     if report is None:
         return "This part of the run is closed; the last part writes the report."
+    if not report.exists() and not judged:
+        return "There is no report: no recording was finished"
     if not report.exists():
         return f"The report was not written: {report}: {_last_error(report.parent / 'logs')}"
     if report.stat().st_mtime == PARTIAL:

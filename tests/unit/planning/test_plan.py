@@ -213,6 +213,12 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
 
 
+def test_of_nothing_no_report_is_made_which_the_next_run_would_take_for_the_whole(tmp_path, plan, capsys):
+    plan.close([SimpleNamespace()])
+    assert capsys.readouterr().err.endswith("There is no report: no recording was finished\n")
+    assert not (tmp_path / "out/report").exists()
+
+
 def test_an_earlier_report_is_not_taken_for_one_of_what_is_finished(tmp_path, plan, capsys):
     (tmp_path / "out/S%201/walk").mkdir(parents=True)
     write_json(tmp_path / "out/S%201/walk/08_qc.json", {"status": "cleaned"})

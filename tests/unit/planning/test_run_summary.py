@@ -41,8 +41,11 @@ def test_what_was_not_finished_is_named_with_its_last_error(tmp_path):
         f"  not finished: S01/killed: see {paths[0].parent}/logs",
         "  not finished: S01/full: fill: x was not written",
         f"  not finished: S01/torn: see {paths[2].parent}/logs",
-        f"The report was not written: {tmp_path}/none: see {tmp_path}/logs",
+        "There is no report: no recording was finished",
     ]
+    paths[0].write_text('{"status": "cleaned"}')
+    last = run_summary.summary(paths, tmp_path / "none").splitlines()[-1]
+    assert last == f"The report was not written: {tmp_path}/none: see {tmp_path}/logs"
 
 
 def test_a_long_list_of_what_was_not_finished_is_cut(tmp_path):
