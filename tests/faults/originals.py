@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -86,21 +86,25 @@ def during_a_run(place: Workplace, *, name: str, moment: str) -> Outcome:
     place.restore(finished=False)
     run = place.start()
     run.wait_for((place.results / MOMENTS[moment]).exists)
+    # What has been exported is of the recording as it was.
+    exported = [name for name in NAMES if (place.results / name).with_suffix("").joinpath("certificate.json").exists()]
     FAULTS[name](place.recordings)
-    return judge(place, run.end(), f"{name} {moment}")
+    return judge(place, run.end(), f"{name} {moment}", exported)
 
 
-def judge(place: Workplace, ended: Ended, happened: str) -> Outcome:
+def judge(place: Workplace, ended: Ended, happened: str, exported: Sequence[str] = ()) -> Outcome:
     """Whether results are of the recordings as they are or said not to be, and of the old ones when these are back."""
-    wrong = [] if ended.status else of_other_content(place, ended.text)
+    wrong = (
+        [] if ended.status else of_other_content(place, ended.text, [name for name in NAMES if name not in exported])
+    )
     place.bring_back_recordings()
     return Outcome([happened], [*wrong, *place.finish()])
 
 
-def of_other_content(place: Workplace, text: str) -> list[str]:
-    """Name the recordings whose results are of other content, about which a run said nothing."""
+def of_other_content(place: Workplace, text: str, names: Sequence[str]) -> list[str]:
+    """Name those of some recordings whose results are of other content, about which a run said nothing."""
     wrong = []
-    for name in NAMES:
+    for name in names:
         path, folder = place.recordings / name, place.results / Path(name).with_suffix("")
         if f": {folder.parent.name}/{folder.name}: " not in text and path.exists():
             certificate = json.loads((folder / "certificate.json").read_text())

@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 
 from faults.workplace import Workplace
 
+LISTED = 20
+"""Largest number of losses that the line of a kind names."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -49,6 +52,7 @@ def table(tallies: Iterable[tuple[str, Tally]]) -> str:
     lines = []
     for kind, tally in tallies:
         happened = ", ".join(f"{count} {what}" for what, count in tally.happened.most_common())
-        lost = "; ".join(tally.lost) or "nothing"
+        lost = "; ".join(tally.lost[:LISTED]) or "nothing"
+        lost += f" and {len(tally.lost) - LISTED} more" if len(tally.lost) > LISTED else ""
         lines.append(f"{kind}: {tally.happened.total()} tries ({happened}); lost: {lost}")
     return "\n".join(lines)
