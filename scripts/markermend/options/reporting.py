@@ -44,7 +44,7 @@ class ReportOptions:
     """Put all recordings into one report."""
 
     max_batch: Annotated[Count, Planned] = 250
-    """Recordings of which the report is made at once; the figures of more are collected in batches first, none of which is much larger."""
+    """Recordings of which the report is made at once; the figures of more are collected in batches first, none of which is larger."""
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,15 @@ def test_many_recordings_are_divided_each_into_one_batch_of_bounded_size():
     assert max(map(len, found.values())) <= 100
 
 
+def test_no_batch_is_larger_however_the_checksums_fall():
+    """With 2,000 subjects of five recordings, twice as many batches as the average needs."""
+    places = [f"S{number % 2000}/r{number}" for number in range(10_000)]
+    halves = [batches(places[:count], max_size=250) for count in range(400, 10_001, 800)]
+    assert max(len(own) for found in halves for own in found.values()) <= 250
+    for count in (100, 1000):
+        assert max(map(len, batches(places[:count], max_size=5).values())) <= 5
+
+
 def test_the_recordings_of_a_subject_stay_together_where_they_are_few():
     found = batches([f"S{number % 200}/r{number}" for number in range(1000)], max_size=100)
     subjects = [{place.split("/")[0] for place in own} for own in found.values()]
