@@ -80,14 +80,14 @@ onstart:
     if cleans():
         in_one_line(plan.write_lists)
         # However the run ends: an exception within Snakemake calls neither of the hooks below.
-        atexit.register(lambda: plan.close(pending(), part()))
+        atexit.register(lambda: end_of_run.close(plan, pending(), part()))
 
 
 onsuccess:
     if cleans():
-        in_one_line(lambda: plan.write_facts(finished=part() is None))
+        in_one_line(lambda: end_of_run.write_facts(plan, finished=part() is None))
 
 
 onerror:
     if cleans():
-        in_one_line(lambda: plan.write_facts(finished=False))
+        in_one_line(lambda: end_of_run.write_facts(plan, finished=False))

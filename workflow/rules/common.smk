@@ -17,6 +17,7 @@ sys.path.insert(0, SCRIPTS)
 # A plan consists of millions of objects that stay: looking through them for garbage every now and then took a fifth of the time.
 gc.set_threshold(100_000, 50, 1000)
 
+from markermend.planning import end_of_run
 from markermend.planning.missing_results import count_missing, find_missing
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import FORMATS, BadDataSet

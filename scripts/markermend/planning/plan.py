@@ -1,16 +1,15 @@
 """What a run consists of, for the rules to ask: recordings, result files, and what each command depends on.
 
 Reads: the recordings' folder or table, the decisions, failures.tsv among the results, the code of the stages.
-Writes: lists of files beside the results, and the facts of the run.
+Writes: lists of files beside the results, and the flags of the detectors.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import cached_property
@@ -19,20 +18,18 @@ from typing import Any
 
 import markermend
 from markermend.core.artifacts import DETECTORS
-from markermend.options.config import write_config
 from markermend.options.flags import flags, write_flags
 from markermend.options.general import EXPERIMENTS
-from markermend.planning import code_hashes, partial_report, run_facts, run_summary
+from markermend.planning import code_hashes
 from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes, unnoticed_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
-from markermend.planning.discovery import Folders
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
-from markermend.storage.atomic import NotWritten, check_writable, write_json, write_list
+from markermend.storage.atomic import write_json, write_list
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
@@ -266,50 +263,6 @@ class Plan:
                 (self.files.repaired_list, self.files.repaired),
             ):
                 write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
-
-    def write_facts(self, *, finished: bool) -> None:
-        """Write the facts of the run.
-
-        Parameters
-        ----------
-        finished : bool
-            Whether all results are of this run. Else the facts of an earlier run are left: the code in them is that which the next run
-            compares with.
-        """
-        if not finished and Path(self.files.provenance).exists():
-            return
-        facts = run_facts.run_facts(
-            self.project, config=write_config(self.options), recordings=len(self.data.entries), started=self.started
-        )
-        write_json(Path(self.files.provenance), facts)
-
-    def close(self, pending: Sequence[Any], part: Collection[Folders] | None = None) -> None:
-        """Print the summary of the run, whatever became of it; warnings again, which a long run has hidden.
-
-        Parameters
-        ----------
-        pending : sequence of Wildcards
-            The wildcards of the jobs that were not finished; where there are any, the report is made of what was finished.
-        part : collection of Folders, optional
-            The recordings of the run, where it is a part that comes before the report.
-        """
-        places = {(getattr(job, "subject", None), getattr(job, "recording", None)) for job in pending}
-        quality_files = dict(zip(self.data.entries, map(Path, self.quality_files), strict=True))
-        unfinished = {path for entry, path in quality_files.items() if entry in places or not path.exists()}
-        finished = [str(path) for path in quality_files.values() if path not in unfinished]
-        index = Path(self.files.report) / "index.html" if part is None else None
-        # Of nothing no report is made: it would be older than nothing, and the next run would have nothing to do.
-        if pending and index and (finished or index.exists()):
-            partial_report.write(
-                self.files, finished, sorted(map(str, unfinished)), script=self.project / "scripts/report.py"
-            )
-        about = [path for entry, path in quality_files.items() if part is None or entry in part]
-        lines = [*self.warnings, run_summary.summary(about, index, unfinished)]
-        try:
-            check_writable(Path(self.files.results))
-        except NotWritten as error:
-            lines.append(str(error))
-        print(*lines, sep="\n", file=sys.stderr)
 
 
 def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:

@@ -1,23 +1,18 @@
 """The plan of a run, asked as the rules ask it but without Snakemake."""
 
-import errno
 import json
 import shlex
-import tempfile
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from markermend.core.artifacts import DETECTORS
-from markermend.core.recording import SetAside
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
+from markermend.planning import end_of_run
 from markermend.planning.plan import Plan, make_plan
 from markermend.planning.recordings import BadDataSet
-from markermend.report import recording_report
-from markermend.storage.atomic import write_json
 from support.paths import PROJECT
 
 
@@ -105,7 +100,7 @@ def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_i
 
 
 def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
-    plan.write_facts(finished=True)
+    end_of_run.write_facts(plan, finished=True)
     (tmp_path / "out/.snakemake").mkdir()
     assert not make_plan(config, PROJECT, deployed=False).warnings
     path = tmp_path / "out/report/provenance.json"
@@ -149,97 +144,6 @@ def test_the_report_of_many_recordings_is_made_of_batches(tmp_path, plan, config
     assert (tmp_path / "out/report/logs/recordings.txt").read_text().splitlines() == many.judged(None)
     for name, own in found.items():
         assert (tmp_path / f"out/report/batches/{name}/logs/recordings.txt").read_text().splitlines() == own
-
-
-def test_at_the_end_the_facts_are_written_and_the_summary_printed(tmp_path, plan, capsys):
-    quality = {"status": "set aside", "subject": "S 1", "recording": "run", "reason": "empty"}
-    path = tmp_path / "out/S%201/run/08_qc.json"
-    path.parent.mkdir(parents=True)
-    path.write_text(json.dumps(quality))
-    plan.write_facts(finished=True)
-    replace(plan, warnings=["decisions: line 2 is about none"]).close([])
-    text = capsys.readouterr().err
-    assert (
-        text.startswith("decisions: line 2 is about none\n3 recordings: 1 set aside, 2 unfinished")
-        and "set aside: S 1/run: empty" in text
-    )
-    facts = json.loads((tmp_path / "out/report/provenance.json").read_text())
-    assert facts["recordings"] == 3 and facts["config"]["results"] == str(tmp_path / "out")
-    assert "markermend/filling/fill.py" in str(facts["code"]["fill"])
-
-
-def test_a_run_that_fails_leaves_the_facts_of_the_one_before(tmp_path, plan):
-    path = tmp_path / "out/report/provenance.json"
-    plan.write_facts(finished=False)
-    assert json.loads(path.read_text())["recordings"] == 3
-    path.write_text("of the run before")
-    plan.write_facts(finished=False)
-    assert path.read_text() == "of the run before"
-    plan.write_facts(finished=True)
-    assert json.loads(path.read_text())["recordings"] == 3
-
-
-def test_a_part_of_a_run_is_summed_up_alone(tmp_path, plan, capsys):
-    path = tmp_path / "out/S%201/walk/08_qc.json"
-    path.parent.mkdir(parents=True)
-    path.write_text(json.dumps({"status": "cleaned", "changed_samples": 2}))
-    plan.close([], {("S%201", "walk")})
-    assert capsys.readouterr().err.splitlines() == [
-        "1 recordings: 1 cleaned; 2 samples changed",
-        "This part of the run is closed; the last part writes the report.",
-    ]
-    plan.close([job(recording="run")], {("S%201", "walk"), ("S%201", "run")})
-    text = capsys.readouterr().err
-    assert "2 recordings: 1 cleaned, 1 unfinished" in text and "not finished: S%201/run: see" in text
-    assert not (tmp_path / "out/report/index.html").exists()
-
-
-def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tmp_path, plan, capsys):
-    for entry in (("S%201", "run"), ("S%201", "walk")):
-        folder = tmp_path / "out" / "/".join(entry)
-        note = SetAside("ingest", "empty")
-        summary = recording_report.summarize_aside(folder / "01_markers.parquet", folder / "page.html", note)
-        write_json(folder / "08_qc.json", summary)
-    plan.close([job(recording="walk"), SimpleNamespace(subject="S%201"), SimpleNamespace()])
-    text = capsys.readouterr().err
-    assert text.startswith("3 recordings: 1 set aside, 2 unfinished")
-    assert (
-        "not finished: S%201/walk: see" in text
-        and f"Report of what is finished: {tmp_path}/out/report/index.html" in text
-    )
-    assert (tmp_path / "out/report/failures.tsv").read_text().startswith("report\t")
-    page = (tmp_path / "out/report/index.html").read_text()
-    assert "Not finished: 2" in page and "<li>S2/%7Bx%7D</li>" in page
-    assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
-
-
-def test_of_nothing_no_report_is_made_which_the_next_run_would_take_for_the_whole(tmp_path, plan, capsys):
-    plan.close([SimpleNamespace()])
-    assert capsys.readouterr().err.endswith("There is no report: no recording was finished\n")
-    assert not (tmp_path / "out/report").exists()
-
-
-def test_an_earlier_report_is_not_taken_for_one_of_what_is_finished(tmp_path, plan, capsys):
-    (tmp_path / "out/S%201/walk").mkdir(parents=True)
-    write_json(tmp_path / "out/S%201/walk/08_qc.json", {"status": "cleaned"})
-    index = tmp_path / "out/report/index.html"
-    index.parent.mkdir()
-    index.write_text("earlier")
-    # There is no command that makes a report.
-    replace(plan, project=tmp_path).close([SimpleNamespace()])
-    assert f"The report was not written again: {index} is older than the results" in capsys.readouterr().err
-    assert index.read_text() == "earlier"
-
-
-def test_a_disk_without_room_is_named_at_the_end(plan, capsys, monkeypatch):
-    def refuse(dir):
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
-    plan.close([])
-    assert (
-        capsys.readouterr().err.splitlines()[-1].startswith(f"{plan.files.results} was not written: there is no room")
-    )
 
 
 def test_networks_are_trained_only_where_they_are_members(plan, config):
