@@ -22,7 +22,7 @@ STAGE.writes("mesh", "meshes")
 
 
 def work(call: Any) -> str:
-    markers = undamaged(call.markers, call.facts["inputs"]["markers"])
+    markers = undamaged(call.markers, call.facts["inputs"]["markers"], output=call.mesh, stage="mesh")
     recordings = read_subject(markers, prepare=partial(inference.prepare, options=call.options))
     files = [(mesh_file.read_user_file(path), path.name) for path in call.mesh_files]
     supplied = [own for content, name in files for own in user_mesh.parse_file(content, name)]

@@ -22,7 +22,7 @@ STAGE.writes("poses", "poses of the subject")
 
 
 def work(call: Any) -> str:
-    repaired = undamaged(call.repaired, call.facts["inputs"]["repaired"])
+    repaired = undamaged(call.repaired, call.facts["inputs"]["repaired"], output=call.poses, stage="poses")
     samples, sources = sample_subject(repaired, mesh_file.read_groups(call.mesh), options=call.options)
     poses = join(samples)
     facts = {"stage": call.facts["stage"], "options": call.facts["options"], "sources": sources}

@@ -76,8 +76,10 @@ def checksums_or_none(paths: Sequence[Path], *, own: Path) -> list[str | None]:
     return found
 
 
-def undamaged(paths: Sequence[Path], checksums: Sequence[str | None]) -> list[Path]:
-    """Choose the recordings of a subject that are there as they were written; the others are made anew by the next run, and this with them.
+def undamaged(paths: Sequence[Path], checksums: Sequence[str | None], *, output: Path, stage: str) -> list[Path]:
+    """Choose the recordings of a subject that are there as they were written; a failure is counted where any is not.
+
+    The next run makes that recording anew, and what the subject shares with it.
 
     Parameters
     ----------
@@ -85,6 +87,10 @@ def undamaged(paths: Sequence[Path], checksums: Sequence[str | None]) -> list[Pa
         A file of each recording.
     checksums : sequence of str or None
         What `checksums_or_none` gives.
+    output : Path
+        What is made of them.
+    stage : str
+        The stage that makes it.
 
     Returns
     -------
@@ -97,6 +103,8 @@ def undamaged(paths: Sequence[Path], checksums: Sequence[str | None]) -> list[Pa
         Where there are none.
     """
     found = [path for path, checksum in zip(paths, checksums, strict=True) if checksum is not None]
+    if len(found) < len(paths):
+        count_failure(output.parent, stage, f"{len(paths) - len(found)} of {len(paths)} recordings are damaged")
     if not found:
         raise BadRecording("no recording of the subject is as it was written; the next run makes them anew")
     return found

@@ -113,11 +113,14 @@ def test_where_a_damaged_file_cannot_be_made_anew_the_next_run_makes_it(peaks, s
     assert not (tmp_path / "elsewhere.txt").exists()
 
 
-def test_a_subject_does_without_its_damaged_recordings(peaks, tmp_path):
-    other = peaks.with_name("02_frozen.parquet")
-    assert inputs.undamaged([peaks, other], ["a", None]) == [peaks]
+def test_a_subject_does_without_its_damaged_recordings_and_is_tried_again(peaks, tmp_path):
+    other, shared = peaks.with_name("02_frozen.parquet"), {"output": tmp_path / "S01/mesh.json", "stage": "mesh"}
+    failures = tmp_path / "S01/failures.tsv"
+    assert inputs.undamaged([peaks, other], ["a", "b"], **shared) == [peaks, other] and not failures.exists()
+    assert inputs.undamaged([peaks, other], ["a", None], **shared) == [peaks]
+    assert failures.read_text() == "mesh\t1 of 2 recordings are damaged\n"
     with pytest.raises(BadRecording, match="the next run makes them anew"):
-        inputs.undamaged([peaks, other], [None, None])
+        inputs.undamaged([peaks, other], [None, None], **shared)
 
 
 def test_results_that_were_moved_are_not_made_where_they_were(peaks, tmp_path):
