@@ -90,6 +90,8 @@ def test_a_job_that_was_cancelled_or_out_of_time_or_on_a_node_that_was_lost_is_d
             cluster.call("scancel", cancelled)
             slow, _ = hanging("repair.py")
             first = cluster.limits(slow)
+            # Of six recordings side by side: half an hour to detect, as much to repair, and 4 GB each.
+            assert first == (60, 24)
             cluster.call("scontrol", "update", f"JobId={slow}", "TimeLimit=1")
             lost, node = hanging("fill.py")
             cluster.lose(node)
