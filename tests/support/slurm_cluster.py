@@ -23,7 +23,7 @@ SLURM = {"munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontr
 NODES = ("node1", "node2")
 
 # Nodes claim more CPUs and memory than there are. Limits of time hold, those of memory are counted only. A node that does not answer for ten
-# seconds is lost.
+# seconds is lost. What became of a job can be asked for an hour.
 CONFIGURATION = """
 ClusterName=loopback
 SlurmctldHost={host}(127.0.0.1)
@@ -49,6 +49,7 @@ SelectTypeParameters=CR_CPU_Memory
 SlurmdParameters=config_overrides
 SlurmdTimeout=10
 KillWait=1
+MinJobAge=3600
 NodeName={nodes[0]} NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[1]} CPUs=12 RealMemory=100000
 NodeName={nodes[1]} NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[2]} CPUs=12 RealMemory=100000
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
