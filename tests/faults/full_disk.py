@@ -14,12 +14,9 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Self
 
-from faults.stages import remove_from
+from faults.stages import FIRST_OF_JOBS, remove_from
 from faults.trial import Outcome, Trial
 from faults.workplace import Workplace
-
-FULL_IN = ("ingest", "mesh", "labels", "repair", "poses", "fill", "export", "qc", "report")
-"""The first stage of each job."""
 
 ROOMS_KB = (16, 80)
 """Room on the disk before the stage."""
@@ -32,7 +29,7 @@ def trials() -> list[Trial]:
     """The trials of this kind."""
     return [
         Trial(f"{room_kb} kB before {stage}", partial(fill_up, stage=stage, room_kb=room_kb))
-        for stage in FULL_IN
+        for stage in FIRST_OF_JOBS
         for room_kb in ROOMS_KB
     ]
 

@@ -6,6 +6,7 @@ import time
 from functools import partial
 from pathlib import Path
 
+from faults.stages import FIRST_OF_JOBS, remove_from
 from faults.trial import Outcome, Trial
 from faults.workplace import Workplace
 
@@ -21,22 +22,32 @@ RUNNING_SHARE = 0.15
 
 def trials() -> list[Trial]:
     """The trials of this kind."""
-    return [Trial(f"chain {seed}", partial(kill_again_and_again, seed=seed)) for seed in range(CHAINS)]
+    starts = [FIRST_OF_JOBS[seed % len(FIRST_OF_JOBS)] for seed in range(CHAINS)]
+    return [
+        Trial(f"chain {seed} from {stage} on", partial(kill_again_and_again, seed=seed, stage=stage))
+        for seed, stage in enumerate(starts)
+    ]
 
 
-def kill_again_and_again(place: Workplace, *, seed: int) -> Outcome:
-    """Kill run after run, each of which goes on where the last was killed; from the beginning where one ends before."""
+def kill_again_and_again(place: Workplace, *, seed: int, stage: str) -> Outcome:
+    """Kill run after run, each of which goes on where the last was killed; from a stage on again where one ends before."""
     rng, happened, lost = random.Random(seed), [], []
-    place.restore(finished=False)
+    start(place, stage)
     while len(happened) < KILLS // CHAINS:
-        stage = kill_one(place, rng)
+        killed_in = kill_one(place, rng)
         lost += place.differences(unfinished=True)
-        if stage is not None:
-            happened.append(f"in {stage}")
+        if killed_in is not None:
+            happened.append(f"in {killed_in}")
         else:
             lost += place.differences()
-            place.restore(finished=False)
+            start(place, stage)
     return Outcome(happened, [*lost, *place.finish()])
+
+
+def start(place: Workplace, stage: str) -> None:
+    """Bring the results to what they are before a stage."""
+    place.restore(finished=True)
+    remove_from(stage, place.results)
 
 
 def kill_one(place: Workplace, rng: random.Random) -> str | None:

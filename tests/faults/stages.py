@@ -9,6 +9,9 @@ STAGES = (
     "export", "qc", "report",
 )  # fmt: skip
 
+FIRST_OF_JOBS = ("ingest", "mesh", "labels", "repair", "poses", "fill", "export", "qc", "report")
+"""The first stage of each job."""
+
 
 def remove_from(stage: str, results: Path) -> int:
     """Remove what a stage and those after it wrote; the number of bytes."""
