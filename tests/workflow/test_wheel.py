@@ -61,15 +61,19 @@ def test_the_wheel_holds_the_package_and_the_workflow(wheel):
     scripts = {f"{HERE}/scripts/{path.name}" for path in (PROJECT / "scripts").glob("*.py")}
     rules = {f"{HERE}/workflow/rules/{path.name}" for path in (PROJECT / "workflow/rules").iterdir()}
     others = {"markermend/py.typed", "markermend/report/templates/page.html.j2", f"{HERE}/Snakefile"}
-    others |= {"markermend/evaluation/templates/paper.html.j2", f"{HERE}/config/evaluate/published/tits2018.tsv"}
+    others |= {
+        "snakemake_logger_plugin_markermend/__init__.py",
+        "markermend/evaluation/templates/paper.html.j2",
+        f"{HERE}/config/evaluate/published/tits2018.tsv",
+    }
     assert names >= scripts | rules | others | {f"{HERE}/config/{name}.yaml" for name in ("config", "evaluate/quick")}
     assert not [name for name in names if "__pycache__" in name or name.startswith(f"{HERE}/scripts/markermend")]
 
 
 def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, project, tmp_path):
-    config = [f"recordings={project.recordings}", f"results={tmp_path / 'out'}"]
-    text = run(environment / "markermend", "--cores", "2", "--config", *config, cwd=tmp_path)
-    assert "2 recordings: 2 cleaned" in text
+    words = ["clean", project.recordings, "--results", tmp_path / "out", "--cores", "2"]
+    text = run(environment / "markermend", *words, cwd=tmp_path)
+    assert "2 recordings: 2 cleaned" in text and "S01/a: cleaned" in text
     here, there = tmp_path / "out/S01/a", project.results / "S01/a"
     names = [path.name for path in there.iterdir() if path.is_file()]
     assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)

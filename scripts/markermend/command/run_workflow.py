@@ -1,7 +1,4 @@
-"""The command `markermend`: Snakemake with the workflow's own Snakefile, wherever the package is installed.
-
-`markermend verify RESULTS` checks the files of results instead; see `markermend.command.verification`.
-"""
+"""Snakemake with the workflow's own Snakefile, wherever the package is installed."""
 
 from __future__ import annotations
 
@@ -10,7 +7,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from markermend.command import verification
 from markermend.storage.installation import workflow_folder
 
 
@@ -20,8 +16,8 @@ def command(arguments: Sequence[str]) -> list[str]:
     Parameters
     ----------
     arguments : sequence of str
-        Arguments of Snakemake, such as `--cores all --config recordings=FOLDER results=FOLDER`. A config file of the workflow, such as
-        `config/presets/published.yaml`, is named as in a checkout, in whatever folder the command runs.
+        Arguments of Snakemake, such as `--cores all --config recordings=FOLDER results=FOLDER`. A config file or profile of the
+        workflow, such as `config/presets/published.yaml`, is named as in a checkout, in whatever folder the command runs.
 
     Returns
     -------
@@ -61,21 +57,24 @@ def config_file_problem(words: Sequence[str]) -> str | None:
 
 
 def _of_workflow(word: str, folder: Path) -> bool:
-    """Whether an argument names a config file of the workflow that is not in the working folder."""
-    return word.startswith("config/") and not Path(word).exists() and (folder / word).is_file()
+    """Whether an argument names a config file or profile of the workflow that is not in the working folder."""
+    return word.startswith(("config/", "profiles/")) and not Path(word).exists() and (folder / word).exists()
 
 
-def main() -> int:
-    """Run the workflow with the arguments of this process, or check results.
+def run(arguments: Sequence[str]) -> int:
+    """Run the workflow with Snakemake's own output.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Arguments of Snakemake.
 
     Returns
     -------
     int
-        The exit status: Snakemake's, or that of the check.
+        Its exit status.
     """
-    if sys.argv[1:2] == ["verify"]:
-        return verification.main(sys.argv[2:])
-    words = command(sys.argv[1:])
+    words = command(arguments)
     if problem := config_file_problem(words):
         print(problem, file=sys.stderr)
         return 1

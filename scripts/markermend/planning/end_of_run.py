@@ -15,7 +15,7 @@ from markermend.options.config import write_config
 from markermend.planning import partial_report, run_facts, run_summary
 from markermend.planning.discovery import Folders
 from markermend.planning.plan import Plan
-from markermend.storage.atomic import NotWritten, check_writable, write_json
+from markermend.storage.atomic import NotWritten, check_writable, write_json, write_text
 
 
 def write_facts(plan: Plan, *, finished: bool) -> None:
@@ -63,6 +63,7 @@ def close(plan: Plan, pending: Sequence[Any], part: Collection[Folders] | None =
     lines = [*plan.warnings, run_summary.summary(about, index, unfinished)]
     try:
         check_writable(Path(plan.files.results))
+        write_text(Path(plan.files.summary), "".join(f"{line}\n" for line in lines))
     except NotWritten as error:
         lines.append(str(error))
     print(*lines, sep="\n", file=sys.stderr)

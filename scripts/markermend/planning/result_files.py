@@ -161,6 +161,11 @@ class ResultFiles:
         return f"{self.report}/logs/unfinished.txt"
 
     @property
+    def summary(self) -> str:
+        """What the last run came to, as it was printed at its end."""
+        return f"{self.report}/logs/summary.txt"
+
+    @property
     def quality_list(self) -> str:
         """The list of files that the report is made of."""
         return f"{self.report}/logs/recordings.txt"

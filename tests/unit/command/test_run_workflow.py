@@ -1,4 +1,4 @@
-"""The command `markermend`."""
+"""Snakemake with the Snakefile of the workflow."""
 
 import subprocess
 import sys
@@ -11,9 +11,8 @@ from support.paths import PROJECT
 
 def test_arguments_go_to_snakemake_with_the_snakefile_of_the_workflow(monkeypatch):
     called = []
-    monkeypatch.setattr(sys, "argv", ["markermend", "--cores", "1"])
     monkeypatch.setattr(subprocess, "call", lambda command: called.append(command) or 3)
-    assert run_workflow.main() == 3
+    assert run_workflow.run(["--cores", "1"]) == 3
     assert called == [[sys.executable, "-m", "snakemake", "--snakefile", f"{PROJECT}/Snakefile", "--cores", "1"]]
 
 
@@ -21,15 +20,10 @@ def test_a_config_file_of_the_workflow_is_found_from_any_folder(monkeypatch, tmp
     monkeypatch.chdir(tmp_path)
     name = "config/evaluate/quick.yaml"
     assert run_workflow.command(["--configfile", name])[-1] == str(PROJECT / name)
+    assert run_workflow.command(["--profile", "profiles/slurm"])[-1] == str(PROJECT / "profiles/slurm")
     (tmp_path / "config/evaluate").mkdir(parents=True)
     (tmp_path / name).touch()
     assert run_workflow.command(["--configfile", name, "config/mine.yaml"])[-2:] == [name, "config/mine.yaml"]
-
-
-def test_results_are_checked_without_snakemake(monkeypatch, tmp_path, capsys):
-    monkeypatch.setattr(sys, "argv", ["markermend", "verify", str(tmp_path)])
-    assert run_workflow.main() == 2
-    assert capsys.readouterr().err == f"{tmp_path} holds no results\n"
 
 
 @pytest.mark.parametrize(
@@ -38,9 +32,8 @@ def test_results_are_checked_without_snakemake(monkeypatch, tmp_path, capsys):
 def test_a_config_file_that_is_not_there_is_named_in_one_line(monkeypatch, tmp_path, capsys, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.yaml").touch()
-    monkeypatch.setattr(sys, "argv", ["markermend", "--cores", "1", *words, "--config", "recordings=none"])
     monkeypatch.setattr(subprocess, "call", lambda command: pytest.fail("Snakemake was called"))
-    assert run_workflow.main() == 1
+    assert run_workflow.run(["--cores", "1", *words, "--config", "recordings=none"]) == 1
     assert capsys.readouterr().err == (
         "config file none.yaml cannot be read (No such file or directory): name it by its path, as --configfile study.yaml\n"
     )
