@@ -81,7 +81,7 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
 def test_of_nothing_no_report_is_made_which_the_next_run_would_take_for_the_whole(tmp_path, plan, capsys):
     close(plan, [SimpleNamespace()])
     assert capsys.readouterr().err.endswith("There is no report: no recording was finished\n")
-    assert not (tmp_path / "out/report").exists()
+    assert not (tmp_path / "out/report/index.html").exists()
 
 
 def test_an_earlier_report_is_not_taken_for_one_of_what_is_finished(tmp_path, plan, capsys):

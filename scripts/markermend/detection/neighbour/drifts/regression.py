@@ -128,11 +128,9 @@ class BinnedRegression:
         Index of the marker.
     first : int
         First bin in which it is known.
-    target, inputs : np.ndarray
+    target, inputs, residual : np.ndarray
         Means (k, ...) of what `LocalRegression` has at its frames, from the first to the last bin in which it is known; NaN where
         unknown.
-    residual : np.ndarray
-        Means (bins, 3) of its residual, NaN where unknown.
     """
 
     marker: int
@@ -245,7 +243,9 @@ class DriftRegression:
             known = np.flatnonzero(~np.isnan(residual).any(axis=1))
             if len(known) >= 2 * self.bins(min(self.options.durations_s)):
                 span = slice(int(known[0]), int(known[-1]) + 1)
-                yield BinnedRegression(own.marker, span.start, target[span].copy(), inputs[span].copy(), residual)
+                yield BinnedRegression(
+                    own.marker, span.start, *(each[span].copy() for each in (target, inputs, residual))
+                )
 
     def models(self, regressions: Iterable[BinnedRegression], scale: np.ndarray) -> list[DriftModel]:
         """Fit the models of all markers.
@@ -270,15 +270,17 @@ class DriftRegression:
     def _parts(self, own: BinnedRegression, scale: np.ndarray) -> Iterator[PartOfModel]:
         """Regressions over parts of a recording that overlap by the longest drift and its flanks."""
         options, step = self.options, self.step
+        first, stop = own.first, own.first + len(own.target)
+        residual = np.full((len(scale), own.residual.shape[1]), np.nan)
+        residual[first:stop] = own.residual
         covariance = matched_filter.clipped_covariance(
-            own.residual / scale[:, None],
+            residual / scale[:, None],
             sigmas=options.outlier_sigmas,
             rate=self.rate / step,
             scales_s=np.array(options.correlation_times_s),
             max_lag_s=options.max_lag_s,
         )
         size, overlap = self.bins(options.max_part_s), 2 * self.bins(max(options.durations_s))
-        first, stop = own.first, own.first + len(own.target)
         while True:
             part = slice(first, min(first + max(size, 2 * overlap), stop))
             rows = slice(part.start - own.first, part.stop - own.first)
