@@ -33,7 +33,7 @@ test-papers: .venv/ready
 test-cluster: .venv/ready
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m cluster tests/workflow/test_cluster.py
 
-# What faults do to results, FAULTS=kills for one kind: minutes.
+# What faults do to results, FAULTS=kills for one kind: about twenty minutes of two cores for all.
 faults: .venv/ready
 	OMP_NUM_THREADS=1 PYTHONPATH=scripts:tests $(BIN)/python -m faults $(FAULTS)
 

@@ -18,7 +18,7 @@ from faults.stages import FIRST_OF_JOBS, remove_from
 from faults.trial import Outcome, Trial
 from faults.workplace import Workplace
 
-ROOMS_KB = (16, 80)
+ROOMS_KB = (48, 80)
 """Room on the disk before the stage."""
 
 LARGE_KB = 65536
