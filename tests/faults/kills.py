@@ -17,7 +17,7 @@ PLANNING_SHARE = 0.2
 """Share of the kills while a run plans."""
 
 RUNNING_SHARE = 0.15
-"""The other kills come within this share of the time that all jobs take, after the first one has begun."""
+"""The other kills come within this share of the time that all jobs take, after the first one has begun; sooner where runs end before."""
 
 
 def trials() -> list[Trial]:
@@ -32,14 +32,16 @@ def trials() -> list[Trial]:
 def kill_again_and_again(place: Workplace, *, seed: int, stage: str) -> Outcome:
     """Kill run after run, each of which goes on where the last was killed; from a stage on again where one ends before."""
     rng, happened, lost = random.Random(seed), [], []
+    within_s = RUNNING_SHARE * place.running_s
     start(place, stage)
     while len(happened) < KILLS // CHAINS:
-        killed_in = kill_one(place, rng)
+        killed_in = kill_one(place, rng, within_s)
         lost += place.differences(unfinished=True)
         if killed_in is not None:
             happened.append(f"in {killed_in}")
         else:
             lost += place.differences()
+            within_s /= 2  # late stages take less
             start(place, stage)
     return Outcome(happened, [*lost, *place.finish()])
 
@@ -50,14 +52,14 @@ def start(place: Workplace, stage: str) -> None:
     remove_from(stage, place.results)
 
 
-def kill_one(place: Workplace, rng: random.Random) -> str | None:
+def kill_one(place: Workplace, rng: random.Random, within_s: float) -> str | None:
     """Start a run and kill it; the stage that was last begun, None where the run ended before."""
     started = time.time()
     planning = rng.random() < PLANNING_SHARE
     run = place.start()
     if not planning:
         run.wait_until_planned()
-    time.sleep(rng.uniform(0, place.planning_s if planning else RUNNING_SHARE * place.running_s))
+    time.sleep(rng.uniform(0, place.planning_s if planning else within_s))
     killed = run.send(signal.SIGKILL)
     run.end()
     return last_stage(place.results, since=started) if killed else None
