@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,78 @@ def write_table(path: Path, table: pa.Table, facts: Mapping[str, Any]) -> None:
         pq.write_table(table.replace_schema_metadata(stated), temporary, compression="zstd", write_page_checksum=True)
 
 
+class StoredTable:
+    """A Parquet file that is read in parts.
+
+    Parameters
+    ----------
+    file : pyarrow.parquet.ParquetFile
+        The file.
+    name : str
+        Its name, for errors.
+    """
+
+    def __init__(self, file: pq.ParquetFile, name: str) -> None:
+        self._file, self._name = file, name
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of its columns."""
+        return list(self._file.schema_arrow.names)
+
+    def read(self, columns: Sequence[str] | None = None) -> pa.Table:
+        """Read columns.
+
+        Parameters
+        ----------
+        columns : sequence of str, optional
+            Their names; all by default. There may be others in the result, whose names begin with one of these.
+
+        Returns
+        -------
+        pyarrow.Table
+            The columns.
+
+        Raises
+        ------
+        OSError
+            Where the checksum of a page is wrong.
+        """
+        with _named(self._name):
+            # Not by pq.read_table, which imports pandas.
+            return self._file.read(columns=columns, use_threads=False)
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[StoredTable]:
+    """Open a Parquet file, to read it in parts: a whole table takes several times its memory while it is read.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Yields
+    ------
+    StoredTable
+        Its table.
+
+    Raises
+    ------
+    OSError
+        Where the file is no Parquet file.
+    BadRecording
+        Where it claims to be larger than any recording.
+    """
+    with _named(path.name):
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+    with file:
+        _check_size(file.metadata, path)
+        yield StoredTable(file, path.name)
+    # What was read lies in arrays of numpy by now.
+    pa.default_memory_pool().release_unused()
+
+
 def read_table(path: Path) -> pa.Table:
     """Read the table in a Parquet file.
 
@@ -71,13 +144,17 @@ def read_table(path: Path) -> pa.Table:
     BadRecording
         Where it claims to be larger than any recording.
     """
+    with opened(path) as stored:
+        return stored.read()
+
+
+@contextmanager
+def _named(name: str) -> Iterator[None]:
+    """Name the file that cannot be read."""
     try:
-        # Not by pq.read_table, which imports pandas.
-        with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            _check_size(file.metadata, path)
-            return file.read(use_threads=False)
+        yield
     except (OSError, pa.ArrowException) as error:
-        raise OSError(f"{path.name} cannot be read: {error}") from error
+        raise OSError(f"{name} cannot be read: {error}") from error
 
 
 def _check_size(claimed: pq.FileMetaData, path: Path) -> None:

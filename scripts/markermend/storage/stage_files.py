@@ -13,7 +13,16 @@ import pyarrow as pa
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS, Recording, Restored, SetAside
 from markermend.storage.atomic import write_json
-from markermend.storage.parquet_tables import array, column, read_footer, read_table, table_of, vector, write_table
+from markermend.storage.parquet_tables import (
+    array,
+    column,
+    opened,
+    read_footer,
+    read_table,
+    table_of,
+    vector,
+    write_table,
+)
 
 EVENT_SCHEMA = pa.schema(
     [
@@ -31,6 +40,9 @@ EVENT_SCHEMA = pa.schema(
     ]
 )
 """The columns of a file of events."""
+
+OF_RESTORED = ("origin", "error", "error95")
+"""What is stored of each marker beside its coordinates from repair on."""
 
 
 def read_json(path: Path) -> Any:
@@ -155,22 +167,25 @@ def read_recording(path: Path) -> Recording:
         Where an earlier stage set the recording aside.
     """
     facts = read_facts(path)
-    table = read_table(path)
     markers, frames = tuple(facts["markers"]), facts["frames"]
-    positions = np.full((frames, len(markers), 3), np.nan)
-    for m, marker in enumerate(markers):
-        positions[:, m] = _vectors(table, marker)
+    positions, unlabelled = np.full((frames, len(markers), 3), np.nan), {}
+    with opened(path) as stored:
+        columns = set(stored.columns)
+        restored = any(name.endswith(".origin") for name in columns)
+        origin = np.zeros((frames, len(markers)) if restored else 0, np.uint8)
+        error, error95 = np.zeros((2, *origin.shape))
+        for m, marker in enumerate(markers):
+            table = stored.read([f"{marker}.{own}" for own in (*"xyz", *(OF_RESTORED if restored else ()))])
+            positions[:, m] = _vectors(table, marker)
+            if restored:
+                origin[:, m] = _origins(table[f"{marker}.origin"])
+                error[:, m] = vector(table[f"{marker}.error"])
+                error95[:, m] = vector(table[f"{marker}.error95"])
+        for name in facts.get("unlabelled", ()):
+            if f"{name}.x" in columns:
+                unlabelled[name] = _vectors(stored.read([f"{name}.{axis}" for axis in "xyz"]), name)
     common = (markers, positions, facts["rate"], facts["first_frame"], facts)
-    if not any(name.endswith(".origin") for name in table.column_names):
-        named = [name for name in facts.get("unlabelled", ()) if f"{name}.x" in table.column_names]
-        return Recording(*common, unlabelled={name: _vectors(table, name) for name in named})
-    origin = np.zeros((frames, len(markers)), np.uint8)
-    error, error95 = np.zeros((2, frames, len(markers)))
-    for m, marker in enumerate(markers):
-        origin[:, m] = _origins(table[f"{marker}.origin"])
-        error[:, m] = vector(table[f"{marker}.error"])
-        error95[:, m] = vector(table[f"{marker}.error95"])
-    return Restored(*common, origin, error, error95)
+    return Restored(*common, origin, error, error95) if restored else Recording(*common, unlabelled=unlabelled)
 
 
 def _axes(name: str, positions: np.ndarray) -> dict[str, pa.Array]:
