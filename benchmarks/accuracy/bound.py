@@ -132,7 +132,7 @@ def drifts(observed: Observed, rng: np.random.Generator) -> Iterator[Row]:
     estimated = observed.changes.estimated
     for seconds in DRIFT_SECONDS:
         length, share = estimated.regression.bins(seconds), estimated.own.min_known_share
-        usual = together([model.responses(length, min_known_share=share) for model in estimated.models])
+        usual = together([model.responses([length], min_known_share=share)[0] for model in estimated.models])
         if len(usual.height):
             for size in DRIFT_MM:
                 yield _row("drift", seconds, size, found_displacements(usual, size, rng), len(usual.height))

@@ -6,7 +6,6 @@ Soft tissue and joints leave larger residuals when the body moves fast, or when 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain
 
 import numpy as np
 
@@ -147,20 +146,26 @@ def fitted_rise(
         Expected size in units of the level (frames, markers).
     """
     known = np.asfortranarray(np.nan_to_num(relative, nan=1.0))
-    common = np.ones(relative.shape)
-    for m, around in enumerate(neighbours):
-        if len(around):
-            common[:, m] = ranks.median([known[:, other] for other in around[:count]])
-    regressors = np.empty((*relative.shape, 1 + len(motion)))
-    for number, kind in enumerate(chain([common], (kind + 1.0 for kind in motion))):
-        logarithm = np.log(kind)
-        regressors[..., number] = logarithm - np.median(logarithm, axis=0)
+
+    def regressors(m: int) -> np.ndarray:
+        around = neighbours[m][:count]
+        common = ranks.median([known[:, other] for other in around]) if len(around) else np.ones(len(known))
+        logarithms = np.log([common, *(kind[:, m] + 1.0 for kind in motion)])
+        centred: np.ndarray = (logarithms - np.median(logarithms, axis=1, keepdims=True)).T
+        return centred
+
     some = slice(None, None, step)
     seen = ~np.isnan(relative[some])
     if not seen.any():
         return np.ones(relative.shape)
-    exponents = non_negative_least_squares(regressors[some][seen], np.log(known[some][seen]))
-    rise: np.ndarray = np.exp(regressors @ exponents)
+    # One marker after the other, and once more: the regressors of all would take several times the memory of the sizes.
+    markers = range(relative.shape[1])
+    design = np.concatenate([regressors(m)[some][seen[:, m]] for m in markers])
+    target = np.concatenate([np.log(known[some, m][seen[:, m]]) for m in markers])
+    exponents = non_negative_least_squares(design, target)
+    rise = np.empty(relative.shape)
+    for m in markers:
+        rise[:, m] = np.exp(regressors(m) @ exponents)
     return rise
 
 

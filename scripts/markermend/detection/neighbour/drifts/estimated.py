@@ -123,8 +123,9 @@ class EstimatedDrifts:
     def _scores(self, model: DriftModel) -> tuple[np.ndarray, np.ndarray]:
         """Score drifts of all lengths, see `scores`."""
         score, best = np.zeros(model.bins), np.zeros(model.bins, int)
-        for length in map(self.regression.bins, self.own.durations_s):
-            statistic = model.responses(length, min_known_share=self.own.min_known_share).statistic
+        lengths = list(map(self.regression.bins, self.own.durations_s))
+        found = model.responses(lengths, min_known_share=self.own.min_known_share)
+        for length, statistic in zip(lengths, (each.statistic for each in found), strict=True):
             there = slice(length // 2, length // 2 + len(statistic))
             better = statistic / self.own.threshold_sigmas > score[there]
             score[there][better] = statistic[better] / self.own.threshold_sigmas
@@ -149,12 +150,12 @@ class EstimatedDrifts:
             The drift, bins [start, stop).
         """
         best = (0.0, peak - length // 2, peak - length // 2 + length)
-        lengths = {
-            min(max(self.own.min_bins, int(factor * length)), self.longest) for factor in drift_shape.LENGTH_FACTORS
-        }
-        for own in sorted(lengths):
+        lengths = sorted(
+            {min(max(self.own.min_bins, int(factor * length)), self.longest) for factor in drift_shape.LENGTH_FACTORS}
+        )
+        found = model.responses(lengths, min_known_share=self.own.min_known_share)
+        for own, statistic in zip(lengths, (each.statistic for each in found), strict=True):
             first = max(0, peak - own // 2 - length // 4)
-            statistic = model.responses(own, min_known_share=self.own.min_known_share).statistic
             near = statistic[first : peak - own // 2 + length // 4 + 1]
             if len(near):
                 place = first + int(near.argmax())

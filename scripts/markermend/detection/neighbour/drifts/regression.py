@@ -15,6 +15,7 @@ import numpy as np
 from markermend.core.cache import Cache, CachesResults
 from markermend.detection.neighbour import residual_scale
 from markermend.numerics import intervals, matched_filter
+from markermend.numerics.kriging import Covariance
 from markermend.numerics.matched_filter import raised_cosine
 from markermend.numerics.pulse_regression import PulseRegression, PulseResponses
 from markermend.options.detection.estimated_drifts import EstimatedDriftOptions
@@ -73,29 +74,30 @@ class DriftModel(CachesResults):
         for part in self.parts:
             yield part.first, self.kept.get(part, part.fit)
 
-    def responses(self, length: int, *, min_known_share: float) -> PulseResponses:
-        """Estimate drifts of a length at all places.
+    def responses(self, lengths: Sequence[int], *, min_known_share: float) -> list[PulseResponses]:
+        """Estimate drifts of some lengths at all places.
 
         Parameters
         ----------
-        length : int
-            Length, bins.
+        lengths : Sequence[int]
+            Lengths, bins.
         min_known_share : float
             Share of the drift that must be known.
 
         Returns
         -------
-        PulseResponses
-            For the max(0, bins - length + 1) places, each from the part that estimates it best.
+        list[PulseResponses]
+            For each length the max(0, bins - length + 1) places, each from the part that estimates it best.
         """
-        places = max(0, self.bins - length + 1)
-        height, deviation = np.zeros((places, 3)), np.full(places, np.inf)
+        places = [max(0, self.bins - length + 1) for length in lengths]
+        found = [PulseResponses(np.zeros((count, 3)), np.full(count, np.inf)) for count in places]
         for first, part in self.regressions():
-            own = part.responses(length, min_known_share=min_known_share)
-            there = slice(first, first + len(own.deviation))
-            better = own.deviation < deviation[there]
-            height[there][better], deviation[there][better] = own.height[better], own.deviation[better]
-        return PulseResponses(height, deviation)
+            for length, best in zip(lengths, found, strict=True):
+                own = part.responses(length, min_known_share=min_known_share)
+                there = slice(first, first + len(own.deviation))
+                better = own.deviation < best.deviation[there]
+                best.height[there][better], best.deviation[there][better] = own.height[better], own.deviation[better]
+        return found
 
     def estimate(self, shapes: np.ndarray) -> PulseResponses:
         """Estimate changes of given shapes.
@@ -126,15 +128,14 @@ class BinnedRegression:
     ----------
     marker : int
         Index of the marker.
-    first : int
-        First bin in which it is known.
+    bins : np.ndarray
+        The bins (k,) in which it is known, ascending.
     target, inputs, residual : np.ndarray
-        Means (k, ...) of what `LocalRegression` has at its frames, from the first to the last bin in which it is known; NaN where
-        unknown.
+        Means (k, ...) in these of what `LocalRegression` has at its frames.
     """
 
     marker: int
-    first: int
+    bins: np.ndarray
     target: np.ndarray
     inputs: np.ndarray
     residual: np.ndarray
@@ -242,10 +243,7 @@ class DriftRegression:
             )
             known = np.flatnonzero(~np.isnan(residual).any(axis=1))
             if len(known) >= 2 * self.bins(min(self.options.durations_s)):
-                span = slice(int(known[0]), int(known[-1]) + 1)
-                yield BinnedRegression(
-                    own.marker, span.start, *(each[span].copy() for each in (target, inputs, residual))
-                )
+                yield BinnedRegression(own.marker, known, target[known], inputs[known], residual[known])
 
     def models(self, regressions: Iterable[BinnedRegression], scale: np.ndarray) -> list[DriftModel]:
         """Fit the models of all markers.
@@ -269,34 +267,41 @@ class DriftRegression:
 
     def _parts(self, own: BinnedRegression, scale: np.ndarray) -> Iterator[PartOfModel]:
         """Regressions over parts of a recording that overlap by the longest drift and its flanks."""
-        options, step = self.options, self.step
-        first, stop = own.first, own.first + len(own.target)
-        residual = np.full((len(scale), own.residual.shape[1]), np.nan)
-        residual[first:stop] = own.residual
+        options = self.options
         covariance = matched_filter.clipped_covariance(
-            residual / scale[:, None],
+            on_all_frames(own.residual, own.bins, len(scale)) / scale[:, None],
             sigmas=options.outlier_sigmas,
-            rate=self.rate / step,
+            rate=self.rate / self.step,
             scales_s=np.array(options.correlation_times_s),
             max_lag_s=options.max_lag_s,
         )
         size, overlap = self.bins(options.max_part_s), 2 * self.bins(max(options.durations_s))
+        first, stop = int(own.bins[0]), int(own.bins[-1]) + 1
         while True:
             part = slice(first, min(first + max(size, 2 * overlap), stop))
-            rows = slice(part.start - own.first, part.stop - own.first)
-            fit = partial(
-                PulseRegression.fit,
-                own.target[rows],
-                own.inputs[rows],
-                scale=scale[part],
-                covariance=covariance,
-                step_s=step / self.rate,
-                coefficient_std=options.coefficient_std,
-            )
-            yield PartOfModel(first, fit)
+            rows = slice(*np.searchsorted(own.bins, (part.start, part.stop)).tolist())
+            if rows.start < rows.stop:
+                yield PartOfModel(first, partial(self._fit, own, rows, part, scale[part], covariance))
             if part.stop == stop:
                 return
             first = part.stop - overlap
+
+    def _fit(
+        self, own: BinnedRegression, rows: slice, part: slice, scale: np.ndarray, covariance: Covariance
+    ) -> PulseRegression:
+        """The regression over the bins of a part, in which the rows of a binned one are known."""
+        target, inputs = (
+            on_all_frames(values[rows], own.bins[rows] - part.start, part.stop - part.start)
+            for values in (own.target, own.inputs)
+        )
+        return PulseRegression.fit(
+            target,
+            inputs,
+            scale=scale,
+            covariance=covariance,
+            step_s=self.step / self.rate,
+            coefficient_std=self.options.coefficient_std,
+        )
 
 
 def on_all_frames(values: np.ndarray, rows: np.ndarray, frames: int) -> np.ndarray:

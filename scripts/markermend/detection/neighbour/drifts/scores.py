@@ -111,13 +111,16 @@ class DriftScorer:
         """
         unsteady = self.briefly_missing_neighbour(scene)
         # All templates in all frames take as much memory as a few copies of the recording: each array is there once.
-        response, deviation = np.empty((2, len(self.lengths), *residual.shape[:2]), np.float32)
+        response = np.empty((len(self.lengths), *residual.shape[:2]), np.float32)
+        deviation = np.empty((len(self.lengths), residual.shape[1]))
         for m in range(residual.shape[1]):
             steady = np.where(unsteady[:, m, None], np.nan, residual[:, m])
-            response[..., m], deviation[..., m] = self.responses(steady, factors[:, m])
+            response[..., m], deviation[:, m] = self.responses(steady, factors[:, m])
         scale = self._scale(scene, response, motion)
-        own = (np.moveaxis(each, 2, 0) for each in (response, deviation, scale))
-        clearest = [self._clearest(*each) for each in zip(*own, strict=True)]
+        clearest = [
+            self._clearest(response[..., m], (deviation[:, m, None] * factors[:, m]).astype(np.float32), scale[..., m])
+            for m in range(residual.shape[1])
+        ]
         score, length, scale_mm = (np.stack(each, axis=1) for each in zip(*clearest, strict=True))
         level = np.stack([median_response(each) for each in np.moveaxis(response, 2, 0)], axis=1)
         return DriftScores(residual, score, length, scale_mm, scale, level)
@@ -162,11 +165,11 @@ class DriftScorer:
         response : np.ndarray
             Responses (lengths, frames), in standard deviations, NaN where unknown.
         deviation : np.ndarray
-            Standard deviation (lengths, frames) of the height of a drift, mm.
+            Standard deviation (lengths,) of the height of a drift where the factor is 1, mm; NaN likewise.
         """
         options, lengths = self.options, self.lengths
         response = np.full((len(lengths), len(residual)), np.nan, np.float32)
-        deviation = np.full(response.shape, np.nan, np.float32)
+        deviation = np.full(len(lengths), np.nan)
         if np.isnan(residual).all():
             return response, deviation
         bridged = intervals.samples(options.bridged_gap_s, self.rate)
@@ -187,7 +190,7 @@ class DriftScorer:
                 rate=self.rate,
             )
             response[number] = matched_filter.filter_response(signal, template)
-            deviation[number] = template.deviation * factors
+            deviation[number] = template.deviation
         return response, deviation
 
     def required_score(self, score: np.ndarray, start: int, stop: int) -> float:
@@ -231,19 +234,17 @@ class DriftScorer:
 
     def _scale(self, scene: Scene, response: np.ndarray, motion: np.ndarray) -> np.ndarray:
         """Local scale of responses (lengths, frames, markers)."""
-        return np.stack(
-            [
-                residual_scale.fitted_scale(
-                    own,
-                    scene.neighbours,
-                    motion,
-                    count=self.options.scale_neighbours,
-                    window=length,
-                    min_scale=self.options.min_scale_sigmas,
-                ).astype(np.float32)
-                for own, length in zip(response, self.lengths, strict=True)
-            ]
-        )
+        scale = np.empty_like(response)
+        for number, length in enumerate(self.lengths):
+            scale[number] = residual_scale.fitted_scale(
+                response[number],
+                scene.neighbours,
+                motion,
+                count=self.options.scale_neighbours,
+                window=length,
+                min_scale=self.options.min_scale_sigmas,
+            )
+        return scale
 
     def _clearest(
         self, response: np.ndarray, deviation: np.ndarray, scale: np.ndarray
