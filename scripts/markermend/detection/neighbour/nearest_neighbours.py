@@ -35,17 +35,20 @@ def motion(
     """
     if len(positions) < 2:
         return np.zeros((2, *positions.shape[:2]))
-    smoothed = moving_mean(positions, smoothing)
+    # Of all markers at once the windows would take several times the memory of the recording.
+    smoothed = np.empty_like(positions)
+    for m in range(positions.shape[1]):
+        smoothed[:, m] = moving_mean(positions[:, m], smoothing)
     velocity = np.gradient(smoothed, axis=0) * rate
-    acceleration = np.gradient(velocity, axis=0) * rate
     # Column m selects the neighbours of marker m: all means are products of matrices.
     nearest = np.zeros((len(neighbours), len(neighbours)))
     for m, around in enumerate(neighbours):
         nearest[np.asarray(around, int)[:count], m] = 1.0
-    mean_velocity = np.stack([_mean(axis, nearest) for axis in np.moveaxis(velocity, 2, 0)], axis=2)
     square = _mean(np.einsum("nma,nma->nm", velocity, velocity), nearest)
-    about_mean = np.maximum(square - np.einsum("nma,nma->nm", mean_velocity, mean_velocity), 0.0)
-    return np.sqrt([about_mean, _mean(np.einsum("nma,nma->nm", acceleration, acceleration), nearest)])
+    of_mean = sum(_mean(velocity[..., axis], nearest) ** 2 for axis in range(velocity.shape[2]))
+    acceleration = np.gradient(velocity, axis=0) * rate
+    changing = _mean(np.einsum("nma,nma->nm", acceleration, acceleration), nearest)
+    return np.sqrt([np.maximum(square - of_mean, 0.0), changing])
 
 
 def maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
