@@ -159,7 +159,13 @@ def _run(call: argparse.Namespace, config: Sequence[str], files: Sequence[str], 
     if problem := run_workflow.config_file_problem(arguments):
         print(problem, file=sys.stderr)
         return 1
-    return snakemake_run.run(arguments, call.results, Console(stderr=True))
+    try:
+        return snakemake_run.run(arguments, call.results, Console(stderr=True))
+    except OSError as error:
+        print(
+            f"{call.results} cannot be written ({error.strerror}): name another folder for the results", file=sys.stderr
+        )
+        return 1
 
 
 def _report(call: argparse.Namespace, given: list[str]) -> int:

@@ -55,6 +55,14 @@ def test_a_folder_that_is_not_there_is_said_in_one_line(runs, capsys):
     assert not runs[0]
 
 
+def test_results_that_cannot_be_written_are_said_in_one_line(tmp_path, capsys):
+    (tmp_path / "file").touch()
+    assert command_line.main(["clean", str(tmp_path), "--results", str(tmp_path / "file/out")]) == 1
+    assert capsys.readouterr().err == (
+        f"{tmp_path}/file/out cannot be written (Not a directory): name another folder for the results\n"
+    )
+
+
 def test_results_are_verified_without_snakemake(runs, tmp_path, capsys):
     assert command_line.main(["verify", str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"{tmp_path} holds no results\n"
