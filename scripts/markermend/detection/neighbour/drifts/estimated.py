@@ -11,7 +11,8 @@ import numpy as np
 from markermend.core import events
 from markermend.core.events import Event
 from markermend.detection.neighbour.drifts import shape as drift_shape
-from markermend.detection.neighbour.drifts.regression import DriftModel, DriftRegression
+from markermend.detection.neighbour.drifts.model import DriftModel
+from markermend.detection.neighbour.drifts.regression import DriftRegression
 from markermend.detection.neighbour.drifts.scores import required_score
 from markermend.numerics import intervals
 from markermend.numerics.intervals import runs

@@ -13,7 +13,7 @@ import numpy as np
 from markermend.core.events import Event
 from markermend.detection.neighbour.drifts import shape as drift_shape
 from markermend.detection.neighbour.drifts.estimated import EstimatedDrifts
-from markermend.detection.neighbour.drifts.regression import DriftModel
+from markermend.detection.neighbour.drifts.model import DriftModel
 from markermend.detection.neighbour.drifts.scores import DriftScorer, DriftScores
 from markermend.numerics.pulse_regression import PulseResponses
 from markermend.prediction.interface import ScaledResidualSource
