@@ -12,14 +12,13 @@ from typing import Any
 import numpy as np
 
 from markermend.command.stage import Stage
-from markermend.core.originals import find_originals
 from markermend.core.recording import Recording, Restored, SetAside
 from markermend.core.written import is_reported, written_changes
-from markermend.export import write_back
+from markermend.export import undo, write_back
 from markermend.export.change_table import change_table
 from markermend.formats.text import trc
 from markermend.options.reporting import ExportOptions
-from markermend.storage import atomic, change_file, originals_file, stage_files
+from markermend.storage import atomic, change_file, stage_files
 
 STAGE = Stage("export", __doc__, ExportOptions)
 STAGE.reads_original("the original file")
@@ -28,7 +27,7 @@ STAGE.reads("filled", "trajectories after repair and filling")
 STAGE.reads("record", "what repair and filling did to each stretch")
 STAGE.writes("cleaned", "the cleaned recording, in the format of the original")
 STAGE.writes("changes", "table of changes, in the capture program's frame numbers")
-STAGE.writes("originals", "the original value of every changed sample")
+STAGE.writes("originals", "the original value of every changed sample, with its bytes")
 STAGE.writes("certificate", "what changed and that nothing else did, as JSON")
 STAGE.writes("trc", "the cleaned recording as TRC besides", many=True)
 
@@ -41,8 +40,8 @@ def work(call: Any) -> str:
     written = written_changes(measured, restored, record, certificate["refused"])
     rows = [*written.applied, *written.refused, *filter(is_reported, record)]
     atomic.write_text(call.changes, change_table(rows, restored))
-    originals = find_originals(measured, written.recording, written.applied)
-    originals_file.write(call.originals, originals, call.facts)
+    sha256 = certificate["original_sha256"]
+    undo.keep_originals(call.originals, call.source, call.cleaned, measured, written, sha256=sha256, facts=call.facts)
     for path in call.trc:
         trc.write_new(path, recording=restored)
     atomic.write_json(call.certificate, certificate)

@@ -27,7 +27,6 @@ from markermend.core.changes import Change, TreatedRecording
 from markermend.core.decisions import Decision
 from markermend.core.events import Event
 from markermend.core.mesh import Mesh
-from markermend.core.originals import find_originals
 from markermend.core.poses import Poses
 from markermend.core.recording import ORIGINS, Recording, Restored
 from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
@@ -40,8 +39,10 @@ from markermend.detection.peaks import detect_peaks
 from markermend.detection.slow import detect_slow
 from markermend.detection.steps import detect_steps
 from markermend.detection.tails import detect_tails
+from markermend.export import undo as export_undo
 from markermend.export import write_back
 from markermend.export.change_table import change_table
+from markermend.export.undo import Restoration
 from markermend.filling import pose_sample
 from markermend.filling.fill import fill_gaps
 from markermend.formats.ingest import ingest_file
@@ -68,7 +69,7 @@ from markermend.planning import decision_cells
 from markermend.planning.contradictions import Line, find_contradictions
 from markermend.planning.decision_table import COLUMNS, in_order
 from markermend.repair.repair import repair as repair_findings
-from markermend.storage import atomic, mesh_file, originals_file
+from markermend.storage import atomic, mesh_file
 from markermend.storage.folder_names import printable
 
 if TYPE_CHECKING:
@@ -586,7 +587,7 @@ def write(
     changes : path-like, optional
         Where the table of changes goes, as tab-separated text.
     originals : path-like, optional
-        Where the original value of every changed sample goes, as Parquet.
+        Where the original value of every changed sample goes, as Parquet: `undo` needs it.
 
     Returns
     -------
@@ -615,9 +616,66 @@ def write(
         rows = [*written.applied, *written.refused, *filter(is_reported, cleaned.changes)]
         atomic.write_text(Path(changes), change_table(rows, cleaned.recording))
     if originals is not None:
-        values = find_originals(cleaned.measured, written.recording, written.applied)
-        originals_file.write(Path(originals), values, {"stage": "export"})
+        export_undo.keep_originals(
+            Path(originals),
+            Path(original),
+            Path(path),
+            cleaned.measured,
+            written,
+            sha256=certificate["original_sha256"],
+            facts={"stage": "export"},
+        )
     return certificate
+
+
+def undo(
+    cleaned: str | PathLike[str],
+    path: str | PathLike[str],
+    *,
+    originals: str | PathLike[str],
+    certificate: Mapping[str, Any] | str | PathLike[str],
+    markers: Sequence[str] = (),
+    frames: tuple[int, int] | None = None,
+) -> Restoration:
+    """Write a copy of a cleaned file in which changes are taken back: all, so that it is the original bit for bit, or those named.
+
+    Parameters
+    ----------
+    cleaned : path-like
+        The cleaned file, as it was written.
+    path : path-like
+        Where the copy goes; a file that is there is never overwritten.
+    originals : path-like
+        The file originals.parquet that was written with it.
+    certificate : mapping or path-like
+        Its certificate, as `write` gives it, or the file certificate.json.
+    markers : sequence of str, optional
+        Names or patterns with `*` and `?`: only findings and gaps of these markers, each as a whole.
+    frames : (int, int), optional
+        First and last frame, as the capture program numbers them: only findings and gaps that share a frame with these.
+
+    Returns
+    -------
+    Restoration
+        What was restored.
+
+    Raises
+    ------
+    NotUndone
+        Where the cleaned file was altered since, what was kept is missing or damaged, nothing is named, or another file stands in the place
+        of the copy.
+
+    Examples
+    --------
+    >>> folder = Path("results/S01/walk")  # doctest: +SKIP
+    >>> kept = {"originals": folder / "originals.parquet", "certificate": folder / "certificate.json"}  # doctest: +SKIP
+    >>> undo(folder / "cleaned.c3d", "walk.c3d", **kept).whole  # doctest: +SKIP
+    True
+    """
+    stated = certificate if isinstance(certificate, Mapping) else export_undo.read_certificate(Path(certificate))
+    return export_undo.undo(
+        Path(cleaned), Path(path), originals=Path(originals), certificate=stated, markers=markers, frames=frames
+    )
 
 
 def to_dataframe(recording: Recording) -> pd.DataFrame:

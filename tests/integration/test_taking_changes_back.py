@@ -8,6 +8,7 @@ from markermend.core.changes import Outcome
 from markermend.core.originals import find_originals, restore_originals
 from markermend.core.recording import changed
 from markermend.storage import change_file, originals_file, stage_files
+from markermend.storage.original_bytes import OriginalBytes
 from support import fillings
 from support.repairs import mend
 from support.treated import treated
@@ -43,7 +44,9 @@ def test_the_files_bring_back_what_was_measured(cleaned, tmp_path):
     applied = applied_changes(measured, result, change_file.read(tmp_path / "07_changes.parquet"))
     found = find_originals(measured, result, applied)
     assert "" not in found.classes
-    originals_file.write(tmp_path / "originals.parquet", found, {})
+    none = np.zeros(0, int)
+    stored = OriginalBytes(none, none, none, (), np.zeros(0, bool))
+    originals_file.write(tmp_path / "originals.parquet", found, stored, {})
     read = stage_files.read_recording(tmp_path / "07_filled.parquet")
     originals = originals_file.read(tmp_path / "originals.parquet")
     assert originals.measured.sum() == (changed(measured, result) & ~measured.missing).sum() > 0

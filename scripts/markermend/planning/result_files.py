@@ -4,11 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from markermend.core.artifacts import BY_STAGE
 
 QUALITY = "08_qc.json"
 """Name of the file with a recording in numbers."""
+
+CERTIFICATE = "certificate.json"
+"""Name of the certificate of a recording."""
+
+
+def cleaned_file(folder: Path, source: str) -> Path:
+    """Find the cleaned file of a recording.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of the recording.
+    source : str
+        Name of its original.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    return folder / f"cleaned{Path(source).suffix.lower()}"
 
 
 @dataclass(frozen=True)
@@ -93,7 +115,7 @@ class ResultFiles:
     @property
     def certificate(self) -> str:
         """What changed in the file, and that nothing else did."""
-        return f"{self.recording}/certificate.json"
+        return f"{self.recording}/{CERTIFICATE}"
 
     @property
     def quality(self) -> str:

@@ -1,4 +1,4 @@
-"""The command `markermend`: clean, look, report, verify, presets, papers; and Snakemake's own flags.
+"""The command `markermend`: clean, look, report, verify, undo, presets, papers; and Snakemake's own flags.
 
 What begins with a flag of Snakemake's goes to Snakemake with the workflow's Snakefile, as it is.
 """
@@ -18,7 +18,7 @@ from markermend.command import run_workflow, verification
 from markermend.planning import run_summary
 from markermend.planning.result_files import QUALITY
 from markermend.storage.installation import workflow_folder
-from markermend.terminal import snakemake_run
+from markermend.terminal import snakemake_run, undo
 
 CAREFUL = "careful"
 """The preset with which nothing is altered."""
@@ -81,6 +81,7 @@ def parser() -> argparse.ArgumentParser:
     report = _command(commands, "report", "print what became of the recordings, and where the report is", _report)
     report.add_argument("results", type=Path, metavar="RESULTS", help="the folder of results")
     report.add_argument("--open", action="store_true", help="open the report in the browser")
+    _about_undoing(_command(commands, "undo", "get originals back from cleaned files, or parts of them", _undo))
     _command(commands, "presets", "list the presets", _list_presets)
     papers = _command(commands, "papers", "repeat the experiments of the papers", _repeat_papers)
     papers.add_argument(
@@ -113,6 +114,34 @@ def _about_recordings(command: argparse.ArgumentParser) -> None:
     """Add the arguments of a command that looks at recordings."""
     command.add_argument("recordings", metavar="FOLDER", help="a folder of recordings, or a table of them")
     _about_run(command)
+
+
+def _about_undoing(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command that takes changes back."""
+    command.add_argument(
+        "results", type=Path, metavar="RESULTS", help="the folder of results, or that of one recording"
+    )
+    command.add_argument(
+        "recordings",
+        nargs="*",
+        metavar="RECORDING",
+        help="recordings as SUBJECT/RECORDING or RECORDING, with * and ? (default: all)",
+    )
+    command.add_argument("--to", type=Path, required=True, metavar="FOLDER", help="the folder that the files go to")
+    command.add_argument(
+        "--markers",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        help="take back what was done to these markers only, with * and ?",
+    )
+    command.add_argument(
+        "--frames",
+        nargs=2,
+        type=int,
+        metavar=("FIRST", "LAST"),
+        help="take back only findings and gaps with any of these frames, numbered as in changes.tsv",
+    )
 
 
 def _about_run(command: argparse.ArgumentParser) -> None:
@@ -178,6 +207,12 @@ def _report(call: argparse.Namespace, given: list[str]) -> int:
     if call.open:
         webbrowser.open(index.resolve().as_uri())
     return 0
+
+
+def _undo(call: argparse.Namespace, given: list[str]) -> int:
+    """Restore originals."""
+    frames = tuple(call.frames) if call.frames else None
+    return undo.run(call.results, call.recordings, call.to, markers=call.markers, frames=frames)
 
 
 def _presets() -> dict[str, str]:

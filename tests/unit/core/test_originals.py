@@ -8,7 +8,7 @@ from hypothesis.extra import numpy as arrays
 
 from markermend.core.applied_changes import applied_changes
 from markermend.core.changes import Change, Outcome
-from markermend.core.originals import find_originals, origin_names, restore_originals
+from markermend.core.originals import find_originals, origin_names, restore_originals, select_findings
 from markermend.core.recording import FILLED, MISSING, ORIGINS, Recording, Restored, changed
 
 SHAPE = (6, 3)
@@ -81,3 +81,43 @@ def test_each_sample_names_what_was_found_and_what_stands_there():
         ("C", 5, "slow", "missing"),
     ]
     assert originals.measured.tolist() == [True] * 6 + [False, True]
+
+
+def moved(*changes):
+    """Originals of a recording of which every sample was moved by some of the changes."""
+    measured = recording(np.arange(54.0).reshape(6, 3, 3), np.zeros(SHAPE, bool))
+    origin = np.full(SHAPE, ORIGINS.index("peak"), np.uint8)
+    result = restored(measured.positions + 1.0, np.zeros(SHAPE, bool), origin)
+    return find_originals(measured, result, changes)
+
+
+def selected(originals, **named):
+    own = select_findings(originals, **named)
+    return {("ABC"[m], frame) for m, frame in zip(originals.marker[own], originals.frame[own], strict=True)}
+
+
+def peak(marker, start, stop, **more):
+    return Change(marker, start, stop, ("peak",), Outcome.REPAIRED, **more)
+
+
+def test_a_finding_is_selected_as_a_whole_by_markers_and_frames():
+    originals = moved(peak("A", 0, 2), peak("A", 2, 6), peak("B", 0, 6), peak("C", 0, 6))
+    assert selected(originals, markers=["A"], frames=(14, 20)) == {("A", frame) for frame in range(2, 6)}
+    assert selected(originals, frames=(11, 11)) == {(name, frame) for name in "ABC" for frame in range(6)} - {
+        ("A", frame) for frame in range(2, 6)
+    }
+    assert selected(originals, markers=["[BC]"]) == {(name, frame) for name in "BC" for frame in range(6)}
+    assert selected(originals, markers=["D"]) == selected(originals, frames=(17, 99)) == set()
+
+
+def test_what_shares_samples_an_exchange_or_a_finding_is_selected_together():
+    swap = [
+        Change("A", 0, 3, ("swap",), Outcome.EXCHANGED, partner="B"),
+        Change("B", 0, 3, ("swap",), Outcome.EXCHANGED, partner="A"),
+    ]
+    originals = moved(*swap, peak("A", 2, 5), peak("A", 5, 6), peak("B", 3, 6), peak("C", 0, 6))
+    assert selected(originals, markers=["B"], frames=(11, 12)) == {
+        *(("A", frame) for frame in range(5)), *(("B", frame) for frame in range(3)),
+    }  # fmt: skip
+    group = [peak(name, 0, 3, group="scene") for name in "ABC"] + [peak(name, 3, 6, group="scene") for name in "ABC"]
+    assert selected(moved(*group), markers=["C"], frames=(12, 12)) == {(n, frame) for n in "ABC" for frame in range(3)}

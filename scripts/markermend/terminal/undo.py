@@ -1,0 +1,116 @@
+"""The command `markermend undo`: originals, or parts of them, back from cleaned files.
+
+Reads: the cleaned files; originals.parquet and certificate.json of their recordings. Writes: the restored files, below a folder.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from markermend.export.undo import NothingNamed, NotUndone, Restoration, read_certificate, undo
+from markermend.planning.result_files import CERTIFICATE, cleaned_file
+from markermend.storage.atomic import NotWritten
+from markermend.storage.folder_names import decode
+
+STRETCHES = 4
+"""Stretches that are named in the line of a recording."""
+
+
+def run(
+    results: Path,
+    names: Sequence[str],
+    to: Path,
+    *,
+    markers: Sequence[str] = (),
+    frames: tuple[int, int] | None = None,
+) -> int:
+    """Restore recordings, and print a line for each.
+
+    Parameters
+    ----------
+    results : Path
+        The folder of results, or that of one recording.
+    names : sequence of str
+        Recordings as SUBJECT/RECORDING or RECORDING, with `*` and `?`; all where there are none.
+    to : Path
+        The folder that the files go to.
+    markers : sequence of str, optional
+        Names or patterns of the markers whose findings and gaps are taken back.
+    frames : (int, int), optional
+        First and last frame of the findings and gaps that are taken back.
+
+    Returns
+    -------
+    int
+        The exit status: 0 where every recording was restored, or those that have what was named.
+    """
+    folders = (
+        [results] if (results / CERTIFICATE).exists() else [path.parent for path in results.glob(f"*/*/{CERTIFICATE}")]
+    )
+    chosen = sorted(folder for folder in folders if not names or any(_is_named(folder, name) for name in names))
+    unknown = [name for name in names if not any(_is_named(folder, name) for folder in chosen)]
+    problems = [f"There is no recording {name} in {results}{_suggestion(name, folders)}" for name in unknown]
+    if not folders:
+        problems = [f"{results} holds no results: name the folder of results of a run"]
+    unnamed, restored = [], 0
+    for folder in chosen if not problems else ():
+        try:
+            print(_restore(folder, to, markers, frames))
+            restored += 1
+        except NothingNamed as nothing:
+            unnamed.append(str(nothing))
+        except (NotUndone, NotWritten) as error:
+            problems.append(str(error))
+    problems += [] if restored else unnamed
+    print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
+    return int(bool(problems))
+
+
+def _restore(folder: Path, to: Path, markers: Sequence[str], frames: tuple[int, int] | None) -> str:
+    """Restore a recording, and say so in a line."""
+    stated = read_certificate(folder / CERTIFICATE)
+    folder = folder.resolve()
+    target = to / folder.parent.name / f"{folder.name}{Path(stated['source']).suffix}"
+    done = undo(
+        cleaned_file(folder, stated["source"]),
+        target,
+        originals=folder / "originals.parquet",
+        certificate=stated,
+        markers=markers,
+        frames=frames,
+    )
+    name = f"{folder.parent.name}/{folder.name}"
+    what = "the original, bit for bit" if done.whole else _summary(done)
+    return f"{name}: {what}: {target}"
+
+
+def _summary(done: Restoration) -> str:
+    """What was restored of a recording, and what was not."""
+    named = [f"{marker} {first} to {last}" for marker, first, last in done.stretches]
+    named = named[:STRETCHES] + ([f"{len(named) - STRETCHES} more"] if len(named) > STRETCHES else [])
+    return f"{done.samples} samples restored ({', '.join(named)}), {done.left} stay cleaned"
+
+
+def _is_named(folder: Path, name: str) -> bool:
+    """Whether a recording has a name, as it is or as its folders are called."""
+    return any(fnmatchcase(own, name) for own in _names(folder))
+
+
+def _names(folder: Path) -> list[str]:
+    """What a recording may be called."""
+    subject, recording = folder.resolve().parts[-2:]
+    plain = [f"{subject}/{recording}", recording]
+    try:
+        return [*plain, f"{decode(subject)}/{decode(recording)}", decode(recording)]
+    except ValueError:
+        return plain
+
+
+def _suggestion(name: str, folders: Sequence[Path]) -> str:
+    """Ask whether a similar name was meant."""
+    close = get_close_matches(name, [own for folder in folders for own in _names(folder)], n=1)
+    return f"; did you mean {close[0]}?" if close else ""

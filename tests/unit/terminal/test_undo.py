@@ -1,0 +1,114 @@
+"""`markermend undo`: which recordings are restored, where they go, and what is said."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+
+from markermend import api
+from markermend.terminal import command_line
+from support import c3d_files
+
+
+def add(results, subject, recording, *, name="walk.c3d", peak=True):
+    """Results of a recording with a peak of marker M1 in frames 11 to 13; gives the bytes of its original."""
+    folder = results / subject / recording
+    folder.mkdir(parents=True)
+    positions = np.cumsum(np.random.default_rng(3).normal(0, 2, (40, 4, 3)), axis=0) + 500
+    path = c3d_files.write(results.parent / name, positions)
+    measured = api.read(path)
+    done = api.clean(measured, options=api.Options.read({"detect": []}))
+    if peak:
+        done.recording.positions[10:13, 1] += 7.0
+        done.recording.origin[10:13, 1] = 1
+    certificate = api.write(done, path, folder / "cleaned.c3d", originals=folder / "originals.parquet")
+    (folder / "certificate.json").write_text(json.dumps(certificate))
+    content = path.read_bytes()
+    path.unlink()
+    return content
+
+
+def run(*words):
+    return command_line.main(["undo", *map(str, words)])
+
+
+@pytest.fixture
+def results(tmp_path):
+    return tmp_path / "results"
+
+
+def test_every_original_comes_back_below_the_folder(results, tmp_path, capsys):
+    contents = {recording: add(results, "S01", recording) for recording in ("walk", "turn")}
+    assert run(results, "--to", tmp_path / "back") == 0
+    for recording, content in contents.items():
+        assert (tmp_path / f"back/S01/{recording}.c3d").read_bytes() == content
+    assert capsys.readouterr().out.splitlines() == [
+        f"S01/{name}: the original, bit for bit: {tmp_path}/back/S01/{name}.c3d" for name in ("turn", "walk")
+    ]
+    assert run(results, "--to", tmp_path / "back") == 0  # once more
+
+
+@pytest.mark.parametrize("name", ["S01/walk", "walk", "w*", "S01/*"])
+def test_a_recording_is_named_with_or_without_its_subject(results, tmp_path, name):
+    add(results, "S01", "walk")
+    add(results, "S02", "turn")
+    assert run(results, name, "--to", tmp_path / "back") == 0
+    assert [path.name for path in (tmp_path / "back").rglob("*.c3d")] == ["walk.c3d"]
+
+
+def test_a_recording_is_named_by_its_own_folder_wherever_that_was_moved(results, tmp_path, monkeypatch):
+    add(results, "S01", "walk")
+    os.rename(results / "S01", tmp_path / "S01")
+    monkeypatch.chdir(tmp_path / "S01/walk")
+    assert run(".", "--to", tmp_path / "back") == 0
+    assert (tmp_path / "back/S01/walk.c3d").exists()
+
+
+def test_names_with_blanks_and_letters_of_any_script(results, tmp_path):
+    content = add(results, "S%2001", "lauf%20ä", name="läuf 1.C3D")
+    (results / "S%2001/lauf%20ä/cleaned.c3d").chmod(0o444)
+    assert run(results, "S 01/lauf ä", "--to", tmp_path / "zurück 1") == 0
+    assert (tmp_path / "zurück 1/S%2001/lauf%20ä.C3D").read_bytes() == content
+
+
+def test_a_finding_is_restored_and_the_line_says_so(results, tmp_path, capsys):
+    add(results, "S01", "walk")
+    assert run(results, "--to", tmp_path / "back", "--markers", "M1", "--frames", "12", "12") == 0
+    assert "S01/walk: the original, bit for bit" in capsys.readouterr().out  # nothing else was changed
+
+
+def test_what_is_not_there_is_said_in_one_line(results, tmp_path, capsys):
+    assert run(results, "--to", tmp_path / "back") == 1
+    assert capsys.readouterr().err == f"{results} holds no results: name the folder of results of a run\n"
+    add(results, "S01", "walk")
+    assert run(results, "wlak", "--to", tmp_path / "back") == 1
+    assert capsys.readouterr().err == f"There is no recording wlak in {results}; did you mean walk?\n"
+    assert run(results, "--to", tmp_path / "back", "--markers", "LANK") == 1
+    assert capsys.readouterr().err.endswith("has these markers and frames, which changes.tsv lists\n")
+    assert not (tmp_path / "back").exists() or not any((tmp_path / "back").rglob("*.c3d"))
+
+
+def test_recordings_without_what_is_named_are_passed_over(results, tmp_path, capsys):
+    add(results, "S01", "walk")
+    add(results, "S01", "turn", peak=False)
+    assert run(results, "--to", tmp_path / "back", "--markers", "M1") == 0
+    assert capsys.readouterr().out.startswith("S01/walk: ")
+
+
+def test_one_that_was_altered_is_refused_and_the_others_come_back(results, tmp_path, capsys):
+    add(results, "S01", "walk")
+    add(results, "S01", "turn")
+    with open(results / "S01/turn/cleaned.c3d", "ab") as file:
+        file.write(b"\0")
+    assert run(results, "--to", tmp_path / "back") == 1
+    said = capsys.readouterr()
+    assert len(said.out.splitlines()) == 1 and "turn/cleaned.c3d was altered after it was written" in said.err
+    assert [path.name for path in (tmp_path / "back").rglob("*.c3d")] == ["walk.c3d"]
+
+
+def test_a_folder_that_cannot_be_written_is_said(results, tmp_path, capsys):
+    add(results, "S01", "walk")
+    (tmp_path / "file").touch()
+    assert run(results, "--to", tmp_path / "file/back") == 1
+    assert "was not written: a file stands where a folder must be" in capsys.readouterr().err
