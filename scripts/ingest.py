@@ -26,6 +26,7 @@ def work(call: Any) -> str:
         recording=call.recording,
         kind=call.kind,
         rate=call.rate,
+        unit=call.unit,
         options=call.options,
     )
     check_unchanged(recording, [call.sha256, call.facts["inputs"]["source"]])

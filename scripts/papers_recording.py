@@ -21,6 +21,7 @@ def main(argv: list[str] | None = None) -> None:
     given.add_argument("--source", type=Path, help="the original file")
     given.add_argument("--synthetic", type=lambda words: read_flag(SyntheticOptions, words), help="options, as JSON")
     parser.add_argument("--rate", default="none", help="frame rate that replaces the file's, Hz, or none")
+    parser.add_argument("--unit", default="none", help="unit that replaces the file's, or none")
     parser.add_argument("--max-duration-s", type=float, help="what is kept of it, s")
     parser.add_argument("--seed", type=int, default=0, help="equal seeds give equal synthetic recordings")
     parser.add_argument("--prepared", type=Path, required=True, help="the trajectories, to write")
@@ -28,7 +29,8 @@ def main(argv: list[str] | None = None) -> None:
     flags = parser.parse_args(argv)
     if flags.source:
         rate = None if flags.rate == "none" else float(flags.rate)
-        recording = api.read(flags.source, kind="dynamic", rate=rate)
+        unit = None if flags.unit == "none" else flags.unit
+        recording = api.read(flags.source, kind="dynamic", rate=rate, unit=unit)
     else:
         recording = recordings.synthetic(flags.name, flags.synthetic, seed=flags.seed)
     recording = recordings.begin(recording, duration=flags.max_duration_s)

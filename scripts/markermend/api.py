@@ -196,6 +196,7 @@ def read(
     recording: str | None = None,
     kind: str = "auto",
     rate: float | None = None,
+    unit: str | None = None,
     options: Options | None = None,
 ) -> Recording:
     """Read a recording of any known format.
@@ -210,6 +211,8 @@ def read(
         `dynamic`, `static` (never repaired or filled), or `auto` (judged by name and motion).
     rate : float, optional
         Frame rate that replaces the file's, Hz.
+    unit : str, optional
+        Unit of the positions that replaces the file's: mm, cm, dm, m, in or ft.
     options : Options, optional
         The options; their section `ingest` is used.
 
@@ -235,6 +238,7 @@ def read(
         recording=recording or printable(source.stem),
         kind=kind,
         rate=rate,
+        unit=unit,
         options=(options or Options.read()).ingest,
     )
 

@@ -56,7 +56,7 @@ def run(source, folder, config):
     def options(name):
         return shlex.split(write_flags(sections[name]))
 
-    recording = ["--recording=walk", "--subject=S01", "--kind=dynamic", "--rate=none", "--sha256=none"]
+    recording = ["--recording=walk", "--subject=S01", "--kind=dynamic", "--rate=none", "--unit=none", "--sha256=none"]
     ingest.main(
         [
             "--source",

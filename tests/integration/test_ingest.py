@@ -32,15 +32,24 @@ def flags(source, target, **more):
         "subject": "Anna",
         "kind": "auto",
         "rate": "none",
+        "unit": "none",
         "sha256": "none",
         "within": "none",
         "static-motion-mm": 15,
         "min-placeholder-distance-mm": 1000,
+        "min-static-s": 1,
         "min-rate-hz": 1,
         "max-rate-hz": 1e5,
         **more,
     }
-    lists = ["--unlabelled", json.dumps([r"\*\d*"]), "--static-names", json.dumps(NAMES)]
+    lists = [
+        "--unlabelled",
+        json.dumps([r"\*\d*"]),
+        "--computed",
+        json.dumps(["M9"]),
+        "--static-names",
+        json.dumps(NAMES),
+    ]
     named = [f"--{name}={value}" for name, value in options.items()]
     return ["--source", source, "--markers", target, *named, *lists]
 
@@ -67,12 +76,14 @@ def test_the_script_writes_markers_and_facts(tmp_path):
     first = target.read_bytes()
     run_script(flags(source, target))
     assert target.read_bytes() == first
-    run_script(flags(source, target, rate=250))
-    assert stage_files.read_recording(target).rate == 250
+    run_script(flags(source, target, rate=250, unit="cm"))
+    again = stage_files.read_recording(target)
+    assert again.rate == 250 and again.facts["source"]["given_unit"] == "cm"
+    np.testing.assert_array_equal(again.positions, 10 * recording.positions)
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "reason"), [("walk.c3d", b"", "empty"), ("walk.mat", b"x", r"\.mat.*\.c3d, \.trc")]
+    ("name", "content", "reason"), [("walk.c3d", b"", "empty"), ("walk.mat", b"x", r"is a MATLAB file: export")]
 )
 def test_the_script_sets_a_bad_recording_aside(tmp_path, name, content, reason):
     source, target = tmp_path / name, tmp_path / "results" / "01_markers.parquet"

@@ -26,7 +26,7 @@ WARNED = {
     "odd/markers.trc": "652 frames and the file has 93",
     "odd/step_width.trc": "27107 frames and the file has 501",
     "odd/WeirdFormatTests_markers.trc": "do not stand above their columns",
-    "text/127_07.csv": "names no unit",
+    "text/127_07.csv": "states no unit",
 }
 
 

@@ -173,7 +173,7 @@ class Experiments:
             synthetic = write_flag(options.synthetic, *vars(options.synthetic))
             return [f"--synthetic={synthetic}", f"--seed={options.seed}"]
         duration = [] if options.max_duration_s is None else [f"--max-duration-s={text(options.max_duration_s)}"]
-        return [f"--source={entry.source}", f"--rate={text(entry.rate)}", *duration]
+        return [f"--source={entry.source}", f"--rate={text(entry.rate)}", f"--unit={text(entry.unit)}", *duration]
 
     def paper_options(self, wildcards: Wildcards) -> str:
         """All options of a paper, for its page; see `Experiments.table`."""

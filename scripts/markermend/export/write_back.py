@@ -88,6 +88,7 @@ def write_cleaned(source: Path, cleaned: Path, measured: Recording, restored: Re
                 positions=restored.positions,
                 changed=differs,
                 columns=columns,
+                unit=facts.get("given_unit"),
             )
         else:
             shutil.copyfile(source, temporary)

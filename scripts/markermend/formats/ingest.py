@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 
 from markermend.core.recording import BadRecording, Recording, SourceChanged
 from markermend.formats import files, units
+from markermend.formats.computed_points import computed_points
 from markermend.formats.placeholders import find_placeholders
 from markermend.formats.reading import Reading
 from markermend.options.ingest import IngestOptions
@@ -22,8 +23,19 @@ FRAMES_FOR_MOTION = 2000
 """Frames, spread over the recording, from which the motion of its markers is measured."""
 
 
+IF_NOT = "If it is not, write dynamic into its column kind of the recordings table."
+"""What to do about a recording that is wrongly taken for a static one."""
+
+
 def ingest_file(
-    path: Path, *, subject: str, recording: str, kind: str, rate: float | None, options: IngestOptions
+    path: Path,
+    *,
+    subject: str,
+    recording: str,
+    kind: str,
+    rate: float | None,
+    unit: str | None = None,
+    options: IngestOptions,
 ) -> Recording:
     """Read a file and make a recording of it.
 
@@ -37,6 +49,8 @@ def ingest_file(
         dynamic, static, or auto (see recording_kind).
     rate : float or None
         Frame rate in Hz, used in place of the file's; None = the file's.
+    unit : str, optional
+        Unit of the positions, a key of units.MILLIMETRES, used in place of the file's; None = the file's.
     options : IngestOptions
         The names of unlabelled trajectories, and what is static.
 
@@ -51,14 +65,14 @@ def ingest_file(
         If the file cannot be used.
     """
     made = ingest(
-        files.read(path, unlabelled=options.unlabelled, rate=rate),
+        files.read(path, unlabelled=options.unlabelled, rate=rate, unit=unit),
         source=printable(path.name),
         recording=recording,
         subject=subject,
         kind=kind,
         options=options,
     )
-    made.facts["source"]["sha256"] = sha256(path)
+    made.facts["source"] |= {"sha256": sha256(path), **({} if unit is None else {"given_unit": unit})}
     return made
 
 
@@ -100,7 +114,7 @@ def ingest(
     kind : str
         dynamic, static, or auto (see recording_kind).
     options : IngestOptions
-        What is static.
+        What is static, and what is computed.
 
     Returns
     -------
@@ -112,6 +126,7 @@ def ingest(
     BadRecording
         If no marker was ever seen, or the rate is impossible.
     """
+    reading = _without_computed_points(reading, options.computed)
     reading = _without_placeholders(reading, min_distance_mm=options.min_placeholder_distance_mm)
     markers = reading.recording
     _check_usable(reading, source, options)
@@ -139,13 +154,30 @@ def ingest(
     return replace(markers, facts=facts)
 
 
+def _without_computed_points(reading: Reading, patterns: Sequence[str]) -> Reading:
+    """A reading in which computed points are model outputs and no markers."""
+    recording = reading.recording
+    computed = computed_points(recording.markers, patterns)
+    if not computed:
+        return reading
+    kept = [m for m, name in enumerate(recording.markers) if name not in computed]
+    return replace(
+        reading,
+        recording=replace(
+            recording, markers=tuple(recording.markers[m] for m in kept), positions=recording.positions[:, kept]
+        ),
+        columns=tuple(reading.columns[m] for m in kept),
+        model_outputs=(*reading.model_outputs, *(name for name in recording.markers if name in computed)),
+    )
+
+
 def _without_placeholders(reading: Reading, *, min_distance_mm: float) -> Reading:
     """A reading in which numbers that stand for missing samples are missing, with a warning that names their markers."""
     recording = reading.recording
     placeholder = find_placeholders(recording.positions, min_distance_mm=min_distance_mm)
     if not placeholder.any():
         return reading
-    numbers = np.unique(recording.positions[placeholder][:, 0] / units.MILLIMETRES[reading.unit])
+    numbers = np.unique(recording.positions[placeholder][:, 0] / units.MILLIMETRES.get(reading.unit, 1.0))
     written = ", ".join(f"{number:.10g}" for number in numbers.tolist())
     names = ", ".join(recording.markers[m] for m in np.flatnonzero(placeholder.any(axis=0)))
     count = int(placeholder.sum())
@@ -162,7 +194,7 @@ def recording_kind(recording: Recording, *, name: str, kind: str, options: Inges
     """Decide whether a recording is dynamic or static (never repaired or filled).
 
     The recordings table takes precedence. Otherwise a recording is static if a pattern of static_names occurs in its
-    name, in any case of letters, or if nine markers in ten move less than static_motion_mm.
+    name, in any case of letters, or if nine markers in ten move less than static_motion_mm in min_static_s or longer.
 
     Parameters
     ----------
@@ -173,24 +205,27 @@ def recording_kind(recording: Recording, *, name: str, kind: str, options: Inges
     kind : str
         What the recordings table states: dynamic, static, or auto.
     options : IngestOptions
-        Regular expressions for the names of static recordings, and the range of motion below which one is static.
+        Regular expressions for the names of static recordings, and the range of motion and the duration of one.
 
     Returns
     -------
     kind : str
         dynamic or static.
     reason : str
-        Why, in one sentence.
+        Why, and what to do if that is wrong.
     """
     if kind != "auto":
         return kind, "The recordings table says so."
     threshold = options.static_motion_mm
     for pattern in options.static_names:
         if re.search(pattern, name, re.IGNORECASE):
-            return "static", f"Its name, {name}, matches {pattern}."
-    motion = motion_mm(recording)
+            return "static", f"Its name, {name}, matches {pattern} (ingest: static_names). {IF_NOT}"
+    motion, duration = motion_mm(recording), recording.frames / recording.rate
     if motion < threshold:
-        return "static", f"Nine markers in ten move {motion:.1f} mm or less; under {threshold:g} mm is static."
+        moved = f"Nine markers in ten move {motion:.1f} mm or less"
+        if duration < options.min_static_s:
+            return "dynamic", f"{moved}, but {duration:.2g} s are too short to show that it is static."
+        return "static", f"{moved} in {duration:.3g} s; under {threshold:g} mm is static. {IF_NOT}"
     return "dynamic", f"Nine markers in ten move up to {motion:.0f} mm; under {threshold:g} mm is static."
 
 
@@ -231,7 +266,10 @@ def _why_empty(reading: Reading) -> str:
         return "every sample of its markers is missing"
     found = [
         f"{len(names)} {what}"
-        for names, what in ((reading.unlabelled, "unlabelled trajectories"), (reading.model_outputs, "model outputs"))
+        for names, what in (
+            (reading.unlabelled, "unlabelled trajectories"),
+            (reading.model_outputs, "model outputs or computed points"),
+        )
         if names
     ]
     return f"it has no labelled markers{', only ' + ' and '.join(found) if found else ''}"

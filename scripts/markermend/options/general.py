@@ -66,6 +66,9 @@ class RecordingOptions:
     rate: float | None
     """Frame rate in Hz, in place of the file's; `none` for the file's."""
 
+    unit: str | None = None
+    """Unit of the positions, in place of the file's; `none` for the file's."""
+
     sha256: str | None = None
     """Checksum of the file; `none` for whatever it is."""
 

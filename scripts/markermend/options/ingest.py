@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from markermend.options.declaration import Laboratory, Millimetres, PositiveHertz, RegularExpression
+from markermend.options.declaration import Laboratory, Millimetres, PositiveHertz, RegularExpression, Seconds
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,21 @@ class IngestOptions:
 
     Change it when your capture program names unlabelled trajectories in another way."""
 
+    computed: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
+        "([LR][ _]?)?[HKASEW]JC([ _]?[LR])?",
+        ".*joint[ _]?cent(re|er)s?",
+        ".*_(score|sara)",
+        "cent(re|er)[ _]?of[ _]?(mass|gravity).*",
+        "COM|COG",
+        "[LR]?(Abs)?(Ankle|Elbow|FootProgress|Head|Hip|Knee|Neck|Pelvis|Shoulder|Spine|Thorax|Waist|Wrist)"
+        "(Angle|Force|Moment|Power)s?",
+        "[LR]?(Normalised)?GroundReaction(Force|Moment)",
+    )
+    """Regular expressions for the names of points that a program computed: joint centres, centres of mass, model outputs. They are
+    left alone, and so are the bones of Plug-in Gait (`LFEO`, `LFEA`, `LFEL`, `LFEP`); an empty list makes markers of all.
+
+    Change it when your files hold other computed points, or a marker has such a name."""
+
     static_names: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
         "static",
         "calibration",
@@ -36,6 +51,9 @@ class IngestOptions:
     """A recording is static if nine markers in ten move by less than this.
 
     Change it when a static recording is taken for a dynamic one, or the reverse."""
+
+    min_static_s: Seconds = 1
+    """A shorter recording is not taken for a static one because of its little motion."""
 
     min_rate_hz: PositiveHertz = 1
     """A recording with a lower frame rate is set aside: the rate is an error of the file."""

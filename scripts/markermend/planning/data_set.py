@@ -123,8 +123,9 @@ class DataSet:
     def recording_flags(self, wildcards: Wildcards) -> list[str]:
         """What is known of a recording before it is read, as flags; see `DataSet.entry`."""
         entry = self.entry(wildcards)
-        stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind, "rate": text(entry.rate)}
-        return [f"--{name}={value}" for name, value in {**stated, "sha256": self.source_hash(wildcards)}.items()]
+        stated = {"subject": entry.subject, "recording": entry.recording, "kind": entry.kind}
+        replaced = {"rate": text(entry.rate), "unit": text(entry.unit), "sha256": self.source_hash(wildcards)}
+        return [f"--{name}={value}" for name, value in {**stated, **replaced}.items()]
 
     def decisions_flag(self, wildcards: Wildcards) -> str:
         """The decisions on the recording alone, as a flag; see `DataSet.entry`."""

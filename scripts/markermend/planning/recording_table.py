@@ -6,10 +6,11 @@ import os
 from collections import Counter
 from typing import Any
 
-from markermend.planning.recordings import FORMATS, BadDataSet, Entry
+from markermend.formats import files, units
+from markermend.planning.recordings import BadDataSet, Entry
 from markermend.planning.tables import read_table
 
-COLUMNS = ("recording", "subject", "file", "kind", "rate", "mesh")
+COLUMNS = ("recording", "subject", "file", "kind", "rate", "unit", "mesh")
 """Columns of the table; the first three are required."""
 
 
@@ -64,23 +65,26 @@ def from_rows(rows: list[dict[str, Any]], path: str) -> list[Entry]:
     Raises
     ------
     BadDataSet
-        Naming every file that is missing or of an unknown format, and every recording that is named twice.
+        Naming every file that is missing or of a format that is not read, every unknown unit, and every recording that is named twice.
     """
     base = os.path.dirname(os.path.abspath(path))
     entries = []
     for row in rows:
         places = {name: os.path.normpath(os.path.join(base, row[name])) for name in ("file", "mesh") if name in row}
         more = {name: row[name] for name in ("kind", "rate") if name in row}
-        entries.append(Entry(row["subject"], row["recording"], places["file"], mesh=places.get("mesh"), **more))
+        unit = units.unit_of(row.get("unit", ""))
+        entries.append(
+            Entry(row["subject"], row["recording"], places["file"], unit=unit, mesh=places.get("mesh"), **more)
+        )
     wanted = [entry.source for entry in entries] + [entry.mesh for entry in entries if entry.mesh]
     problems = [
         f"{'not a file' if os.path.exists(file) else 'no such file'}: {file}"
         for file in dict.fromkeys(wanted)
         if not os.path.isfile(file)
     ]
-    problems += [
-        f"not a known format ({', '.join(FORMATS)}): {entry.source}" for entry in entries if entry.format not in FORMATS
-    ]
+    problems += [f"{entry.source} {reason}" for entry in entries if (reason := files.why_unreadable(entry.source))]
+    strange = dict.fromkeys(row["unit"] for row in rows if "unit" in row and units.unit_of(row["unit"]) is None)
+    problems += [f"not a unit of length ({units.KNOWN}): {unit}" for unit in strange]
     named = Counter((entry.subject, entry.recording) for entry in entries)
     problems += [f"twice: recording {name} of subject {subject}" for (subject, name), n in named.items() if n > 1]
     if problems:

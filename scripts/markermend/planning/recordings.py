@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from markermend.formats.files import READABLE
+from markermend.planning.left_out import LeftOut
 from markermend.storage.folder_names import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode, printable
 from markermend.storage.source_file import leads_out
 
@@ -37,6 +38,8 @@ class Entry:
         `auto`, `dynamic` or `static`.
     rate : float or None
         Frame rate that replaces the file's, Hz.
+    unit : str or None
+        Unit of the positions that replaces the file's, a key of units.MILLIMETRES.
     mesh : str or None
         Absolute path of a mesh file for the subject.
     within : str or None
@@ -48,6 +51,7 @@ class Entry:
     source: str
     kind: str = "auto"
     rate: float | None = None
+    unit: str | None = None
     mesh: str | None = None
     within: str | None = None
 
@@ -110,7 +114,7 @@ def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list
     entries : list of Entry
         The recordings by subject and name.
     warnings : list of str
-        The folders below that were not searched, and why.
+        The folders below that were not searched, and why; the files that are no recordings, in counts.
 
     Raises
     ------
@@ -125,7 +129,10 @@ def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list
             "recordings. Choose a folder of its own: --config results=FOLDER"
         )
     warnings: list[str] = []
-    found = {path: files for path, files in _walk(top, os.path.realpath(results), follow_links, warnings) if files}
+    left = LeftOut(top)
+    walked = _walk(top, os.path.realpath(results), follow_links, warnings, left)
+    found = {path: files for path, files in walked if files}
+    warnings += left.warnings()
     if not found:
         kinds = ", ".join(f".{name}" for name in FORMATS)
         raise BadDataSet("\n".join([f"recordings: no recording ({kinds}) in {top} or below", *warnings]))
@@ -148,7 +155,9 @@ def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list
     return sorted(entries, key=lambda entry: (entry.subject, entry.recording)), warnings
 
 
-def _walk(top: str, results: str, follow_links: bool, warnings: list[str]) -> Iterator[tuple[str, list[str]]]:
+def _walk(
+    top: str, results: str, follow_links: bool, warnings: list[str], left: LeftOut
+) -> Iterator[tuple[str, list[str]]]:
     """Walk the folders below `top`, links too but none twice, and give the recordings' file names in each; warn of those left out."""
 
     def unreadable(error: OSError) -> None:
@@ -166,10 +175,14 @@ def _walk(top: str, results: str, follow_links: bool, warnings: list[str]) -> It
             )
             folders.clear()
             continue
+        if "01_markers.parquet" in files:
+            left.note("results of earlier runs", os.path.dirname(path), [os.path.basename(path)])
         if real in seen or real == results or "01_markers.parquet" in files:
             folders.clear()
             continue
         seen.add(real)
+        left.note_files(path, files)
+        left.note("hidden", path, [f"{name}/" for name in folders if name.startswith(".")])
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         yield path, sorted(name for name in files if not name.startswith(".") and suffix(name) in FORMATS)
 

@@ -14,7 +14,7 @@ STATUSES = ("cleaned", "unchanged", "static", "set aside")
 """The possible outcomes of a recording, in the order in which a summary counts them."""
 
 LISTED = 10
-"""Largest number of recordings set aside, and of those not finished, that a terminal names; the report names all."""
+"""Largest number of recordings set aside, of static ones, and of those not finished, that a terminal names; the report names all."""
 
 TRACEBACK = "ERROR Traceback"
 """Beginning of such a line that says where; another says why."""
@@ -27,7 +27,7 @@ ERROR = "ERROR "
 
 
 def summary(paths: Sequence[Path], report: Path | None, unfinished: Collection[Path] = ()) -> str:
-    """Sum up a run: recordings by outcome, changed samples, what was set aside or not finished and why.
+    """Sum up a run: recordings by outcome, changed samples, what was set aside, is static or was not finished, and why.
 
     Parameters
     ----------
@@ -50,10 +50,11 @@ def summary(paths: Sequence[Path], report: Path | None, unfinished: Collection[P
     lines[0] = (
         f"{len(found)} recordings: {lines[0]}; {sum(q.get('changed_samples') or 0 for q in found)} samples changed"
     )
-    aside = [quality for quality in found if quality.get("status") == "set aside"]
-    lines += [f"  set aside: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in aside[:LISTED]]
-    if len(aside) > LISTED:
-        lines.append(f"  and {len(aside) - LISTED} more, all in the report")
+    for status in ("set aside", "static"):
+        own = [quality for quality in found if quality.get("status") == status]
+        lines += [f"  {status}: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in own[:LISTED]]
+        if len(own) > LISTED:
+            lines.append(f"  and {len(own) - LISTED} more, all in the report")
     left = [path.parent for path, quality in zip(paths, found, strict=True) if not quality]
     lines += [
         f"  not finished: {'/'.join(folder.parts[-2:])}: {_last_error(folder / 'logs')}" for folder in left[:LISTED]

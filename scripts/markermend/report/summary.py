@@ -56,7 +56,7 @@ def summarize(
         **identity(before.facts),
         "status": status(before.facts, differs),
         "stage": None,
-        "reason": None,
+        "reason": before.facts.get("kind_reason") if before.facts.get("kind") == "static" else None,
         **size(before),
         "missing_share_before": share(before.missing),
         "missing_share_after": share(after.missing),

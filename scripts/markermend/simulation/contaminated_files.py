@@ -68,7 +68,7 @@ class ContaminatedFile:
         ValueError
             If the recording is too short for the contamination.
         """
-        reading = files.read(Path(entry.source), unlabelled=unlabelled, rate=entry.rate)
+        reading = files.read(Path(entry.source), unlabelled=unlabelled, rate=entry.rate, unit=entry.unit)
         clean = reading.recording
         return cls(entry, reading, protocol(clean.positions, clean.markers, rate=clean.rate, **options))
 
@@ -111,6 +111,7 @@ class ContaminatedFile:
                 positions=contaminated.positions,
                 changed=changed(clean, contaminated),
                 columns=self.reading.columns,
+                unit=self.entry.unit,
             )
         for kind, events in self.events.items():
             stage_files.write_events(truth / subject / name / f"{kind}.parquet", events, {"stage": kind})

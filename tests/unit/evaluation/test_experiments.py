@@ -52,7 +52,7 @@ def test_given_recordings_are_named_by_their_folders_and_by_their_subjects_where
     assert list(papers.named) == ["S1_walk", "S2_walk", "a%20b"]
     assert papers.recordings("artifacts2022") == list(papers.named)
     assert papers.source(about("a%20b")) == ["/data/S2/a b.trc"]
-    assert papers.recording_flags(about("S2_walk")) == ["--source=/data/S2/walk.trc", "--rate=120", "--max-duration-s=10"]  # fmt: skip
+    assert papers.recording_flags(about("S2_walk")) == ["--source=/data/S2/walk.trc", "--rate=120", "--unit=none", "--max-duration-s=10"]  # fmt: skip
     assert papers.sizes(about())[0] == "/out/papers/recordings/S1_walk.tsv"
 
 

@@ -70,13 +70,31 @@ def test_numbers_that_stand_for_missing_samples_are_missing():
     assert result.facts["warnings"] == ["15 samples are 999.9 in all three coordinates and count as missing: M2."]
 
 
+def test_computed_points_are_left_alone():
+    recording = replace(moving(), markers=("LASI", "LHJC", "LFEO", "LFEA", "LFEL", "LFEP", "C7", "RFEO", "RFEA", "COM"))
+    result = ingest(
+        reading_of(recording, model_outputs=("LHipAngles",)),
+        source="walk.c3d",
+        recording="walk",
+        subject="Anna",
+        kind="auto",
+        options=IngestOptions(),
+    )
+    assert result.markers == ("LASI", "C7", "RFEO", "RFEA")
+    assert result.facts["source"]["columns"] == [0, 6, 7, 8]
+    assert result.facts["model_outputs"] == ["LHipAngles", "LHJC", "LFEO", "LFEA", "LFEL", "LFEP", "COM"]
+    np.testing.assert_array_equal(result.positions, recording.positions[:, [0, 6, 7, 8]])
+
+
 def test_no_marker_ever_seen():
     recording = moving()
     recording.positions[:] = np.nan
     with pytest.raises(BadRecording, match=r"walk\.c3d has no 3-D data.*every sample"):
         ingested(reading_of(recording))
     nothing = Recording((), np.empty((300, 0, 3)), 100.0)
-    with pytest.raises(BadRecording, match=r"no labelled markers, only 1 unlabelled trajectories and 2 model outputs"):
+    with pytest.raises(
+        BadRecording, match=r"no labelled markers, only 1 unlabelled trajectories and 2 model outputs or computed"
+    ):
         ingested(reading_of(nothing, unlabelled=("*0",), model_outputs=("A", "B")))
     with pytest.raises(BadRecording, match="no labelled markers; leave"):
         ingested(reading_of(nothing))
@@ -107,7 +125,15 @@ def test_names_of_dynamic_recordings(name):
 
 def test_a_recording_without_motion_is_static():
     decided, reason = kind(moving(amplitude=10))
-    assert decided == "static" and "under 15 mm" in reason
+    assert decided == "static" and "in 3 s; under 15 mm" in reason and "write dynamic" in reason
+
+
+@pytest.mark.parametrize(("frames", "decided"), [(1, "dynamic"), (27, "dynamic"), (99, "dynamic"), (100, "static")])
+def test_little_motion_in_a_short_recording_does_not_make_it_static(frames, decided):
+    short = moving(frames, amplitude=10)
+    assert kind(short)[0] == decided
+    assert ("too short" in kind(short)[1]) == (decided == "dynamic")
+    assert kind(short, "static01")[0] == kind(short, stated="static")[0] == "static"
 
 
 def test_motion_is_that_of_the_ninth_marker_in_ten_without_outliers():

@@ -84,7 +84,7 @@ def test_an_original_is_read_again_where_a_stage_that_reads_it_has_failed_since(
 def test_what_the_table_says_of_a_recording_becomes_flags(plan):
     flags = plan.data.recording_flags(job(recording="run"))
     checksum = f"--sha256={sha256(Path(plan.data.original(job(recording='run'))))}"
-    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120", checksum]
+    assert flags == ["--subject=S 1", "--recording=run", "--kind=dynamic", "--rate=120", "--unit=none", checksum]
     assert "--rate=none" in plan.data.recording_flags(job())
 
 

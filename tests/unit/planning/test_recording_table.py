@@ -2,6 +2,7 @@
 
 import pytest
 
+from markermend.formats import units
 from markermend.planning import recording_table
 from markermend.planning.recordings import BadDataSet, Entry
 
@@ -12,8 +13,8 @@ def test_a_table_names_recordings_files_and_more(tmp_path, separator):
     for name in ("raw/1.c3d", "raw/2.trc", "bob.json"):
         (tmp_path / name).touch()
     rows = [
-        "recording;subject;file;kind;rate;mesh",
-        "walk;Bob;raw/1.c3d;;;bob.json",
+        "recording;subject;file;kind;rate;unit;mesh",
+        "walk;Bob;raw/1.c3d;;;METERS;bob.json",
         "",
         "stand;Bob;raw/2.trc;static;50",
     ]
@@ -22,14 +23,17 @@ def test_a_table_names_recordings_files_and_more(tmp_path, separator):
     raw = str(tmp_path / "raw")
     assert recording_table.from_rows(recording_table.read_rows(str(path)), str(path)) == [
         Entry("Bob", "stand", f"{raw}/2.trc", kind="static", rate=50.0),
-        Entry("Bob", "walk", f"{raw}/1.c3d", mesh=str(tmp_path / "bob.json")),
+        Entry("Bob", "walk", f"{raw}/1.c3d", unit="m", mesh=str(tmp_path / "bob.json")),
     ]
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("recording\tfile\na\tb\n", "has no column subject; columns are recording, subject, file, kind, rate, mesh"),
+        (
+            "recording\tfile\na\tb\n",
+            "has no column subject; columns are recording, subject, file, kind, rate, unit, mesh",
+        ),
         ("", "has no column recording, subject, file"),
         ("recording\tsubject\tfile\n", "has no rows"),
         ("recording\tsubject\tfile\na\tb\tc\td\n", "line 2 has 4 cells for 3 columns"),
@@ -47,7 +51,7 @@ def test_every_problem_of_a_table_is_named_at_once(tmp_path):
         (tmp_path / name).touch()
     rows = [
         {"recording": "walk", "subject": "Bob", "file": "1.c3d"},
-        {"recording": "walk", "subject": "Bob", "file": "2.mov"},
+        {"recording": "walk", "subject": "Bob", "file": "2.mov", "unit": "furlong"},
         {"recording": "run", "subject": "Bob", "file": "3.c3d", "mesh": "bob.json"},
     ]
     with pytest.raises(BadDataSet) as error:
@@ -56,6 +60,7 @@ def test_every_problem_of_a_table_is_named_at_once(tmp_path):
     assert lines[1:] == [
         f"no such file: {tmp_path}/3.c3d",
         f"no such file: {tmp_path}/bob.json",
-        f"not a known format (c3d, trc, csv, tsv): {tmp_path}/2.mov",
+        f"{tmp_path}/2.mov ends in .mov, which is not a known format (.c3d, .trc, .csv, .tsv)",
+        f"not a unit of length ({units.KNOWN}): furlong",
         "twice: recording walk of subject Bob",
     ]

@@ -27,6 +27,17 @@ def test_hidden_files_and_results_are_left_out(tmp_path):
     make(tmp_path, "S01/walk.c3d", "S01/._walk.c3d", ".trash/old.c3d", "results/S01/walk/cleaned.c3d")
     make(tmp_path, "old/S01/walk/cleaned.c3d", "old/S01/walk/01_markers.parquet")
     assert set(found(tmp_path, tmp_path / "results")) == {("S01", "walk")}
+    _, warnings = recordings.find(str(tmp_path), str(tmp_path / "results"))
+    assert warnings == [
+        f"recordings: left alone below {tmp_path}: 2 hidden (.trash/, S01/._walk.c3d),"
+        " 1 results of earlier runs (old/S01/walk)"
+    ]
+
+
+def test_a_folder_of_compressed_recordings_says_what_to_do(tmp_path):
+    make(tmp_path, "S01/walk.c3d.gz", "S01/run.trc.gz")
+    with pytest.raises(BadDataSet, match=r"no recording .*\n.*2 .gz .*is compressed: unpack it"):
+        recordings.find(str(tmp_path), "elsewhere")
 
 
 def test_links_are_followed_once(tmp_path):

@@ -8,7 +8,7 @@ def test_the_summary_counts_lists_and_ends_with_the_report(tmp_path):
     found = [
         {"subject": "S01", "recording": "a", "status": "cleaned", "changed_samples": 12},
         {"subject": "S01", "recording": "b", "status": "cleaned", "changed_samples": 3},
-        {"subject": "S01", "recording": "c", "status": "static", "changed_samples": 0},
+        {"subject": "S01", "recording": "c", "status": "static", "reason": "its name", "changed_samples": 0},
         {"subject": "S02", "recording": "d", "status": "set aside", "reason": "no markers", "changed_samples": None},
     ]
     paths = [tmp_path / f"{number}.json" for number in range(4)]
@@ -16,6 +16,7 @@ def test_the_summary_counts_lists_and_ends_with_the_report(tmp_path):
         path.write_text(json.dumps(quality))
     report = tmp_path / "index.html"
     text = "4 recordings: 2 cleaned, 1 static, 1 set aside; 15 samples changed\n  set aside: S02/d: no markers"
+    text += "\n  static: S01/c: its name"
     assert run_summary.summary(paths, report) == f"{text}\nThe report was not written: {report}: see {tmp_path}/logs"
     report.touch()
     assert run_summary.summary(paths, report) == f"{text}\nReport, which has no plots: {report}: see {tmp_path}/logs"

@@ -23,7 +23,7 @@ NOT_MODELS = ("LABELS", "UNITS", "DESCRIPTIONS", "POINTS", "MARKERS")
 """Parameters of POINT that list no model outputs, even where TYPE_GROUPS names them."""
 
 
-def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
+def read(path: Path, *, unlabelled: Sequence[str], unit: str | None = None) -> Reading:
     """Read the labelled markers of a C3D file.
 
     Parameters
@@ -32,6 +32,8 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
         The file.
     unlabelled : sequence of str
         Regular expressions for the names that capture programs give to unlabelled trajectories (see labels.py).
+    unit : str, optional
+        Unit of the positions, a key of units.MILLIMETRES, used in place of the file's; None = the file's.
 
     Returns
     -------
@@ -53,11 +55,11 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
     residual_warnings = (
         [] if credible else ["Every residual is -1 although the positions are real; the positions are kept."]
     )
-    unit, factors, unit_warnings = _units(section, columns, positions)
+    used, unit_warnings = _units(section, columns, positions, unit)
     others = [c for c, name in enumerate(names) if name in set(nameless)]
     tracks, _, _ = _positions(path, section, layout, others, credible=credible)
-    tracks *= _units(section, others, positions)[1][:, None]
-    positions *= factors[:, None]
+    tracks *= _factors(_units(section, others, positions, unit)[0])
+    positions *= _factors(used)
     recording = Recording(
         tuple(names[c] for c in columns),
         positions,
@@ -68,7 +70,7 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
     return Reading(
         recording,
         "c3d",
-        unit,
+        ", ".join(dict.fromkeys(used)),
         tuple(columns),
         tuple(nameless),
         tuple(name for name in names if name in outputs),
@@ -78,7 +80,13 @@ def read(path: Path, *, unlabelled: Sequence[str]) -> Reading:
 
 
 def patch(
-    original: Path, target: Path, *, positions: np.ndarray, changed: np.ndarray, columns: Sequence[int]
+    original: Path,
+    target: Path,
+    *,
+    positions: np.ndarray,
+    changed: np.ndarray,
+    columns: Sequence[int],
+    unit: str | None = None,
 ) -> PatchResult:
     """Copy a C3D file and overwrite the changed samples in its data block, and nothing else.
 
@@ -95,6 +103,8 @@ def patch(
         The samples to write.
     columns : sequence of int
         Index of each marker among the file's points, as read.
+    unit : str, optional
+        As given for reading.
 
     Returns
     -------
@@ -110,10 +120,10 @@ def patch(
     if positions.shape != (layout.frames, len(columns), 3):
         raise ValueError(f"positions {positions.shape} do not fit {layout.frames} frames of {len(columns)} markers")
     before, _, credible = _positions(original, section, layout, columns)
-    _, factors, _ = _units(section, columns, before)
+    factors = _factors(_units(section, columns, before, unit)[0])
     shutil.copyfile(original, target)
     frame, marker = np.nonzero(changed)
-    values = positions[frame, marker] / factors[marker, None]
+    values = positions[frame, marker] / factors[marker]
     stored, refused = c3d_points.encode(values, layout, section.coding, credible=credible)
     column = np.asarray(columns, int)[marker]
     written = ~refused
@@ -173,22 +183,23 @@ def _model_outputs(section: Section, names: Sequence[str]) -> set[str]:
     return listed & set(names)
 
 
-def _units(section: Section, columns: Sequence[int], positions: np.ndarray) -> tuple[str, np.ndarray, list[str]]:
-    """The unit of the markers, mm per unit for each, and warnings.
+def _units(
+    section: Section, columns: Sequence[int], positions: np.ndarray, given: str | None
+) -> tuple[list[str], list[str]]:
+    """The unit of each of the columns, and warnings.
 
-    A blank unit is mm, unless the coordinates are so small that they are metres; a declared one holds.
     positions: (frames, markers, 3) in the file's unit, NaN = missing.
     """
-    declared = [unit.strip().lower() for unit in section.texts("POINT", "UNITS")]
+    declared = [unit.strip() for unit in section.texts("POINT", "UNITS")]
     named = [declared[c] if len(declared) > max(c, 1) else (declared or [""])[0] for c in columns]
     unknown = sorted({name for name in named if name and units.unit_of(name) is None})
     if unknown:
-        raise BadRecording(f"POINT:UNITS is {', '.join(unknown)}, not a unit of length: correct it in the original")
-    small = units.are_likely_metres(positions)
-    used = [units.unit_of(name) or ("m" if small else "mm") for name in named]
-    warnings = []
-    if "" in named:
-        warnings.append(f"POINT:UNITS is blank; {'the coordinates are so small that m' if small else 'mm'} is assumed.")
-    elif small and "mm" in used:
-        warnings.append("POINT:UNITS is mm, but the coordinates are so small that they may be metres.")
-    return ", ".join(dict.fromkeys(used)), np.array([units.MILLIMETRES[unit] for unit in used]), warnings
+        raise BadRecording(
+            f"POINT:UNITS is {', '.join(unknown)}, not a unit of length: correct it in the original ({units.KNOWN})"
+        )
+    return units.settle([units.unit_of(name) for name in named], given=given, coordinates=positions)
+
+
+def _factors(used: Sequence[str]) -> np.ndarray:
+    """Millimetres per unit of each marker (markers, 1)."""
+    return np.array([units.MILLIMETRES[unit] for unit in used]).reshape(-1, 1)

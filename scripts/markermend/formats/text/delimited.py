@@ -1,4 +1,4 @@
-"""Where the trajectories stand in a plain CSV or TSV: columns named by marker and axis, as `LASI_x`, `LASI.Y`."""
+"""Where the trajectories stand in a plain CSV or TSV: columns named by marker and axis, as `LASI_x`, `LASI (Y)`, `LASIz`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,12 @@ LONGEST_TITLE = 300
 # Without brackets only metric units: "x_toe_in" is the x of a marker "toe_in".
 _UNIT = r"(?:\s*[(\[](?P<unit>[a-zA-Z]+)[)\]]|_(?P<suffix>mm|cm|m))?"
 _AXIS_LAST = re.compile(rf"(?P<name>.*?[^\s_.:/|-])[\s_.:/|-]+(?P<axis>[xyzXYZ]){_UNIT}")
+_AXIS_IN_BRACKETS = re.compile(
+    rf"(?P<name>.*?[^\s_.:/|-])[\s_.:/|-]*[(\[]\s*(?P<axis>[xyzXYZ])(?:[\s,;:_-]+(?P<inner>[a-zA-Z]+))?\s*[)\]]{_UNIT}"
+)
 _AXIS_FIRST = re.compile(rf"(?P<axis>[xyzXYZ])[\s_.:/|-]+(?P<name>.+?){_UNIT}")
+# A single letter before the axis is a quantity (Fx, Vx) and no marker.
+_AXIS_AT_END = re.compile(rf"(?P<name>.*[^\s_.:/|-].*[^\s_.:/|-])(?P<axis>[xyzXYZ]){_UNIT}")
 _FRAME = re.compile(r"(frame|field|sample|index)s?[ _]?(#|no\.?|nr\.?|number|index)?", re.IGNORECASE)
 _TIME = re.compile(
     r"(time|t|times|timestamp|time[ _]?stamp|seconds?)[ _]?[(\[]?(?P<unit>ms|s|sec|seconds)?[)\]]?", re.IGNORECASE
@@ -57,23 +62,39 @@ def describe(sheet: Sheet) -> Layout:
         if found:
             return _layout(sheet, line, delimiter, titles, found)
     raise BadRecording(
-        f"{sheet.name} has no line that names columns by marker and axis (LASI_x, LASI_y, LASI_z): add one, or export"
+        f"{sheet.name} has no line that names columns by marker and axis (such as LASI_x, LASI_y, LASI_z): add one, or export"
         " the recording as C3D or TRC"
     )
 
 
 def _trajectories(titles: Sequence[str]) -> dict[tuple[str, int], dict[str, tuple[int, str]]]:
-    """Column and unit of each axis by marker; the second trajectory of the same name is one of its own."""
+    """Column and unit of each axis by marker; where no axis stands apart from the name, complete ones at its end count."""
+    apart = _matching(titles, _AXIS_LAST, _AXIS_IN_BRACKETS, _AXIS_FIRST)
+    if apart:
+        return apart
+    return {key: axes for key, axes in _matching(titles, _AXIS_AT_END).items() if len(axes) == 3}
+
+
+def _matching(titles: Sequence[str], *patterns: re.Pattern[str]) -> dict[tuple[str, int], dict[str, tuple[int, str]]]:
+    """What matches a pattern, if anything complete does; the second trajectory of the same name is one of its own."""
     short = {i: title for i, title in enumerate(titles) if len(title) <= LONGEST_TITLE}
-    matches = {i: _AXIS_LAST.fullmatch(title) or _AXIS_FIRST.fullmatch(title) for i, title in short.items()}
+    matches = {
+        i: next((match for pattern in patterns if (match := pattern.fullmatch(title))), None)
+        for i, title in short.items()
+    }
     axes: dict[tuple[str, int], dict[str, tuple[int, str]]] = {}
     seen: dict[tuple[str, str], int] = {}
     for column, match in matches.items():
         if match:
             title = (match["name"].strip(), match["axis"].lower())
             repetition = seen[title] = seen.get(title, -1) + 1
-            axes.setdefault((title[0], repetition), {})[title[1]] = (column, match["unit"] or match["suffix"] or "")
+            axes.setdefault((title[0], repetition), {})[title[1]] = (column, _unit(match))
     return axes if any(len(found) == 3 for found in axes.values()) else {}
+
+
+def _unit(match: re.Match[str]) -> str:
+    """The unit that a title states, or nothing."""
+    return next((text for name in ("unit", "suffix", "inner") if (text := match.groupdict().get(name))), "")
 
 
 def _layout(

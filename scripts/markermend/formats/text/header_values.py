@@ -31,7 +31,7 @@ def unit_named(sheet: Sheet, text: str) -> str:
     """
     unit = units.unit_of(text)
     if unit is None:
-        raise BadRecording(f"{sheet.name}: the unit '{text[:40]}' is not known: use mm, cm or m")
+        raise BadRecording(f"{sheet.name}: the unit '{text[:40]}' is not known: correct it in the file ({units.KNOWN})")
     return unit
 
 

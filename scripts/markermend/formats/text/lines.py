@@ -215,6 +215,25 @@ def likeliest_delimiter(lines: Iterable[bytes]) -> bytes:
     return next((mark for mark in (b"\t", b";", b",") if mark in text), b",")
 
 
+def is_separated_by_blanks(lines: Sequence[bytes]) -> bool:
+    """Decide whether the last line with anything in it is a row of numbers between blanks.
+
+    Parameters
+    ----------
+    lines : sequence of bytes
+        Of a file.
+
+    Returns
+    -------
+    bool
+        True for three numbers or more, and neither a tab nor a semicolon, nor a comma that separates.
+    """
+    last = next((line for line in reversed(lines) if line.strip(BLANKS)), b"")
+    words = last.decode("latin-1").split()
+    apart = not any(mark in last for mark in (b"\t", b";")) and not any(word.endswith(",") for word in words)
+    return apart and sum(map(is_number, words)) > 2
+
+
 def has_decimal_comma(lines: Iterable[bytes], delimiter: bytes) -> bool:
     """Decide whether numbers are written with a decimal comma: some are, and none with a decimal point.
 

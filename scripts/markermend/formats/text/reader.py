@@ -60,7 +60,7 @@ def format_of(content: Sheet) -> str:
     return "nexus" if nexus.section_line(content) is not None else "csv"
 
 
-def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Reading:
+def read(path: Path, *, unlabelled: Sequence[str], rate: float | None, unit: str | None = None) -> Reading:
     """Read the labelled markers of a text file of any of the formats.
 
     A sample is missing if one of its cells is blank or holds no finite number, if it is exactly 0, 0, 0, or if a
@@ -74,6 +74,8 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
         Regular expressions for the names that capture programs give to unlabelled trajectories (see labels.py).
     rate : float or None
         Frame rate in Hz, used in place of the file's; None = the file's.
+    unit : str, optional
+        Unit of the positions, a key of units.MILLIMETRES, used in place of the file's; None = the file's.
 
     Returns
     -------
@@ -86,18 +88,15 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
         If the file has no frames, no labelled markers, no sample or no usable rate, or its layout is not understood.
     """
     content = text_lines.load(path)
-    layout = FORMATS[format_of(content)](content)
-    if not layout.rows:
-        raise BadRecording(f"{path.name} has no frames: export the recording again")
+    layout = _described(content)
     names, warnings = tidy_labels(layout.names)
     nameless = [i in layout.unlabelled or is_unlabelled(name, unlabelled) for i, name in enumerate(names)]
     labelled = [i for i, skipped in enumerate(nameless) if not skipped]
     if not labelled:
         raise BadRecording(f"{path.name} has no labelled marker: label the markers and export it again")
     numbers, why, short = cells.parse(content, layout, layout.cells_of(labelled))
-    small = units.are_likely_metres(numbers)
-    unit = layout.unit or ("m" if small else "mm")
-    positions, missing = _positions(numbers, why, unit)
+    (used,), unit_warnings = units.settle([layout.unit], given=unit, coordinates=numbers)
+    positions, missing = _positions(numbers, why, used)
     if not np.isfinite(positions).any():
         raise BadRecording(f"{path.name} has no 3-D data: every sample of every marker is missing")
     others = [i for i, skipped in enumerate(nameless) if skipped]
@@ -105,7 +104,7 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
     warnings = [
         *layout.warnings,
         *warnings,
-        *_unit_warnings(layout.unit, small),
+        *unit_warnings,
         *_row_warnings(layout, missing, short),
         *timing.warnings,
     ]
@@ -115,10 +114,10 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
             positions,
             timing.rate,
             timing.first_frame,
-            unlabelled=dict(zip((names[i] for i in others), _tracks(content, layout, others, unit), strict=True)),
+            unlabelled=dict(zip((names[i] for i in others), _tracks(content, layout, others, used), strict=True)),
         ),
         format=layout.format,
-        unit=unit,
+        unit=used,
         columns=tuple(labelled),
         unlabelled=tuple(name for name, skipped in zip(names, nameless, strict=True) if skipped),
         model_outputs=layout.model_outputs,
@@ -128,7 +127,14 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None) -> Readin
 
 
 def patch(
-    original: Path, target: Path, *, format: str, positions: np.ndarray, changed: np.ndarray, columns: Sequence[int]
+    original: Path,
+    target: Path,
+    *,
+    format: str,
+    positions: np.ndarray,
+    changed: np.ndarray,
+    columns: Sequence[int],
+    unit: str | None = None,
 ) -> PatchResult:
     """Write a copy of a text file in which the changed samples have new positions and every other byte is the same.
 
@@ -147,6 +153,8 @@ def patch(
         The samples to write.
     columns : sequence of int
         Index of each marker among the file's trajectories, as read.
+    unit : str, optional
+        As given for reading.
 
     Returns
     -------
@@ -163,10 +171,10 @@ def patch(
     if changed.shape != (len(layout.rows), len(columns)) or positions.shape != (*changed.shape, 3):
         raise ValueError(f"{changed.shape} samples do not fit {len(layout.rows)} rows and {len(columns)} markers")
     numbers = cells.parse(content, layout, layout.cells_of(columns))[0]
-    unit = layout.unit or ("m" if units.are_likely_metres(numbers) else "mm")
+    (used,), _ = units.settle([layout.unit], given=unit, coordinates=numbers)
     edited = [columns[marker] for marker in np.flatnonzero(changed.any(axis=0)).tolist()]
-    style = patching.style_of(content, layout, unit, edited, columns)
-    scaled = positions / units.MILLIMETRES[unit]
+    style = patching.style_of(content, layout, used, edited, columns)
+    scaled = positions / units.MILLIMETRES[used]
     lines, refused = list(content.lines), []
     for row in np.flatnonzero(changed.any(axis=1)).tolist():
         texts: dict[int, bytes] = {}
@@ -181,6 +189,22 @@ def patch(
     with replacing(target) as temporary:
         temporary.write_bytes(content.joined(lines))
     return PatchResult(int(changed.sum()) - len(refused), tuple(refused))
+
+
+def _described(content: Sheet) -> Layout:
+    """Where the trajectories stand; an error that states the true reason where cells stand between blanks."""
+    try:
+        layout = FORMATS[format_of(content)](content)
+        if not layout.rows:
+            raise BadRecording(f"{content.name} has no frames: export the recording again")
+    except BadRecording:
+        if text_lines.is_separated_by_blanks(content.lines):
+            raise BadRecording(
+                f"{content.name}: its cells are separated by blanks, so that nobody can say which are empty: export it"
+                " with tabs or commas between them"
+            ) from None
+        raise
+    return layout
 
 
 def _positions(numbers: np.ndarray, why: np.ndarray, unit: str) -> tuple[np.ndarray, dict[str, int]]:
@@ -204,14 +228,6 @@ def _tracks(content: Sheet, layout: Layout, trajectories: Sequence[int], unit: s
         return np.empty((0, len(layout.rows), 3))
     numbers, why, _ = cells.parse(content, layout, layout.cells_of(trajectories))
     return np.moveaxis(_positions(numbers, why, unit)[0], 1, 0)
-
-
-def _unit_warnings(named: str | None, small: bool) -> list[str]:
-    """Say what unit was assumed, or that the named one is implausible."""
-    if named is None:
-        return [f"The file names no unit; by the size of its numbers, {'m' if small else 'mm'} is assumed."]
-    implausible = small and named == "mm"
-    return ["The file's unit is mm, but the coordinates are so small that they may be metres."] if implausible else []
 
 
 def _row_warnings(layout: Layout, missing: dict[str, int], short: int) -> list[str]:

@@ -32,7 +32,7 @@ def test_units_become_mm(tmp_path, unit, size, found):
     reading = read(write(tmp_path / "walk.c3d", positions, unit=unit))
     np.testing.assert_allclose(reading.recording.positions, positions * (1000 if found == "m" else 1), rtol=1e-12)
     assert reading.unit == found
-    assert ("blank" in " ".join(reading.warnings)) == (unit == "")
+    assert ("states no unit" in " ".join(reading.warnings)) == (unit == "")
 
 
 def test_metres_declared_as_mm_are_warned_of(tmp_path):

@@ -9,7 +9,25 @@ from markermend.core.recording import BadRecording
 from support.text_files import MARKERS, assert_positions, make, positions, read
 
 
-@pytest.mark.parametrize("style", ["{}_{}", "{}.{}", "{}:{}", "{}-{}", "{} {}", "{1}_{0}", "Ann:{} {}", '"{}.{} [mm]"'])
+@pytest.mark.parametrize(
+    "style",
+    [
+        "{}_{}",
+        "{}.{}",
+        "{}:{}",
+        "{}-{}",
+        "{} {}",
+        "{1}_{0}",
+        "Ann:{} {}",
+        '"{}.{} [mm]"',
+        "{}({})",
+        "{} [{}]",
+        "{} ({}) [mm]",
+        '"{}[{}, mm]"',
+        "{}{}",
+        "{}{}_mm",
+    ],
+)
 def test_plain_column_names(tmp_path: Path, style: str) -> None:
     values = positions()
     titles = ",".join(style.format(name, axis) for name in MARKERS for axis in "XYZ")
@@ -55,3 +73,12 @@ def test_plain_incomplete_and_repeated_columns(tmp_path: Path) -> None:
     assert any("'B' do not have all of x, y, z" in warning for warning in reading.warnings)
     with pytest.raises(BadRecording, match="names columns by marker and axis"):
         read(tmp_path, b"1,2,3,4,5,6\n1,2,3,4,5,6\n")
+
+
+def test_axes_at_the_end_of_names_count_where_none_stands_apart(tmp_path: Path) -> None:
+    content = b"time,box,boy,boz,Fx,Fy,Fz,index,flex\n0,1,2,30,4,5,6,1,2\n0.01,1,2,30,4,5,6,2,2\n"
+    assert read(tmp_path, content).recording.markers == ("bo",)
+    apart = (
+        content.replace(b"index,flex", b"A_x,A_y,A_z").replace(b",1,2\n", b",1,2,3\n").replace(b",2,2\n", b",1,2,3\n")
+    )
+    assert read(tmp_path, apart).recording.markers == ("A",)

@@ -1,5 +1,6 @@
 """Every text format: what is read, what a patch writes, and what it leaves alone."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -124,3 +125,16 @@ def test_of_absurd_counts_the_file_has_the_last_word(tmp_path: Path, format: str
     reading = read(tmp_path, content.replace(honest, absurd))
     assert reading.recording.positions.shape == (30, 4, 3)
     assert "The header says 999999999" in " ".join(reading.warnings)
+
+
+@pytest.mark.parametrize("format", ["trc", "qtm", "csv"])
+@pytest.mark.parametrize("blank", [b" ", b"   "])
+def test_cells_between_blanks_are_refused_with_the_true_reason(tmp_path: Path, format: str, blank: bytes) -> None:
+    delimiter = b"," if format == "csv" else b"\t"
+    content = make(format, positions(markers=4)).replace(b" (mm)", b"")
+    read(tmp_path, content)
+    rows = re.sub(rb"(?m)^1\d\d(%b).*$" % delimiter, lambda row: row[0].replace(delimiter, blank), content)
+    for spoilt in (content.replace(delimiter, blank), rows):
+        assert spoilt != content
+        with pytest.raises(BadRecording, match="separated by blanks"):
+            read(tmp_path, spoilt)

@@ -24,7 +24,7 @@ TRC = make("trc", positions())
         (b"\r\n103\t", b"\r\n102\t", "1 repeat"),
         (b"\r\n103\t", b"\r\n203\t", "1 go back, 1 leap"),
         (b"\r\n103\t", b"\r\nx\t", "no frame number"),
-        (b"\t4\tmm", b"\t4\t", "names no unit"),
+        (b"\t4\tmm", b"\t4\t", "states no unit"),
         (b"\r\n100\t", b"\r\n50\t", "header says 50 Hz, but the times are evenly spaced at 100 Hz"),
         (b"LASI\t\t\tRASI\t\t\tC7\t\t\tT10", b"LASI   RASI   C7   T10", "separated by blanks"),
     ],
