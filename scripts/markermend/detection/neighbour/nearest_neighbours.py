@@ -8,6 +8,9 @@ import numpy as np
 
 from markermend.detection.neighbour.residual_scale import moving_mean
 
+BLOCK_FRAMES = 10_000
+"""Frames of which means are taken at once: more only take more memory."""
+
 
 def motion(
     positions: np.ndarray, neighbours: Sequence[np.ndarray], *, rate: float, count: int, smoothing: int
@@ -35,20 +38,24 @@ def motion(
     """
     if len(positions) < 2:
         return np.zeros((2, *positions.shape[:2]))
-    # Of all markers at once the windows would take several times the memory of the recording.
-    smoothed = np.empty_like(positions)
-    for m in range(positions.shape[1]):
-        smoothed[:, m] = moving_mean(positions[:, m], smoothing)
-    velocity = np.gradient(smoothed, axis=0) * rate
     # Column m selects the neighbours of marker m: all means are products of matrices.
     nearest = np.zeros((len(neighbours), len(neighbours)))
     for m, around in enumerate(neighbours):
         nearest[np.asarray(around, int)[:count], m] = 1.0
-    square = _mean(np.einsum("nma,nma->nm", velocity, velocity), nearest)
-    of_mean = sum(_mean(velocity[..., axis], nearest) ** 2 for axis in range(velocity.shape[2]))
-    acceleration = np.gradient(velocity, axis=0) * rate
-    changing = _mean(np.einsum("nma,nma->nm", acceleration, acceleration), nearest)
-    return np.sqrt([np.maximum(square - of_mean, 0.0), changing])
+    # One axis after the other, and one marker: of all at once each array would be as large as the recording.
+    velocity = np.empty(positions.shape[:2])
+    square, of_mean, changing = np.zeros((3, *positions.shape[:2]))
+    for axis in range(positions.shape[2]):
+        for m in range(positions.shape[1]):
+            own = np.gradient(moving_mean(positions[:, m, axis], smoothing)) * rate
+            velocity[:, m] = own
+            square[:, m] += own**2
+            changing[:, m] += (np.gradient(own) * rate) ** 2
+        of_mean += _mean(velocity, nearest) ** 2
+    found = np.empty((2, *positions.shape[:2]))
+    found[0] = np.maximum(_mean(square, nearest) - of_mean, 0.0)
+    found[1] = _mean(changing, nearest)
+    return np.sqrt(found, out=found)
 
 
 def maximum(size: np.ndarray, neighbours: Sequence[np.ndarray], count: int) -> np.ndarray:
@@ -103,6 +110,9 @@ def seen_share(present: np.ndarray, neighbours: Sequence[np.ndarray], count: int
 
 def _mean(values: np.ndarray, nearest: np.ndarray) -> np.ndarray:
     """Mean (frames, markers) of what is not NaN of values (frames, markers) over the markers that each column selects; 0 where nothing is."""
-    known = ~np.isnan(values)
-    mean: np.ndarray = np.where(known, values, 0.0) @ nearest / np.maximum(known.astype(float) @ nearest, 1)
-    return mean
+    means = np.empty(values.shape)
+    for block in np.array_split(np.arange(len(values)), max(1, len(values) // BLOCK_FRAMES)):
+        known = ~np.isnan(values[block])
+        total = np.where(known, values[block], 0.0) @ nearest
+        means[block] = total / np.maximum(known.astype(float) @ nearest, 1)
+    return means

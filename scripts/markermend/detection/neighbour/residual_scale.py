@@ -114,16 +114,20 @@ def fitted_scale(
     """
     if not size.size:
         return np.full(size.shape, min_scale)
-    local = np.sqrt(np.maximum(moving_mean(size**2, window), 1e-6))
-    level = np.array([np.median(known) if len(known) else 1.0 for known in (own[~np.isnan(own)] for own in local.T)])
-    smoothed = np.array([moving_mean(kind, window) for kind in motion])
-    rise = fitted_rise(local / level, neighbours, smoothed, count=count, step=max(1, window // 2))
-    scale: np.ndarray = np.maximum(level * rise, min_scale)
-    return scale
+    # One marker after the other, and in place: the scale of a long recording is fitted once for each length of drifts.
+    local, level = np.empty(size.shape, order="F"), np.ones(size.shape[1])
+    for m, own in enumerate(size.T):
+        local[:, m] = np.sqrt(np.maximum(moving_mean(own**2, window), 1e-6))
+        known = local[~np.isnan(local[:, m]), m]
+        level[m] = np.median(known) if len(known) else 1.0
+    local /= level
+    scale = fitted_rise(local, neighbours, motion, count=count, window=window)
+    scale *= level
+    return np.maximum(scale, min_scale, out=scale)
 
 
 def fitted_rise(
-    relative: np.ndarray, neighbours: Sequence[np.ndarray], motion: np.ndarray, *, count: int, step: int = 1
+    relative: np.ndarray, neighbours: Sequence[np.ndarray], motion: np.ndarray, *, count: int, window: int = 1
 ) -> np.ndarray:
     """Fit how sizes rise above the level of each marker with the motion of the neighbours and with their own rise.
 
@@ -137,31 +141,33 @@ def fitted_rise(
         Kinds of motion (kinds, frames, markers), see `nearest_neighbours.motion`.
     count : int
         Number of nearest neighbours.
-    step : int
-        Every nth frame is used for the fit.
+    window : int
+        Window of the moving mean of the motion, samples; the fit uses two frames of each.
 
     Returns
     -------
     np.ndarray
         Expected size in units of the level (frames, markers).
     """
-    known = np.asfortranarray(np.nan_to_num(relative, nan=1.0))
+
+    def rise_of(m: int) -> np.ndarray:
+        return np.nan_to_num(relative[:, m], nan=1.0)
 
     def regressors(m: int) -> np.ndarray:
         around = neighbours[m][:count]
-        common = ranks.median([known[:, other] for other in around]) if len(around) else np.ones(len(known))
-        logarithms = np.log([common, *(kind[:, m] + 1.0 for kind in motion)])
+        common = ranks.median([rise_of(other) for other in around]) if len(around) else np.ones(len(relative))
+        logarithms = np.log([common, *(moving_mean(kind[:, m], window) + 1.0 for kind in motion)])
         centred: np.ndarray = (logarithms - np.median(logarithms, axis=1, keepdims=True)).T
         return centred
 
-    some = slice(None, None, step)
+    some = slice(None, None, max(1, window // 2))
     seen = ~np.isnan(relative[some])
     if not seen.any():
         return np.ones(relative.shape)
     # One marker after the other, and once more: the regressors of all would take several times the memory of the sizes.
     markers = range(relative.shape[1])
     design = np.concatenate([regressors(m)[some][seen[:, m]] for m in markers])
-    target = np.concatenate([np.log(known[some, m][seen[:, m]]) for m in markers])
+    target = np.concatenate([np.log(relative[some, m][seen[:, m]]) for m in markers])
     exponents = non_negative_least_squares(design, target)
     rise = np.empty(relative.shape)
     for m in markers:

@@ -121,7 +121,7 @@ class DriftRegression:
         np.ndarray
             Scale (bins, markers), mm.
         """
-        size = np.sqrt(bin_means((residual**2).sum(axis=2), self.step))
+        size = np.sqrt(bin_means(np.einsum("nma,nma->nm", residual, residual), self.step))
         return residual_scale.fitted_scale(
             size,
             scene.neighbours,

@@ -110,20 +110,26 @@ class DriftScorer:
             The scores; 0 where a near neighbour is briefly missing.
         """
         unsteady = self.briefly_missing_neighbour(scene)
-        # All templates in all frames take as much memory as a few copies of the recording: each array is there once.
-        response = np.empty((len(self.lengths), *residual.shape[:2]), np.float32)
-        deviation = np.empty((len(self.lengths), residual.shape[1]))
+        # The responses of all templates take as much memory as the recording: those of a length go when its scores are known.
+        responses = [np.empty(residual.shape[:2], np.float32) for _ in self.lengths]
+        deviation = np.empty((len(self.lengths), residual.shape[1]), np.float32)
         for m in range(residual.shape[1]):
             steady = np.where(unsteady[:, m, None], np.nan, residual[:, m])
-            response[..., m], deviation[:, m] = self.responses(steady, factors[:, m])
-        scale = self._scale(scene, response, motion)
-        clearest = [
-            self._clearest(response[..., m], (deviation[:, m, None] * factors[:, m]).astype(np.float32), scale[..., m])
-            for m in range(residual.shape[1])
-        ]
-        score, length, scale_mm = (np.stack(each, axis=1) for each in zip(*clearest, strict=True))
-        level = np.stack([median_response(each) for each in np.moveaxis(response, 2, 0)], axis=1)
-        return DriftScores(residual, score, length, scale_mm, scale, level)
+            own, deviation[:, m] = self.responses(steady, factors[:, m])
+            for response, of_length in zip(responses, own, strict=True):
+                response[:, m] = of_length
+        score, scale_mm = np.full((2, *residual.shape[:2]), -1.0, np.float32)
+        length = np.zeros(residual.shape[:2], np.int32)
+        scales, levels = np.empty((len(self.lengths), *residual.shape[:2]), np.float32), np.empty(deviation.shape)
+        for number, own_length in enumerate(self.lengths):
+            response = responses.pop(0)
+            scales[number] = scale = self._scale(scene, response, motion, own_length)
+            levels[number] = median_response(response.T)
+            own_score = np.nan_to_num(response / (self.options.threshold_sigmas * scale))
+            clearer = own_score > score
+            score[clearer], length[clearer] = own_score[clearer], own_length
+            scale_mm[clearer] = (deviation[number] * factors.astype(np.float32) * scale)[clearer]
+        return DriftScores(residual, score, length, scale_mm, scales, levels)
 
     def rescore(self, scores: DriftScores, residual: np.ndarray, factors: np.ndarray, *, marker: int) -> np.ndarray:
         """Score drifts in another residual of one marker, whose local scale rises with its median response.
@@ -232,28 +238,16 @@ class DriftScorer:
         near = [np.asarray(around, int)[: self.options.attribution_neighbours] for around in scene.neighbours]
         return np.stack([missing[:, around].any(axis=1) for around in near], axis=1)
 
-    def _scale(self, scene: Scene, response: np.ndarray, motion: np.ndarray) -> np.ndarray:
-        """Local scale of responses (lengths, frames, markers)."""
-        scale = np.empty_like(response)
-        for number, length in enumerate(self.lengths):
-            scale[number] = residual_scale.fitted_scale(
-                response[number],
-                scene.neighbours,
-                motion,
-                count=self.options.scale_neighbours,
-                window=length,
-                min_scale=self.options.min_scale_sigmas,
-            )
-        return scale
-
-    def _clearest(
-        self, response: np.ndarray, deviation: np.ndarray, scale: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Score, length and local scale in mm (frames,) of the template that stands out most; given (lengths, frames)."""
-        score = np.nan_to_num(response / (self.options.threshold_sigmas * scale))
-        first = score.argmax(axis=0)[None]
-        scale_mm = np.take_along_axis(deviation * scale, first, axis=0)[0]
-        return np.take_along_axis(score, first, axis=0)[0], np.asarray(self.lengths)[first[0]], scale_mm
+    def _scale(self, scene: Scene, response: np.ndarray, motion: np.ndarray, length: int) -> np.ndarray:
+        """Local scale (frames, markers) of the responses of templates of a length."""
+        return residual_scale.fitted_scale(
+            response,
+            scene.neighbours,
+            motion,
+            count=self.options.scale_neighbours,
+            window=length,
+            min_scale=self.options.min_scale_sigmas,
+        ).astype(np.float32)
 
 
 def median_response(response: np.ndarray) -> np.ndarray:
