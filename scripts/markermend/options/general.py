@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, get_args
 
-from markermend.options.declaration import Distinct, Laboratory, NotEmpty
+from markermend.options.declaration import Distinct, Laboratory, NotEmpty, RegularExpression
 
 EXPERIMENTS = "evaluate"
 """The key of the config that the experiments of the papers read, and no stage."""
@@ -28,6 +28,17 @@ class GeneralOptions:
     """Whether links in the folder of recordings are followed to files and folders outside of it.
 
     Change it when your folder of recordings consists of links. A table may name any file, links too."""
+
+    day_folders: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
+        r"(19|20)\d\d[-_. ]?(0[1-9]|1[0-2])[-_. ]?(0[1-9]|[12]\d|3[01])",
+        r"(0?[1-9]|[12]\d|3[01])[-_. ](0?[1-9]|1[0-2])[-_. ](19|20)\d\d",
+        r"(new[-_ ]?)?session[-_ ]?\d*",
+        r"(ses|day|visit)[-_ ]?\d+",
+    )
+    """Regular expressions for the whole names of folders that are days or sessions of a subject and no subjects: their recordings belong
+    to the folder above or, with a subject's folder below, to that, and bear the name of the day.
+
+    Change it when your folders of days have other names, or when such a folder is a subject of its own (`[]`)."""
 
     results: Annotated[str, NotEmpty, Laboratory] = "results"
     """The folder for the results.

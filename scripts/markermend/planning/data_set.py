@@ -233,11 +233,10 @@ def find_data_set(
 
 def _entries(general: GeneralOptions, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str, list[str]]:
     """The recordings; why there are none, where the config does not name any; and warnings."""
-    name = general.recordings
     try:
-        found, warnings = discovery.find_recordings(name, results, schemas=schemas, follow_links=general.follow_links)
+        found, warnings = discovery.find_recordings(general, results, schemas=schemas)
     except NoRecordings as error:
-        if name != GeneralOptions().recordings:
+        if general.recordings != GeneralOptions().recordings:
             raise
         return {}, str(error), []
     return found, "", warnings

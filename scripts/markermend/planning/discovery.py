@@ -20,21 +20,17 @@ Folders = tuple[str, str]
 """Names of the folders of a subject and a recording."""
 
 
-def find_recordings(
-    name: str, results: str, *, schemas: Path, follow_links: bool = False
-) -> tuple[dict[Folders, Entry], list[str]]:
+def find_recordings(general: GeneralOptions, results: str, *, schemas: Path) -> tuple[dict[Folders, Entry], list[str]]:
     """Find the recordings below a folder or in a table.
 
     Parameters
     ----------
-    name : str
-        Folder or table, as the config has it.
+    general : GeneralOptions
+        Folder or table as the config has it, which links are followed, and which folders are days.
     results : str
         Absolute path of the folder of results, which holds no recordings.
     schemas : Path
         The folder of the schemas.
-    follow_links : bool, optional
-        Whether links that lead out of a folder of recordings are followed; those that a table names always are.
 
     Returns
     -------
@@ -50,10 +46,12 @@ def find_recordings(
     BadDataSet
         Where it cannot be used.
     """
-    path = os.path.abspath(os.path.expanduser(name))
+    path = os.path.abspath(os.path.expanduser(general.recordings))
     warnings: list[str] = []
     if os.path.isdir(path):
-        found, warnings = recordings.find(path, results, follow_links=follow_links)
+        found, warnings = recordings.find(
+            path, results, follow_links=general.follow_links, day_folders=general.day_folders
+        )
     elif path.lower().endswith((".c3d", ".trc")) and os.path.isfile(path):
         raise BadDataSet(f"recordings: {path} is a recording itself: name the folder that holds it, or a table")
     elif os.path.isfile(path):

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from markermend.formats.files import READABLE
+from markermend.options.general import GeneralOptions
 from markermend.planning.left_out import LeftOut
 from markermend.storage.folder_names import RESERVED_RECORDINGS, RESERVED_SUBJECTS, encode, printable
 from markermend.storage.source_file import leads_out
 
 FORMATS = tuple(ending[1:] for ending in READABLE)
 """Suffixes of the files that can be read. Of two files with one stem, the first in this order keeps it as its name."""
+
+
+DAYS = 3
+"""Days that a warning names."""
 
 
 class BadDataSet(Exception):
@@ -92,13 +98,19 @@ def suffix(path: str) -> str:
     return os.path.splitext(path)[1].lower()[1:]
 
 
-def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list[Entry], list[str]]:
+def find(
+    folder: str,
+    results: str,
+    *,
+    follow_links: bool = False,
+    day_folders: Sequence[str] = GeneralOptions().day_folders,
+) -> tuple[list[Entry], list[str]]:
     """Find every recording below a folder, at whatever depth.
 
-    The subject is the folder that holds the file: its name or, where several folders share it, their paths below
-    `folder`. The recording is the stem of the file; of several files with one stem, the first by format (FORMATS) and
-    name keeps it, and the others have their full names. Hidden files, hidden folders and folders of results are
-    left out.
+    The subject is the folder that holds the file, or the next one above that is not a day's: its name or, where several folders share
+    it, their paths below `folder` without days. The recording is the stem of the file after the days on its path; of several files with
+    one stem, the first by format (FORMATS) and name keeps it, and the others have their full names. Hidden files, hidden folders and
+    folders of results are left out.
 
     Parameters
     ----------
@@ -108,6 +120,8 @@ def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list
         The folder of results.
     follow_links : bool, optional
         Whether links that lead out of the folder are followed. Those to files are else recordings that are set aside.
+    day_folders : sequence of str, optional
+        Regular expressions for the whole names of folders that are days of a subject, in any case of letters.
 
     Returns
     -------
@@ -136,23 +150,50 @@ def find(folder: str, results: str, *, follow_links: bool = False) -> tuple[list
     if not found:
         kinds = ", ".join(f".{name}" for name in FORMATS)
         raise BadDataSet("\n".join([f"recordings: no recording ({kinds}) in {top} or below", *warnings]))
-    shared = Counter(os.path.basename(path) for path in found)
+    places = {path: _without_days(os.path.relpath(path, top), day_folders) for path in found}
+    subjects = _name_subjects({place for place, _ in places.values()}, os.path.basename(top))
+    own_days = sorted({days[0] for place, days in places.values() if place == os.curdir and days})
+    if len(own_days) > 1:
+        listed = ", ".join(map(printable, own_days[:DAYS])) + (
+            f" and {len(own_days) - DAYS} more" * (len(own_days) > DAYS)
+        )
+        warnings.append(
+            f"recordings: {listed} are taken for days of one subject, {printable(subjects[os.curdir])} (day_folders: [] takes each for a "
+            "subject)"
+        )
     entries = []
     for path, files in sorted(found.items()):
-        name, inner = os.path.basename(path), os.path.relpath(path, top)
-        subject = name if shared[name] == 1 or path == top else inner.replace(os.sep, "/")
-        if path != top and top in found and inner == os.path.basename(top):
-            subject = f"{inner}/{inner}"
+        place, days = places[path]
         names = _name_files(files)
         for file in files:
             source = os.path.join(path, file)
             within = top if os.path.islink(source) and not follow_links else None
-            entries.append(Entry(printable(subject), printable(names[file]), source, within=within))
+            recording = "_".join([*days, names[file]])
+            entries.append(Entry(printable(subjects[place]), printable(recording), source, within=within))
     named = Counter(entry.folders for entry in entries)
     same_name = [printable(entry.source) for entry in entries if named[entry.folders] > 1]
     if same_name:
         raise BadDataSet("recordings: these cannot be distinguished by name; rename one:\n" + "\n".join(same_name))
     return sorted(entries, key=lambda entry: (entry.subject, entry.recording)), warnings
+
+
+def _without_days(inner: str, day_folders: Sequence[str]) -> tuple[str, list[str]]:
+    """A path below the folder of recordings without the folders of days, "." for that folder itself, and the days."""
+    parts = [] if inner == os.curdir else inner.split(os.sep)
+    days = [part for part in parts if any(re.fullmatch(day, part, re.IGNORECASE) for day in day_folders)]
+    return os.sep.join(part for part in parts if part not in days) or os.curdir, days
+
+
+def _name_subjects(places: Collection[str], top: str) -> dict[str, str]:
+    """Name the subjects of folders, given by their paths below the folder of recordings, whose own name is `top`."""
+    names = {place: top if place == os.curdir else os.path.basename(place) for place in places}
+    shared = Counter(names.values())
+    subjects = {}
+    for place, name in names.items():
+        subjects[place] = name if shared[name] == 1 or place == os.curdir else place.replace(os.sep, "/")
+        if os.curdir in places and place == top:
+            subjects[place] = f"{top}/{top}"
+    return subjects
 
 
 def _walk(

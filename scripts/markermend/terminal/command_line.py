@@ -1,4 +1,4 @@
-"""The command `markermend`: clean, look, report, verify, undo, presets, papers; and Snakemake's own flags.
+"""The command `markermend`: clean, look, report, verify, undo, table, presets, papers; and Snakemake's own flags.
 
 What begins with a flag of Snakemake's goes to Snakemake with the workflow's Snakefile, as it is.
 """
@@ -6,30 +6,31 @@ What begins with a flag of Snakemake's goes to Snakemake with the workflow's Sna
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import webbrowser
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from rich.console import Console
 
-import markermend
 from markermend.command import run_workflow, verification
+from markermend.options.general import GeneralOptions
 from markermend.planning import run_summary
+from markermend.planning.discovery import find_recordings
+from markermend.planning.option_files import read_option_files
+from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY
 from markermend.storage.installation import workflow_folder
-from markermend.terminal import snakemake_run, undo
+from markermend.terminal import estimate, snakemake_run, table, undo
+from markermend.terminal.arguments import Work, make_parser, suggestion
 
 CAREFUL = "careful"
 """The preset with which nothing is altered."""
 
 OWN_FLAGS = ("-h", "--help", "--version")
 """Flags that are not Snakemake's."""
-
-EPILOG = """\
-Flags after -- go to Snakemake: markermend clean FOLDER -- --dry-run
-On a cluster: markermend clean FOLDER -- --profile profiles/slurm
-"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -50,118 +51,58 @@ def main(argv: Sequence[str] | None = None) -> int:
         return run_workflow.run(words)
     if words[:1] == ["verify"]:
         return verification.main(words[1:])
+    if words and words[0] not in (*COMMANDS, *OWN_FLAGS):
+        advice = suggestion(words[0], [*COMMANDS, "verify"]) or ": see markermend --help"
+        print(f"markermend has no command {words[0]!r}{advice}", file=sys.stderr)
+        return 2
     own, given = (words[: words.index("--")], words[words.index("--") + 1 :]) if "--" in words else (words, [])
-    call = parser().parse_args(own)
-    work: Callable[[argparse.Namespace, list[str]], int] = call.work
+    call = make_parser(COMMANDS, _presets()).parse_args(own)
+    work: Work = call.work
     return work(call, given)
 
 
-def parser() -> argparse.ArgumentParser:
-    """Make the parser of the commands.
-
-    Returns
-    -------
-    ArgumentParser
-        The parser; what it gives has the function of the command as `work`.
-    """
-    made = argparse.ArgumentParser(
-        prog="markermend",
-        description="Clean whole data sets of optical motion capture, and report what was done to every sample.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    made.add_argument("--version", action="version", version=f"markermend {markermend.__version__}")
-    commands = made.add_subparsers(title="commands", required=True, metavar="COMMAND")
-    clean = _command(commands, "clean", "clean the recordings of a folder, or of a table of recordings", _clean)
-    _about_recordings(clean)
-    clean.add_argument("--preset", choices=_presets(), help="options for a purpose: see markermend presets")
-    look = _command(commands, "look", "find and report what a folder has, and alter nothing", _clean)
-    _about_recordings(look)
-    look.set_defaults(preset=CAREFUL)
-    report = _command(commands, "report", "print what became of the recordings, and where the report is", _report)
-    report.add_argument("results", type=Path, metavar="RESULTS", help="the folder of results")
-    report.add_argument("--open", action="store_true", help="open the report in the browser")
-    _about_undoing(_command(commands, "undo", "get originals back from cleaned files, or parts of them", _undo))
-    _command(commands, "presets", "list the presets", _list_presets)
-    papers = _command(commands, "papers", "repeat the experiments of the papers", _repeat_papers)
-    papers.add_argument(
-        "recordings", nargs="?", metavar="FOLDER", help="your recordings; by default those of a synthetic person"
-    )
-    papers.add_argument(
-        "--size", choices=("quick", "hours", "full"), default="quick", help="how many runs (default: quick)"
-    )
-    _about_run(papers)
-    # Listed only: its arguments are parsed by itself.
-    commands.add_parser(
-        "verify", help="check every result and original against its checksum: see markermend verify --help"
-    )
-    return made
-
-
-def _command(
-    commands: argparse._SubParsersAction[argparse.ArgumentParser],
-    name: str,
-    meaning: str,
-    work: Callable[[argparse.Namespace, list[str]], int],
-) -> argparse.ArgumentParser:
-    """Add a command."""
-    made = commands.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.", epilog=EPILOG)
-    made.set_defaults(work=work)
-    return made
-
-
-def _about_recordings(command: argparse.ArgumentParser) -> None:
-    """Add the arguments of a command that looks at recordings."""
-    command.add_argument("recordings", metavar="FOLDER", help="a folder of recordings, or a table of them")
-    _about_run(command)
-
-
-def _about_undoing(command: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command that takes changes back."""
-    command.add_argument(
-        "results", type=Path, metavar="RESULTS", help="the folder of results, or that of one recording"
-    )
-    command.add_argument(
-        "recordings",
-        nargs="*",
-        metavar="RECORDING",
-        help="recordings as SUBJECT/RECORDING or RECORDING, with * and ? (default: all)",
-    )
-    command.add_argument("--to", type=Path, required=True, metavar="FOLDER", help="the folder that the files go to")
-    command.add_argument(
-        "--markers",
-        nargs="+",
-        default=[],
-        metavar="NAME",
-        help="take back what was done to these markers only, with * and ?",
-    )
-    command.add_argument(
-        "--frames",
-        nargs=2,
-        type=int,
-        metavar=("FIRST", "LAST"),
-        help="take back only findings and gaps with any of these frames, numbered as in changes.tsv",
-    )
-
-
-def _about_run(command: argparse.ArgumentParser) -> None:
-    """Add the arguments of a command that runs the workflow."""
-    command.add_argument(
-        "--results", type=Path, default=Path("results"), help="the folder for the results (default: results)"
-    )
-    command.add_argument(
-        "--options", nargs="+", default=[], metavar="FILE", help="files with options: see config/config.yaml"
-    )
-    command.add_argument("--cores", help="number of cores (default: all; on a cluster what its profile says)")
-
-
 def _clean(call: argparse.Namespace, given: list[str]) -> int:
-    """Run the workflow on a folder of recordings."""
-    if not Path(call.recordings).exists():
-        print(f"There is no {call.recordings}: name a folder of recordings, or a table of them", file=sys.stderr)
-        return 1
+    """Run the workflow on a folder of recordings, after an estimate of what that takes."""
+    if not Path(call.recordings).expanduser().exists():
+        return _refuse(f"There is no {call.recordings}: name a folder of recordings, or a table of them")
     files = [str(workflow_folder() / f"config/presets/{call.preset}.yaml")] if call.preset else []
-    return _run(call, [f"recordings={call.recordings}"], [*files, *call.options], given)
+    arguments = _arguments(call, [f"recordings={call.recordings}"], [*files, *call.options], given)
+    if problem := run_workflow.config_file_problem(arguments):
+        return _refuse(problem)
+    try:
+        print(_estimate(call, [*files, *call.options], profile="--profile" in given), file=sys.stderr)
+    except BadDataSet as error:
+        return _refuse(str(error))
+    # A plan is shown as Snakemake prints it.
+    if {"-n", "--dry-run", "--dryrun"} & set(given):
+        return run_workflow.run(arguments)
+    try:
+        return snakemake_run.run(arguments, call.results, Console(stderr=True))
+    except OSError as error:
+        return _refuse(f"{call.results} cannot be written ({error.strerror}): name another folder for the results")
+
+
+def _look(call: argparse.Namespace, given: list[str]) -> int:
+    """Run the workflow so that nothing is altered."""
+    call.preset = CAREFUL
+    return _clean(call, given)
+
+
+def _estimate(call: argparse.Namespace, files: Sequence[str], *, profile: bool) -> str:
+    """What a run will take, in a line."""
+    general: GeneralOptions = read_option_files(files)["general"]
+    found, _ = find_recordings(
+        replace(general, recordings=call.recordings),
+        os.path.abspath(call.results),
+        schemas=workflow_folder() / "workflow/schemas",
+    )
+    cores = None if profile and not call.cores else _cores(call.cores)
+    return estimate.line(list(found.values()), call.results, cores=cores)
+
+
+def _cores(words: str | None) -> int:
+    """The number of cores of a run."""
+    return int(words) if words and words.isdigit() and int(words) else os.cpu_count() or 1
 
 
 def _repeat_papers(call: argparse.Namespace, given: list[str]) -> int:
@@ -180,29 +121,11 @@ def _arguments(
     return [*(["--cores", cores] if cores else []), *named, "--config", *config, f"results={call.results}", *given]
 
 
-def _run(call: argparse.Namespace, config: Sequence[str], files: Sequence[str], given: Sequence[str]) -> int:
-    """Run the workflow; plainly where its plan alone is wanted."""
-    arguments = _arguments(call, config, files, given)
-    if {"-n", "--dry-run", "--dryrun"} & set(given):
-        return run_workflow.run(arguments)
-    if problem := run_workflow.config_file_problem(arguments):
-        print(problem, file=sys.stderr)
-        return 1
-    try:
-        return snakemake_run.run(arguments, call.results, Console(stderr=True))
-    except OSError as error:
-        print(
-            f"{call.results} cannot be written ({error.strerror}): name another folder for the results", file=sys.stderr
-        )
-        return 1
-
-
 def _report(call: argparse.Namespace, given: list[str]) -> int:
     """Print the summary of results."""
     index = call.results / "report/index.html"
     if not index.exists():
-        print(f"There is no report in {call.results}: name a folder of results", file=sys.stderr)
-        return 1
+        return _refuse(f"There is no report in {call.results}: name a folder of results")
     print(run_summary.summary(sorted(call.results.glob(f"*/*/{QUALITY}")), index.resolve()))
     if call.open:
         webbrowser.open(index.resolve().as_uri())
@@ -213,6 +136,17 @@ def _undo(call: argparse.Namespace, given: list[str]) -> int:
     """Restore originals."""
     frames = tuple(call.frames) if call.frames else None
     return undo.run(call.results, call.recordings, call.to, markers=call.markers, frames=frames)
+
+
+def _write_table(call: argparse.Namespace, given: list[str]) -> int:
+    """Write a table of recordings."""
+    if not Path(call.recordings).expanduser().is_dir():
+        return _refuse(f"There is no folder {call.recordings}: name a folder of recordings")
+    try:
+        options = read_option_files(call.options)
+    except BadDataSet as error:
+        return _refuse(str(error))
+    return table.run(os.path.expanduser(call.recordings), call.to, options["general"], options["ingest"])
 
 
 def _presets() -> dict[str, str]:
@@ -227,3 +161,21 @@ def _list_presets(call: argparse.Namespace, given: list[str]) -> int:
     for name, meaning in found.items():
         print(f"{name:{max(map(len, found))}}  {meaning}")
     return 0
+
+
+def _refuse(reason: str) -> int:
+    """Print why nothing is done; gives the exit status."""
+    print(reason, file=sys.stderr)
+    return 1
+
+
+COMMANDS: dict[str, Work] = {
+    "clean": _clean,
+    "look": _look,
+    "report": _report,
+    "undo": _undo,
+    "table": _write_table,
+    "presets": _list_presets,
+    "papers": _repeat_papers,
+}
+"""What each command does, but for `verify`, whose arguments are parsed by itself."""

@@ -116,9 +116,45 @@ def test_files_of_one_stem_are_distinguished(tmp_path):
 
 
 def test_folders_of_one_name_are_distinguished(tmp_path):
-    make(tmp_path / "S01", "a.c3d", "S01/a.c3d", "day1/S01/a.c3d", "day2/S01/a.c3d", "day2/S02/a.c3d")
+    make(tmp_path / "S01", "a.c3d", "S01/a.c3d", "old/S01/a.c3d", "new/S01/a.c3d", "new/S02/a.c3d")
     subjects = {subject for subject, _ in found(tmp_path / "S01")}
-    assert subjects == {"S01", "S01/S01", "day1/S01", "day2/S01", "S02"}
+    assert subjects == {"S01", "S01/S01", "old/S01", "new/S01", "S02"}
+
+
+@pytest.mark.parametrize(
+    "day",
+    ["2024-05-03", "20240503", "2024.05.03", "3.5.2024", "Session1", "session 2", "New Session", "Day2", "ses-01"],
+)
+def test_a_day_is_no_subject(tmp_path, day):
+    make(tmp_path / "study", f"S01/{day}/walk.c3d", "S01/walk.c3d", f"{day}/S02/walk.c3d", "S03/other/walk.c3d")
+    assert set(found(tmp_path / "study")) == {
+        ("S01", f"{day}_walk"), ("S01", "walk"), ("S02", f"{day}_walk"), ("other", "walk"),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["20249903", "Day", "Sessions", "S20240503", "Daytona1", "12345678"])
+def test_what_only_looks_like_a_day_is_a_subject(tmp_path, name):
+    make(tmp_path / "study", f"{name}/walk.c3d")
+    assert set(found(tmp_path / "study")) == {(name, "walk")}
+
+
+def test_days_right_below_the_folder_are_those_of_one_subject_and_that_is_said(tmp_path):
+    make(tmp_path / "S01", "Day1/walk.c3d", "Day2/am/walk.c3d", "Day2/walk.c3d", "Day3/Session1/walk.c3d", "Day4/x.trc")
+    entries, warnings = recordings.find(str(tmp_path / "S01"), "elsewhere")
+    assert {(entry.subject, entry.recording) for entry in entries} == {
+        ("S01", "Day1_walk"), ("S01", "Day2_walk"), ("am", "Day2_walk"), ("S01", "Day3_Session1_walk"), ("S01", "Day4_x"),
+    }  # fmt: skip
+    assert warnings == [
+        "recordings: Day1, Day2, Day3 and 1 more are taken for days of one subject, S01 (day_folders: [] takes each for a subject)"
+    ]
+    entries, warnings = recordings.find(str(tmp_path / "S01"), "elsewhere", day_folders=[])
+    assert {entry.subject for entry in entries} == {"Day1", "Day2", "am", "Session1", "Day4"} and not warnings
+
+
+def test_a_name_that_a_day_would_give_twice_is_named(tmp_path):
+    make(tmp_path / "S01", "Day1/walk.c3d", "Day1_walk.c3d")
+    with pytest.raises(BadDataSet, match="cannot be distinguished by name"):
+        found(tmp_path / "S01")
 
 
 def test_an_added_recording_renames_no_other(tmp_path):

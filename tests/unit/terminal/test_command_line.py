@@ -4,7 +4,16 @@ import pytest
 
 from markermend.command import run_workflow
 from markermend.terminal import command_line, snakemake_run
+from support import c3d_files
 from support.paths import PROJECT
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with a recording of 1,200 frames of four markers at 100 Hz."""
+    (tmp_path / "data/S01").mkdir(parents=True)
+    c3d_files.write(tmp_path / "data/S01/walk.c3d", c3d_files.trajectories(1200))
+    return tmp_path / "data"
 
 
 @pytest.fixture
@@ -16,31 +25,31 @@ def runs(monkeypatch):
     return quiet, plain
 
 
-def test_a_folder_is_cleaned_with_a_preset_and_own_options_over_it(runs, tmp_path):
+def test_a_folder_is_cleaned_with_a_preset_and_own_options_over_it(runs, folder, tmp_path):
     words = ["--preset", "gait", "--options", "study.yaml", "--results", "out", "--cores", "3"]
-    assert command_line.main(["clean", str(tmp_path), *words]) == 1  # there is no study.yaml
+    assert command_line.main(["clean", str(folder), *words]) == 1  # there is no study.yaml
     (tmp_path / "study.yaml").touch()
     words[3] = str(tmp_path / "study.yaml")
-    assert command_line.main(["clean", str(tmp_path), *words, "--", "--keep-going"]) == 0
+    assert command_line.main(["clean", str(folder), *words, "--", "--keep-going"]) == 0
     [arguments] = runs[0]
     files = ["--configfile", f"{PROJECT}/config/presets/gait.yaml", words[3]]
-    assert arguments == ["--cores", "3", *files, "--config", f"recordings={tmp_path}", "results=out", "--keep-going"]
+    assert arguments == ["--cores", "3", *files, "--config", f"recordings={folder}", "results=out", "--keep-going"]
 
 
-def test_a_look_alters_nothing(runs, tmp_path):
-    assert command_line.main(["look", str(tmp_path)]) == 0
+def test_a_look_alters_nothing(runs, folder):
+    assert command_line.main(["look", str(folder)]) == 0
     assert f"{PROJECT}/config/presets/careful.yaml" in runs[0][0]
 
 
-def test_a_dry_run_shows_what_snakemake_prints(runs, tmp_path):
-    assert command_line.main(["clean", str(tmp_path), "--", "-n"]) == 0
+def test_a_dry_run_shows_what_snakemake_prints(runs, folder):
+    assert command_line.main(["clean", str(folder), "--", "-n"]) == 0
     assert not runs[0] and runs[1][0][-1] == "-n"
 
 
-def test_a_profile_says_on_how_many_cores(runs, tmp_path):
-    assert command_line.main(["clean", str(tmp_path), "--", "--profile", "profiles/slurm"]) == 0
+def test_a_profile_says_on_how_many_cores(runs, folder):
+    assert command_line.main(["clean", str(folder), "--", "--profile", "profiles/slurm"]) == 0
     assert "--cores" not in runs[0][0]
-    assert command_line.main(["clean", str(tmp_path)]) == 0
+    assert command_line.main(["clean", str(folder)]) == 0
     assert runs[0][1][:2] == ["--cores", "all"]
 
 
@@ -55,12 +64,12 @@ def test_a_folder_that_is_not_there_is_said_in_one_line(runs, capsys):
     assert not runs[0]
 
 
-def test_results_that_cannot_be_written_are_said_in_one_line(tmp_path, capsys):
+def test_results_that_cannot_be_written_are_said_in_one_line(folder, tmp_path, capsys):
     (tmp_path / "file").touch()
-    assert command_line.main(["clean", str(tmp_path), "--results", str(tmp_path / "file/out")]) == 1
-    assert capsys.readouterr().err == (
-        f"{tmp_path}/file/out cannot be written (Not a directory): name another folder for the results\n"
-    )
+    assert command_line.main(["clean", str(folder), "--results", str(tmp_path / "file/out")]) == 1
+    assert capsys.readouterr().err.splitlines()[1:] == [
+        f"{tmp_path}/file/out cannot be written (Not a directory): name another folder for the results"
+    ]
 
 
 def test_results_are_verified_without_snakemake(runs, tmp_path, capsys):
@@ -86,7 +95,46 @@ def test_a_report_that_is_not_there_is_said_in_one_line(tmp_path, capsys):
 
 
 def test_every_command_has_help():
-    for name in ("clean", "look", "report", "presets", "papers", "verify"):
+    for name in (*command_line.COMMANDS, "verify"):
         with pytest.raises(SystemExit) as ended:
             command_line.main([name, "--help"])
         assert ended.value.code == 0
+
+
+def test_before_a_run_stands_what_it_will_take(runs, folder, capsys):
+    assert command_line.main(["look", str(folder), "--cores", "2"]) == 0
+    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s on 2 cores\n"
+    assert command_line.main(["clean", str(folder), "--", "--profile", "profiles/slurm"]) == 0
+    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s of one core\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["claen", "data"], 2, "markermend has no command 'claen'; did you mean clean?"),
+        (["data"], 2, "markermend has no command 'data': see markermend --help"),
+        (["clean"], 2, "the following arguments are required: FOLDER (see markermend clean --help)"),
+        (["clean", "data", "--preste", "gait"], 2, "'--preste' means nothing here; did you mean --preset? (see markermend clean --help)"),
+        (["clean", "data", "more"], 2, "'more' means nothing here (see markermend clean --help)"),
+        (["clean", "empty"], 1, "recordings: no recording (.c3d, .trc, .csv, .tsv) in {here}/empty or below"),
+        (["clean", "data/S01/walk.c3d"], 1, "recordings: {here}/data/S01/walk.c3d is a recording itself: name the folder that holds it, or a table"),
+        (["clean", "notes.pdf"], 1, "recordings: {here}/notes.pdf is not a table in UTF-8 text"),
+        (["clean", "data", "--options", "none.yaml"], 1, "config file none.yaml cannot be read"),
+        (["clean", "data", "--options", "typo.yaml"], 1, "fill.max_gap_ms: there is no such key; did you mean max_gap_s?"),
+        (["table", "data/S01/walk.c3d"], 1, "There is no folder data/S01/walk.c3d: name a folder of recordings"),
+        (["table", "empty"], 1, "recordings: no recording"),
+        (["undo", "empty", "--to", "back"], 1, "empty holds no results: name the folder of results of a run"),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_said_in_a_sentence(runs, folder, tmp_path, monkeypatch, capsys, words, status, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "notes.pdf").write_bytes(b"%PDF\xff\xfe")
+    (tmp_path / "typo.yaml").write_text("fill: {max_gap_ms: 1}\n")
+    try:
+        found = command_line.main(words)
+    except SystemExit as ended:
+        found = ended.code
+    shown = capsys.readouterr().err
+    assert found == status and said.format(here=tmp_path) in shown
+    assert "Traceback" not in shown and len(shown.splitlines()) <= 2 and not runs[0]

@@ -101,13 +101,15 @@ class Sheet:
         return [i for i in range(start, len(self.lines)) if self.lines[i].strip(void)]
 
 
-def load(path: Path) -> Sheet:
+def load(path: Path, *, at_most: int | None = None) -> Sheet:
     """Read a text file.
 
     Parameters
     ----------
     path : Path
         The file.
+    at_most : int, optional
+        Bytes to read: the whole lines among them. By default all.
 
     Returns
     -------
@@ -119,7 +121,10 @@ def load(path: Path) -> Sheet:
     BadRecording
         If the file is empty, not text, or in a two-byte encoding.
     """
-    content = path.read_bytes()
+    with open(path, "rb") as file:
+        content = file.read(-1 if at_most is None else at_most)
+        if file.read(1):
+            content = content[: content.rfind(b"\n") + 1]
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         raise BadRecording(f"{path.name} is UTF-16 text, which is not read: save it as UTF-8")
     mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""

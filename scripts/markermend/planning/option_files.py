@@ -1,0 +1,56 @@
+"""The options in files of the config, put together as Snakemake does, for what is asked before a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import yaml
+
+from markermend.options.config import read_config
+from markermend.options.general import EXPERIMENTS
+from markermend.options.reader import BadOptions
+from markermend.planning.config import REFUSED
+from markermend.planning.recordings import BadDataSet
+
+
+def read_option_files(files: Sequence[str]) -> dict[str, Any]:
+    """Read the options of all sections.
+
+    Parameters
+    ----------
+    files : sequence of str
+        Files of the config, each over those before it; what is in none has its default.
+
+    Returns
+    -------
+    dict of str to Any
+        The options of each section.
+
+    Raises
+    ------
+    BadDataSet
+        Where a file cannot be read, or holds what cannot be used.
+    """
+    config: dict[str, Any] = {}
+    for path in files:
+        try:
+            with open(path, encoding="utf-8") as file:
+                _update(config, yaml.safe_load(file) or {})
+        except (OSError, ValueError, yaml.YAMLError) as error:
+            raise BadDataSet(f"{path} cannot be read as a file of options: {error}") from error
+    try:
+        return read_config({key: value for key, value in config.items() if key != EXPERIMENTS})
+    except BadOptions as problems:
+        raise BadDataSet(f"{REFUSED}\n{problems}") from problems
+
+
+def _update(config: dict[str, Any], more: Any) -> None:
+    """Put values over others: mappings key by key, all else as a whole."""
+    if not isinstance(more, dict):
+        raise ValueError("it holds no keys with values")
+    for key, value in more.items():
+        if isinstance(value, dict) and isinstance(config.get(key), dict):
+            _update(config[key], value)
+        else:
+            config[key] = value

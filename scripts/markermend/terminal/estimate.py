@@ -1,0 +1,75 @@
+"""What a run is about to take, in one line before it begins.
+
+Reads: the beginnings of recordings, at most `LOOKED_AT` of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+from markermend.core.recording import BadRecording
+from markermend.formats.extent import Extent, find_extent
+from markermend.planning.recordings import Entry
+from markermend.planning.result_files import QUALITY
+from markermend.terminal.progress import duration
+
+CPU_PER_RECORDING_S = 6.0
+"""Time of a core that every recording takes, s (benchmarks/results/runtime.tsv: all jobs of 85_12 and STS1)."""
+
+CPU_PER_SAMPLE_S = 4.1e-5
+"""Time of a core that a sample of a marker takes besides, s: 0.3 s for a minute of a marker at 120 Hz. Many gaps take up to three times as much."""
+
+LOOKED_AT = 200
+"""Recordings that are looked at; of more, as many evenly spaced ones stand for all."""
+
+
+def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
+    """Estimate what a run will take.
+
+    Parameters
+    ----------
+    entries : sequence of Entry
+        The recordings.
+    results : Path
+        The folder of results.
+    cores : int or None
+        Cores that the run has; None where that is not known.
+
+    Returns
+    -------
+    str
+        Recordings, subjects, duration of the data, and about how long it will take from nothing; how many have results already.
+    """
+    count, subjects = len(entries), len({entry.subject for entry in entries})
+    looked_at = entries[:: math.ceil(count / LOOKED_AT)]
+    extents = [extent for extent in map(_extent, looked_at) if extent]
+    share = count / len(looked_at)
+    seconds = share * sum(extent.seconds for extent in extents if math.isfinite(extent.seconds))
+    work = count * CPU_PER_RECORDING_S + share * CPU_PER_SAMPLE_S * sum(extent.samples for extent in extents)
+    of_cores = min(cores or 1, count)
+    where = f"on {_count(cores, 'core')}" if cores else "of one core"
+    done = sum(
+        (results / subject / recording / QUALITY).exists() for subject, recording in (e.folders for e in entries)
+    )
+    there = f"; {done} of them have results, which are kept where nothing has changed" if done else ""
+    return (
+        f"{_count(count, 'recording')} of {_count(subjects, 'subject')}, {duration(seconds)} of data: "
+        f"about {duration(work / of_cores)} {where}{there}"
+    )
+
+
+def _extent(entry: Entry) -> Extent | None:
+    """How much there is in a recording; nothing in one that will be set aside."""
+    if entry.leads_out or entry.is_no_file:
+        return None
+    try:
+        return find_extent(Path(entry.source), rate=entry.rate)
+    except (BadRecording, OSError):
+        return None
+
+
+def _count(number: int, what: str) -> str:
+    """A number of things."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
