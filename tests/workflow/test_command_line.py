@@ -1,6 +1,7 @@
 """The command `markermend` as people use it: a folder cleaned, looked at, and what went wrong said in a line."""
 
 import os
+import shutil
 import subprocess
 import sys
 
@@ -38,14 +39,16 @@ def recordings(tmp_path_factory):
 
 def test_a_folder_is_cleaned_with_a_line_for_each_recording(recordings, tmp_path):
     results = tmp_path / "out"
-    *lines, summary, aside, report = markermend("clean", recordings, "--results", results, "--cores", "2")
+    estimate, *lines, summary, aside, report = markermend("clean", recordings, "--results", results, "--cores", "2")
+    assert estimate.startswith("3 recordings of 1 subject, 2 s of data: about ")
     assert sorted(line.partition(":")[0] for line in lines) == ["S01/a", "S01/b", "S01/c"]
     assert summary.startswith("3 recordings: 2 cleaned, 1 set aside; ")
     assert "S01/c" in aside
     assert report == f"Report: {results}/report/index.html"
     assert "Detect artifacts in S01/a" in (results / "report/logs/run.log").read_text()
     again = markermend("clean", recordings, "--results", results, "--cores", "2")
-    assert again == ["Nothing to be done: all results are up to date."]
+    assert again[0].endswith("; 3 of them have results, which are kept where nothing has changed")
+    assert again[1:] == ["Nothing to be done: all results are up to date."]
     assert markermend("report", results)[0] == summary
     assert markermend("verify", results)[-1].endswith(" files are as they were, 0 differ")
 
@@ -65,4 +68,40 @@ def test_a_mistake_is_said_in_a_line(recordings, tmp_path):
     assert "max_gap" in " ".join(lines) and "Traceback" not in " ".join(lines)
     (tmp_path / "empty").mkdir()
     lines = markermend("clean", tmp_path / "empty", "--results", tmp_path / "out", status=1)
-    assert lines[0].startswith("recordings: no recording") and len(lines) == 2
+    assert len(lines) == 1 and lines[0].startswith("recordings: no recording")
+
+
+def test_originals_come_back_when_they_are_gone_and_results_have_moved(recordings, tmp_path):
+    shutil.copytree(recordings, tmp_path / "data")
+    markermend("clean", tmp_path / "data", "--results", tmp_path / "out", "--cores", "2")
+    shutil.rmtree(tmp_path / "data")
+    os.rename(tmp_path / "out", tmp_path / "mövd out")
+    assert all(
+        "the original, bit for bit" in line
+        for line in markermend("undo", tmp_path / "mövd out", "--to", tmp_path / "back")
+    )
+    for name in "abc":
+        [back] = (tmp_path / "back").rglob(f"{name}.c3d")
+        assert back.read_bytes() == (recordings / f"S01/{name}.c3d").read_bytes()
+    [line] = markermend("undo", tmp_path / "mövd out", "S01/a", "--to", tmp_path / "parts", "--markers", "M1")
+    assert "10 samples restored (M1 41 to 50), " in line and " stay cleaned: " in line
+
+
+def test_a_table_is_made_corrected_and_cleaned(recordings, tmp_path):
+    table = tmp_path / "recordings.tsv"
+    markermend("table", recordings, "--to", table)
+    rows = [row for row in table.read_text().splitlines() if not row.startswith("c\t")]
+    table.write_text("\n".join(row.replace("S01\t", "Anna\t", 1) for row in rows), encoding="utf-8-sig")
+    lines = markermend("clean", table, "--results", tmp_path / "out", "--cores", "2")
+    assert lines[0].startswith("2 recordings of 1 subject") and (tmp_path / "out/Anna/a/08_qc.json").exists()
+
+
+def test_the_module_is_the_command(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(PROJECT / "scripts")}
+    shown = [
+        subprocess.run(
+            [sys.executable, *words, "presets"], capture_output=True, text=True, env=environment, check=True
+        ).stdout
+        for words in (["-m", "markermend"], ["-c", COMMAND])
+    ]
+    assert shown[0] == shown[1] != ""
