@@ -6,8 +6,10 @@ import json
 import pytest
 
 from markermend.core.recording import SetAside
+from markermend.planning.partial_report import REPORT_FILES
 from markermend.report import recording_report
 from markermend.storage import output_checksums, stage_files
+from support import report_files
 
 NAMES = ("walk", "jump", "turn", "run", "fall")
 
@@ -31,18 +33,8 @@ def run(script, flags):
 
 
 def report(folder, files, unfinished=()):
-    outputs = {name: folder / name for name in ("index.html", "summary.tsv", "plotly.min.js")}
-    run(
-        "report",
-        {
-            "--qc": files,
-            "--unfinished": unfinished,
-            **{
-                f"--{flag}": [path] for flag, path in zip(("index", "summary", "script"), outputs.values(), strict=True)
-            },
-        },
-    )
-    return {name: path.read_bytes() for name, path in outputs.items()}
+    importlib.import_module("report").main(report_files.report_flags(folder, files, unfinished))
+    return {name: (folder / name).read_bytes() for name in REPORT_FILES.values()}
 
 
 def test_a_report_of_batches_equals_that_of_recordings(tmp_path, quality):

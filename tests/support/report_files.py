@@ -21,6 +21,8 @@ from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Record
 from markermend.export.change_table import change_table
 from markermend.options.flags import write_flags
 from markermend.options.reporting import QcOptions
+from markermend.planning.decision_table import NONE
+from markermend.planning.partial_report import REPORT_FILES
 from markermend.storage import atomic, change_file, mesh_file, originals_file, stage_files
 from markermend.storage.folder_names import encode
 from support.treated import Treated
@@ -52,6 +54,16 @@ class Results:
     @property
     def summary(self) -> dict[str, Any]:
         return stage_files.read_json(self.folder / "08_qc.json")
+
+
+def report_flags(
+    folder: Path, quality: Sequence[Path], unfinished: Sequence[Path] = (), decisions: str = NONE
+) -> list[str]:
+    """The flags of the report of some recordings into a folder, with a table of decisions."""
+    table = folder / "logs/decisions.tsv"
+    atomic.write_text(table, decisions)
+    outputs = [f"--{name}={folder / file}" for name, file in REPORT_FILES.items()]
+    return ["--qc", *map(str, quality), "--unfinished", *map(str, unfinished), f"--decisions={table}", *outputs]
 
 
 def restore(

@@ -207,12 +207,12 @@ def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
     with edited(finished.folder / "config/decisions.tsv", f"{line}\n"):
         plan = finished.plan()
         assert plan.jobs == {**dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)}
-        assert plan.parameters_changed == {"repair"}
+        assert plan.parameters_changed == {"repair", "report"}
         finished.run()
         assert places(changes(finished, "S01/a")) == places(row for row in found if row != peak)
         assert changes(finished, "S02/b") == untouched
         page = (finished.results / "S01/a/page.html").read_text()
-        assert "a person decided: reject peak (hop)" in page and '<h2 id="decided">Decisions</h2>' in page
+        assert "a person decided: reject peak (hop)" in page and '<table id="decided">' in page
         with edited(finished.folder / "config/decisions.tsv", "b\tM1\t41\t50\treject\tgap\n"):
             assert finished.plan().jobs == plan.jobs
         assert NOTHING in finished.plan().text

@@ -1,7 +1,7 @@
 """Judge every recording, and put the data set into one report.
 
 Reads: everything that the stages wrote.
-Writes: 08_qc.json and page.html for each recording; report/ with index.html, summary.tsv and plotly.min.js, and a folder for each
+Writes: 08_qc.json and page.html for each recording; report/ with index.html, summary.tsv, plotly.min.js and data_set.js, and a folder for each
 batch of recordings where these are many.
 """
 
@@ -72,6 +72,7 @@ rule report:
         index=f"{files.report}/index.html",
         summary=f"{files.report}/summary.tsv",
         script=f"{files.report}/plotly.min.js",
+        data=f"{files.report}/data_set.js",
     log:
         f"{files.report}/logs/report.log",
     benchmark:
@@ -87,8 +88,10 @@ rule report:
         options=plan.stage_options("report"),
         failures=plan.failed("report"),
         list=files.quality_list,
+        decisions=files.decision_table,
+        decided=plan.data.decision_table_hash,
     message:
         "Write the report"
     shell:
         "{PYTHON:q} {SCRIPTS:q}/report.py --qc @{params.list:q} --unfinished --index {output.index:q} --summary {output.summary:q}"
-        " --script {output.script:q} {params.options} 2> {log:q}"
+        " --script {output.script:q} --data-set {output.data:q} --decisions {params.decisions:q} {params.options} 2> {log:q}"

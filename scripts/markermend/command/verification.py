@@ -24,7 +24,7 @@ READABLE, UNREADABLE = "a record", "cannot be read"
 
 ALWAYS_RECORDED = (
     *("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
-    *("index.html", "summary.tsv", "plotly.min.js", "qc.json"),
+    *("index.html", "summary.tsv", "plotly.min.js", "data_set.js", "qc.json"),
 )
 """Files of which a checksum must be recorded."""
 

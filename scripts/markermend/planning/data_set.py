@@ -17,6 +17,7 @@ from markermend.options.general import GeneralOptions
 from markermend.options.values import text
 from markermend.planning import discovery
 from markermend.planning.alternatives import any_of
+from markermend.planning.decision_table import NONE
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
 from markermend.planning.result_files import ResultFiles
@@ -52,6 +53,8 @@ class DataSet:
         Mesh files that the user supplies, by the names of the subjects' folders.
     decisions : mapping of Folders to list of dict, optional
         What a person decided about each recording, by the names of its folders.
+    decision_table : str, optional
+        The table of these decisions, for the report.
     missing : str, optional
         Why there are no recordings, where the config names none and the table of its default is not there. Experiments do without.
     """
@@ -60,6 +63,7 @@ class DataSet:
     checksums: SourceChecksums
     meshes: Mapping[str, list[str]] = field(default_factory=dict)
     decisions: Mapping[Folders, list[dict[str, Any]]] = field(default_factory=dict)
+    decision_table: str = NONE
     missing: str = ""
 
     @cached_property
@@ -131,6 +135,11 @@ class DataSet:
         """The decisions on the recording alone, as a flag; see `DataSet.entry`."""
         decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
         return f"--decisions={text(decided)}"
+
+    @cached_property
+    def decision_table_hash(self) -> str:
+        """Checksum of the table of decisions: another table reruns the report."""
+        return hashlib.sha256(self.decision_table.encode()).hexdigest()[:16]
 
     def need(self, amount: int) -> Callable[[Wildcards, int], int]:
         """State how much memory or time a job may take, for a cluster to reserve it.
@@ -228,7 +237,8 @@ def find_data_set(
     for (subject, recording, stage), count in (failures or {}).items():
         failed[f"{subject}/{recording}"] += count if stage in SOURCE_STAGES else 0
     checksums = SourceChecksums(Path(ResultFiles(results).sources), failed)
-    return DataSet(entries, checksums, meshes, decisions, missing), [*left_out, *warnings]
+    table = discovery.standard_decisions(options)
+    return DataSet(entries, checksums, meshes, decisions, table, missing), [*left_out, *warnings]
 
 
 def _entries(general: GeneralOptions, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str, list[str]]:

@@ -13,12 +13,16 @@ from markermend.planning.contradictions import Line, find_contradictions
 from markermend.planning.decision_cells import Problem, parse, suggestion
 from markermend.planning.recordings import BadDataSet, Entry
 from markermend.planning.tables import read_table
+from markermend.storage import tab_separated
 
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
 
 LARGEST = 100_000
 """Bytes that the decisions on one recording may take: a command line has room for 131,072."""
+
+NONE = tab_separated.table(COLUMNS, ())
+"""A table without decisions."""
 
 Folders = tuple[str, str]
 """Names of the folders of a subject and a recording."""
@@ -78,6 +82,26 @@ def load(
     if problems:
         raise BadDataSet("\n".join([f"decisions: {path} cannot be used (config/README.md)", *problems]))
     return decided, warnings
+
+
+def standard_form(path: str, methods: Collection[str]) -> str:
+    """Write the table as the report reads it, in which all tables that say the same are equal.
+
+    Parameters
+    ----------
+    path : str
+        The table, which `load` understands.
+    methods : Collection[str]
+        Names that the decision `method` may give.
+
+    Returns
+    -------
+    str
+        All of its lines in their order, those on recordings that are not there, too: every column, cells by their meaning.
+    """
+    rows = read_table(path, what="decisions", columns=COLUMNS, required=("recording", "marker", "decision"))
+    lines = [dict(dict.fromkeys(COLUMNS, "") | row | {"value": ""} | dict(parse(row, methods))) for _, row in rows]
+    return tab_separated.table(COLUMNS, lines)
 
 
 def _recording_of(row: Mapping[str, str], entries: Sequence[Entry]) -> Entry | None:

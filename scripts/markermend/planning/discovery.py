@@ -91,11 +91,33 @@ def find_decisions(
     BadDataSet
         Where the table cannot be used.
     """
-    default, name = GeneralOptions().decisions, options["general"].decisions
-    if name is None or (name == default and not os.path.exists(name)):
-        return {}, []
-    path = os.path.abspath(os.path.expanduser(name))
-    return decision_table.load(path, entries, planning_config.methods(options))
+    path = _decision_table(options)
+    return decision_table.load(path, entries, planning_config.methods(options)) if path else ({}, [])
+
+
+def standard_decisions(options: Mapping[str, Any]) -> str:
+    """Write the table of decisions for the report.
+
+    Parameters
+    ----------
+    options : mapping of str to Any
+        The options of each section of the config; the table is one that `find_decisions` understands.
+
+    Returns
+    -------
+    str
+        See decision_table.standard_form; the names of the columns alone where there is no table.
+    """
+    path = _decision_table(options)
+    return decision_table.standard_form(path, planning_config.methods(options)) if path else decision_table.NONE
+
+
+def _decision_table(options: Mapping[str, Any]) -> str | None:
+    """Path of the table of decisions; None where there is none."""
+    name: str | None = options["general"].decisions
+    if name is None or (name == GeneralOptions().decisions and not os.path.exists(name)):
+        return None
+    return os.path.abspath(os.path.expanduser(name))
 
 
 def supplied_meshes(entries: Mapping[Folders, Entry], files: Sequence[str]) -> dict[str, list[str]]:

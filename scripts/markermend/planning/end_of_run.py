@@ -57,7 +57,11 @@ def close(plan: Plan, pending: Sequence[Any], part: Collection[Folders] | None =
     # Of nothing no report is made: it would be older than nothing, and the next run would have nothing to do.
     if pending and index and (finished or index.exists()):
         partial_report.write(
-            plan.files, finished, sorted(map(str, unfinished)), script=plan.project / "scripts/report.py"
+            plan.files,
+            finished,
+            sorted(map(str, unfinished)),
+            decisions=plan.data.decision_table,
+            script=plan.project / "scripts/report.py",
         )
     about = [path for entry, path in quality_files.items() if part is None or entry in part]
     lines = [*plan.warnings, run_summary.summary(about, index, unfinished)]

@@ -29,7 +29,7 @@ from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
-from markermend.storage.atomic import write_json, write_list
+from markermend.storage.atomic import write_json, write_list, write_text
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
@@ -251,8 +251,9 @@ class Plan:
         return of_job
 
     def write_lists(self) -> None:
-        """Write the flags of detectors, and lists of files for meshes, poses and report: a command line has no room for thousands."""
+        """Write what commands have no room for: flags of detectors, the table of decisions, lists of files for meshes, poses and report."""
         write_json(Path(self.detectors_file), self.detector_flags)
+        write_text(Path(self.files.decision_table), self.data.decision_table)
         write_list(self.files.quality_list, self.report_files)
         if len(self.batches) > 1:
             for name, paths in self.batches.items():

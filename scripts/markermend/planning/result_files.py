@@ -191,3 +191,8 @@ class ResultFiles:
     def quality_list(self) -> str:
         """The list of files that the report is made of."""
         return f"{self.report}/logs/recordings.txt"
+
+    @property
+    def decision_table(self) -> str:
+        """The table of decisions as the run read it, for the report."""
+        return f"{self.report}/logs/decisions.tsv"

@@ -11,7 +11,7 @@ from markermend.storage import tab_separated
 
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
-    "missing_share_before", "missing_share_after", "changed_samples", "changed_share", "repaired", "blanked",
+    "missing_share_before", "missing_share_after", "longest_gap_before_s", "longest_gap_after_s", "changed_samples", "changed_share", "repaired", "blanked",
     "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm",
     "expected_error95_max_mm", "unjudged", "warnings", "attention", "page",
 )  # fmt: skip

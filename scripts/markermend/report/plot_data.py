@@ -65,7 +65,7 @@ def excerpt(finding: Change, before: Recording, after: Restored, *, context_s: f
     return cut
 
 
-def series(values: np.ndarray, where: np.ndarray) -> list[list[Any]]:
+def series(values: np.ndarray, where: np.ndarray, units_per_mm: int = UNITS_PER_MM) -> list[list[Any]]:
     """Write some rows of values.
 
     Parameters
@@ -74,30 +74,34 @@ def series(values: np.ndarray, where: np.ndarray) -> list[list[Any]]:
         In mm.
     where : ndarray of bool, shape (frames,)
         The rows to write.
+    units_per_mm : int, optional
+        Resolution.
 
     Returns
     -------
     list of list of Any
         One list per run of rows: offset, and the differences of each column.
     """
-    return [[start, *(delta(column) for column in values[start:stop].T)] for start, stop in runs(where)]
+    return [[start, *(delta(column, units_per_mm) for column in values[start:stop].T)] for start, stop in runs(where)]
 
 
-def delta(values: np.ndarray) -> list[int]:
-    """Write numbers as differences in hundredths.
+def delta(values: np.ndarray, units_per_mm: int = UNITS_PER_MM) -> list[int]:
+    """Write numbers as differences of whole units.
 
     Parameters
     ----------
     values : ndarray of float
         In mm; no value may be NaN.
+    units_per_mm : int, optional
+        Resolution.
 
     Returns
     -------
     list of int
         The first, and each less the one before.
     """
-    hundredths = np.rint(values * UNITS_PER_MM).astype(np.int64)
-    differences: list[int] = np.diff(hundredths, prepend=0).tolist()
+    units = np.rint(values * units_per_mm).astype(np.int64)
+    differences: list[int] = np.diff(units, prepend=0).tolist()
     return differences
 
 

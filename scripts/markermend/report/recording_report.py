@@ -14,9 +14,11 @@ from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
 from markermend.report.decision_outcomes import drafts
 from markermend.report.evidence import Evidence
+from markermend.report.finding_lines import decidable, finding_lines
 from markermend.report.methods_text import paragraph
 from markermend.report.open_findings import reasons_for_blanking
 from markermend.report.plot_data import excerpt
+from markermend.report.stick_figure import stick_figure
 from markermend.storage import stage_files
 from markermend.storage.folder_names import decode
 
@@ -139,12 +141,9 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
     str
         HTML.
     """
+    changed, left = finding_lines(seen.changes, seen.left, seen.before, seen.after, plots=options.plots)
     artifacts = [finding for finding in seen.left if not finding.is_gap]
-    chosen = [*seen.changes[: options.plots], *artifacts[: options.plots]]
-    drawn = {
-        finding: (f"finding-{number}", plot_of(seen, finding, options))
-        for number, finding in enumerate(dict.fromkeys(chosen))
-    }
+    plotted = [line for line in (*changed, *left) if line.plotted]
     rows = sample_statistics.per_marker(seen.before, seen.after)
     marks = timeline.lines(seen.before, seen.after, [*_each_left(seen.record), *artifacts])
     busy = [{**row, **mark} for row, mark in zip(rows, marks, strict=True) if any(mark.values())]
@@ -154,12 +153,21 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         lines=sorted(busy, key=lambda row: (-row["missing_share_after"], -row["missing_share_before"], row["marker"])),
         complete=[row["marker"] for row, mark in zip(rows, marks, strict=True) if not any(mark.values())],
         ticks=timeline.ticks(seen.before, TICKS),
-        changes=seen.changes,
-        left=seen.left,
+        changes=changed,
+        left=left,
         blanked=reasons_for_blanking(seen.changes, seen.record),
         decided=seen.decided,
         drafts={"changed": drafts(seen.changes, seen.after), "open": drafts(seen.left, seen.after)},
-        drawn=drawn,
+        plots={line.name: plot_of(seen, line.change, options) for line in plotted},
+        figure=stick_figure(
+            seen.before, seen.after, seen.mesh, [line.change for line in plotted], context_s=options.context_s
+        ),
+        decidable={
+            **decidable((*changed, *left), seen.before.first_frame, seen.stages),
+            "decided": list(seen.stages.get("fill", {}).get("decisions", ())),
+            "recording": summary["recording"],
+            "subject": summary["subject"],
+        },
         mesh=seen.mesh,
         certificate=seen.certificate,
         methods=summary["methods"],

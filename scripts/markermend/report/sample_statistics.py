@@ -72,8 +72,8 @@ def per_marker(before: Recording, after: Restored) -> list[dict[str, Any]]:
     Returns
     -------
     list[dict[str, Any]]
-        One for each marker, in the order of the recording: number of gaps, shares missing, longest gaps in s, and
-        samples by origin (`filled` and `repaired`).
+        One for each marker, in the order of the recording: number of gaps, shares missing, longest gaps in frames
+        and in s, and samples by origin (`filled` and `repaired`).
     """
     longest = [dict.fromkeys(before.markers, 0) for _ in range(2)]
     number = Counter(before.markers[m] for m, _, _ in gaps(before))
@@ -87,13 +87,35 @@ def per_marker(before: Recording, after: Restored) -> list[dict[str, Any]]:
             "gaps": number[marker],
             "missing_share_before": share(before.missing[:, m]),
             "missing_share_after": share(after.missing[:, m]),
-            "longest_gap_before_s": round(longest[0][marker] / before.rate, DIGITS),
-            "longest_gap_after_s": round(longest[1][marker] / before.rate, DIGITS),
+            **longest_gaps(longest[0][marker], longest[1][marker], before.rate),
             "filled": int((after.origin[:, m] == FILLED).sum()),
             "repaired": int(repaired[:, m].sum()),
         }
         for m, marker in enumerate(before.markers)
     ]
+
+
+def longest_gaps(before: int, after: int, rate: float) -> dict[str, float]:
+    """State the longest gaps.
+
+    Parameters
+    ----------
+    before, after : int
+        Frames of the longest gap before and after cleaning.
+    rate : float
+        Frames per second.
+
+    Returns
+    -------
+    dict of str to float
+        Each in frames and in s.
+    """
+    return {
+        "longest_gap_before_frames": before,
+        "longest_gap_after_frames": after,
+        "longest_gap_before_s": round(before / rate, DIGITS),
+        "longest_gap_after_s": round(after / rate, DIGITS),
+    }
 
 
 def extent(events: Sequence[Event], recording: Recording) -> dict[str, int]:

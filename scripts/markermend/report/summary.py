@@ -15,9 +15,17 @@ import numpy as np
 
 from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
-from markermend.core.recording import ORIGINS, Recording, Restored, changed
+from markermend.core.recording import ORIGINS, Recording, Restored, changed, gaps
 from markermend.options.reporting import AttentionOptions
-from markermend.report.sample_statistics import DIGITS, extent, finite, inconsistent_origins, largest_change, share
+from markermend.report.sample_statistics import (
+    DIGITS,
+    extent,
+    finite,
+    inconsistent_origins,
+    largest_change,
+    longest_gaps,
+    share,
+)
 
 
 def summarize(
@@ -51,6 +59,7 @@ def summarize(
         JSON values.
     """
     differs = changed(before, after)
+    longest = [max((stop - start for _, start, stop in gaps(own)), default=0) for own in (before, after)]
     gaps_left = [finding for finding in left if finding.is_gap]
     return {
         **identity(before.facts),
@@ -60,6 +69,7 @@ def summarize(
         **size(before),
         "missing_share_before": share(before.missing),
         "missing_share_after": share(after.missing),
+        **longest_gaps(longest[0], longest[1], before.rate),
         "findings": {stage: extent(events, before) for stage, events in found.items()},
         "changed_samples": int(differs.sum()),
         "changed_share": share(differs),

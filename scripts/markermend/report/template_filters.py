@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+from collections.abc import Sequence
 from typing import Any
 
 from markupsafe import Markup
@@ -79,6 +80,22 @@ def short(value: float | None) -> str:
     return "–" if value is None else f"{value:.10g}"
 
 
+def place(position: Sequence[float] | None) -> str:
+    """Write a position.
+
+    Parameters
+    ----------
+    position : sequence of float or None
+        x, y and z in mm; None where it is missing.
+
+    Returns
+    -------
+    str
+        To 0.1 mm, with no-break spaces between them.
+    """
+    return "missing" if position is None else "\u2002".join(f"{value:.1f}".replace("-", "\u2212") for value in position)
+
+
 def count(value: int) -> str:
     """Write a whole number with thin spaces between its thousands.
 
@@ -141,6 +158,7 @@ FILTERS = {
     "figure": figure,
     "short": short,
     "count": count,
+    "place": place,
     "percent": percent,
     "tojson_text": compact,
 }

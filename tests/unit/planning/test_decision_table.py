@@ -6,7 +6,7 @@ import pytest
 
 from markermend.core.decisions import VERBS
 from markermend.export import change_table
-from markermend.planning.decision_table import COLUMNS, load
+from markermend.planning.decision_table import COLUMNS, NONE, load, standard_form
 from markermend.planning.recordings import BadDataSet, Entry
 from support.paths import PROJECT
 
@@ -190,3 +190,13 @@ def test_every_decision_is_explained_to_people():
     part = text.partition("\n## Decisions")[2].partition("\n## ")[0]
     assert set(VERBS) <= set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE))
     assert all(column in part for column in COLUMNS)
+
+
+def test_the_report_gets_every_line_by_its_meaning(tmp_path):
+    path = tmp_path / "decisions.csv"
+    path.write_text(
+        "marker,recording,decision,value,first_frame,last_frame,note\n\n=A,gone,reject,peaks,07,9, two  words \n"
+    )
+    assert standard_form(str(path), METHODS) == NONE + "gone\t'=A\t7\t9\treject\tpeak\ttwo words\t\n"
+    path.write_text("recording,marker,decision\n")
+    assert standard_form(str(path), METHODS) == NONE

@@ -13,13 +13,18 @@ from support.html_pages import Page
 from support.treated import Treated
 
 
+def plots_of(page: Page) -> dict[str, str]:
+    """The data of the plots of a page, by the names of its findings."""
+    return {name.removeprefix("data-"): text for name, text in page.data.items() if name.startswith("data-finding-")}
+
+
 def test_the_page_embeds_what_it_plots(made, contaminated):
     page = Page(made.page)
-    buttons = [button["data-finding"] for button in page.all("button") if "data-finding" in button]
-    assert len(buttons) == len(page.data) == len(set(buttons))
+    plots = plots_of(page)
     summary = made.summary
-    assert len(buttons) == sum(summary[key]["events"] for key in ("filled", "repaired", "findings_open"))
-    excerpt = json.loads(page.data[buttons[0]])
+    assert len(plots) == sum(summary[key]["events"] for key in ("filled", "repaired", "findings_open"))
+    assert set(page.data) - {f"data-{name}" for name in plots} == {"figure-data", "decidable"}
+    excerpt = json.loads(plots["finding-0"])
     assert excerpt["origin"] == 705 and excerpt["span"][0] >= 705 and excerpt["before"] and excerpt["after"]
 
 
@@ -76,10 +81,10 @@ def test_the_page_names_the_recordings_that_filling_learned_from(made, contamina
 def test_the_number_of_plots_is_capped_and_the_tables_are_not(made):
     qc.main(made.qc(plots=3))
     page = Page(made.page)
-    rows = made.page.count("<tr data-kind=")
+    rows = made.page.count('<tr id="finding-')
     qc.main(made.qc())
-    assert len(page.data) == 3 + min(3, made.summary["findings_open"]["events"])
-    assert rows == made.page.count("<tr data-kind=")
+    assert len(plots_of(page)) == 3 + min(3, made.summary["findings_open"]["events"])
+    assert rows == made.page.count('<tr id="finding-')
 
 
 def test_equal_recordings_give_equal_bytes_anywhere(made, contaminated, tmp_path):
@@ -96,8 +101,9 @@ def test_equal_recordings_give_equal_bytes_anywhere(made, contaminated, tmp_path
 
 def test_plots_stay_small(made):
     page = Page(made.page)
-    assert max(map(len, page.data.values())) < 12_000
-    assert len(made.page) < 60_000 + sum(map(len, page.data.values())) + 400 * made.page.count("<tr data-kind=")
+    assert max(map(len, plots_of(page).values())) < 12_000
+    assert len(page.data["figure-data"]) < 400_000
+    assert len(made.page) < 100_000 + sum(map(len, page.data.values())) + 700 * made.page.count('<tr id="finding-')
 
 
 def test_a_recording_that_export_left_untouched_is_set_aside_with_its_reason(contaminated, tmp_path):
@@ -128,9 +134,16 @@ def test_qc_sets_aside_what_it_cannot_read(made, tmp_path):
     assert "qc failed: KeyError" in (tmp_path / "s/r/page").read_text()
 
 
-def test_a_linked_finding_has_its_data_under_the_same_name(made):
+def test_each_finding_is_a_row_that_can_be_linked_and_the_data_of_a_plot_has_its_name(made):
     page = Page(made.page)
-    assert {b["data-finding"] for b in page.all("button") if "data-finding" in b} == set(page.data)
+    rows = [row["id"] for row in page.all("tr") if "id" in row]
+    assert rows == [f"finding-{number}" for number in range(len(rows))]
+    assert set(plots_of(page)) <= set(rows)
+    assert [f"#{row}" for row in rows] == [a["href"] for a in page.all("a") if a["href"].startswith("#finding-")]
+
+
+def test_without_its_program_the_page_has_no_button_that_does_nothing(made):
+    assert not Page(made.page).all("button")
 
 
 def test_qc_starts_fast_without_the_plotting_package():

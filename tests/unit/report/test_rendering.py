@@ -34,10 +34,8 @@ def hostile(results: Path, names: tuple[str, ...] = (HOSTILE, f"{HOSTILE} 2", "o
 
 def run_report(results: Path, paths) -> Page:
     """Run the report and read its index."""
-    out = results / "report"
-    flags = ["--index", f"{out}/index.html", "--summary", f"{out}/summary.tsv", "--script", f"{out}/plotly.min.js"]
-    report_script.main(["--qc", *map(str, paths), "--unfinished", *flags])
-    return Page((out / "index.html").read_text(encoding="utf-8"))
+    report_script.main(report_files.report_flags(results / "report", paths))
+    return Page((results / "report/index.html").read_text(encoding="utf-8"))
 
 
 def test_hostile_names_are_text(tmp_path):
@@ -68,8 +66,11 @@ def test_links_lead_to_files_whatever_the_names(tmp_path):
     assert set(links_of(index, tmp_path / "report")) == {made.folder / "page.html", tmp_path / "report/summary.tsv"}
     for target in links_of(Page(made.page), made.folder):
         assert target.is_file(), target
-    assert "../../report/plotly.min.js" in made.page
+    for page, results in ((Page(made.page), "../../"), (index, "../")):
+        assert page.all("body")[0]["data-results"] == results
+    assert '"report/plotly.min.js"' in made.page and '"report/data_set.js"' in made.page
     assert (tmp_path / "report/plotly.min.js").stat().st_size > 1_000_000
+    assert (tmp_path / "report/data_set.js").is_file()
 
 
 def test_a_recording_set_aside_by_ingest_is_named_after_its_folders(made, tmp_path):

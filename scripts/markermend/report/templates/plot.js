@@ -1,5 +1,4 @@
-// Plots are drawn on demand, from data that the page holds compactly.
-const drawing = document.body;
+// The plot of a finding, from data that the page holds compactly.
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); }
 // Each run is [offset, differences of x, of y, of z, ...] in hundredths of a mm; runs are separated by null.
 function unpack(runs, finding) {
@@ -93,7 +92,7 @@ function layout(finding, width) {
   const top = changed ? [[0.77, 1], [0.515, 0.745], [0.26, 0.49]] : [[0.69, 1], [0.345, 0.655], [0, 0.31]];
   return {
     margin: { l: 74, r: 14, t: 62, b: 62 }, height: 610, hovermode: "x", paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
-    font: { family: getComputedStyle(drawing).fontFamily, size: 12, color: colour("ink") },
+    font: { family: getComputedStyle(document.body).fontFamily, size: 12, color: colour("ink") },
     legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" },
     xaxis: { anchor: changed ? "y4" : "y3", range: [low - half, high + half], gridcolor: colour("line"), zeroline: false,
       title: { text: "frame (capture program's number) and time", standoff: 8 }, ...ticks(low, high, finding, width / 90) },
@@ -117,25 +116,3 @@ function draw(place, finding) {
     Plotly.relayout(place, { "xaxis.tickvals": fresh.tickvals, "xaxis.ticktext": fresh.ticktext });
   });
 }
-async function toggle(button) {
-  const row = button.closest("tr");
-  if (button.getAttribute("aria-expanded") === "true") {
-    button.setAttribute("aria-expanded", "false");
-    if (window.Plotly) Plotly.purge(row.nextElementSibling.querySelector(".plot"));
-    row.nextElementSibling.remove();
-    return;
-  }
-  button.setAttribute("aria-expanded", "true");
-  const below = document.createElement("tr"), cell = document.createElement("td"), place = document.createElement("div");
-  below.className = "drawn"; cell.colSpan = row.cells.length; place.className = "plot";
-  cell.append(place); below.append(cell); row.after(below);
-  try {
-    await loadLibrary("../../report/plotly.min.js", "report/plotly.min.js is missing: finish the run, or keep the report folder next to the subjects' folders");
-    if (place.isConnected) draw(place, JSON.parse(document.getElementById(button.dataset.finding).textContent));
-  } catch (error) { place.className = "note bad"; place.textContent = error.message; }
-}
-document.querySelectorAll("button.see").forEach((button) => button.addEventListener("click", () => toggle(button)));
-// A link to page.html#finding-12 opens that plot; otherwise the worst change is open.
-const asked = [...document.querySelectorAll("button.see")].find((button) => "#" + button.dataset.finding === location.hash);
-if (asked) asked.scrollIntoView();
-(asked ?? document.querySelector("button.see"))?.click();

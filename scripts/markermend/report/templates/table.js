@@ -1,4 +1,5 @@
 "use strict";
+document.documentElement.classList.add("scripted");
 // A click on a heading sorts its table; a table shows the rows that match what is typed and chosen above it.
 function cellValue(row, column) {
   const cell = row.cells[column];
@@ -10,11 +11,11 @@ function compare(one, other) {
   if (typeof one === "number" && typeof other === "number") return one - other;
   return String(one).localeCompare(String(other), undefined, { numeric: true });
 }
-function closePlots(table) {
+function closeDetails(table) {
   table.querySelectorAll('button.see[aria-expanded="true"]').forEach((button) => button.click());
 }
 function sortBy(table, heading) {
-  closePlots(table);
+  closeDetails(table);
   const up = heading.getAttribute("aria-sort") === "descending" || (heading.getAttribute("aria-sort") === "none" && !heading.classList.contains("n"));
   table.querySelectorAll("th[aria-sort]").forEach((other) => other.setAttribute("aria-sort", "none"));
   heading.setAttribute("aria-sort", up ? "ascending" : "descending");
@@ -26,7 +27,7 @@ function sortBy(table, heading) {
   table.tBodies[0].append(...rows.map(([, row]) => row));
 }
 function filter(table, tools) {
-  closePlots(table);
+  closeDetails(table);
   const wanted = tools.querySelector("input").value.toLowerCase().split(" ").filter(Boolean);
   const kind = tools.querySelector("select").value;
   let shown = 0;
@@ -37,8 +38,12 @@ function filter(table, tools) {
   }
   tools.querySelector("output").textContent = shown + " of " + table.tBodies[0].rows.length + " rows";
 }
-document.querySelectorAll("th[aria-sort] button").forEach((button) => {
-  button.addEventListener("click", () => sortBy(button.closest("table"), button.parentElement));
+document.querySelectorAll("th[aria-sort]").forEach((heading) => {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.append(...heading.childNodes);
+  heading.append(button);
+  button.addEventListener("click", () => sortBy(heading.closest("table"), heading));
 });
 document.querySelectorAll(".tools").forEach((tools) => {
   const table = document.getElementById(tools.dataset.for);

@@ -1,0 +1,112 @@
+// Decisions are lines of the table that the config names as `decisions`: lists of cells, in the order of its columns. Those that a person
+// makes on these pages wait in the browser, by data set and recording, until a run has followed them.
+const MARKER = 1, FIRST = 2, LAST = 3, VERB = 4, VALUE = 5, NOTE = 6, SUBJECT = 7, RECORDING = 0;
+const PREFIX = "markermend decisions " + results + " ";
+
+function identity(line) { return JSON.stringify(line); }
+function words(line) {
+  return line[MARKER] + (line[FIRST] === "" ? "" : ", frames " + line[FIRST] + "–" + line[LAST]) + ": " +
+    [line[VERB], line[VALUE]].filter(Boolean).join(" ") + (line[NOTE] ? " (" + line[NOTE] + ")" : "");
+}
+
+// What waits: for each recording the lines that were added, and those of the run that were withdrawn.
+const memory = new Map();
+let keeps = true;
+function storage() {
+  try {
+    const test = PREFIX + "test";
+    window.localStorage.setItem(test, "1");
+    window.localStorage.removeItem(test);
+    return window.localStorage;
+  } catch { keeps = false; return null; }
+}
+const store = storage();
+function keyOf(recording, subject) { return PREFIX + JSON.stringify([subject, recording]); }
+function understood(text) {
+  try {
+    const state = JSON.parse(text);
+    const lines = (list) => Array.isArray(list) && list.every((line) => Array.isArray(line) && line.length === 8 && line.every((cell) => typeof cell === "string"));
+    if (lines(state.added) && lines(state.withdrawn)) return state;
+  } catch { /* what somebody else wrote */ }
+  return { added: [], withdrawn: [] };
+}
+function readWaiting(key) { return understood(memory.get(key) ?? store?.getItem(key) ?? "{}"); }
+function writeWaiting(key, state) {
+  const text = JSON.stringify(state), empty = state.added.length + state.withdrawn.length === 0;
+  try {
+    if (empty) store?.removeItem(key); else store?.setItem(key, text);
+    if (store) memory.delete(key);
+  } catch { keeps = false; }
+  if (!store || !keeps) { if (empty) memory.delete(key); else memory.set(key, text); }
+}
+function allWaiting() {
+  const keys = new Set(memory.keys());
+  for (let i = 0; i < (store?.length ?? 0); i++) if (store.key(i).startsWith(PREFIX)) keys.add(store.key(i));
+  return new Map([...keys].sort().map((key) => [key, readWaiting(key)]));
+}
+// What the last run has followed waits no longer.
+function settle(existing) {
+  const known = new Set(existing.map(identity));
+  for (const [key, state] of allWaiting()) {
+    writeWaiting(key, {
+      added: state.added.filter((line) => !known.has(identity(line))),
+      withdrawn: state.withdrawn.filter((line) => known.has(identity(line))),
+    });
+  }
+}
+function countWaiting() {
+  const states = [...allWaiting().values()].filter((state) => state.added.length + state.withdrawn.length);
+  return { recordings: states.length, decisions: states.reduce((sum, state) => sum + state.added.length + state.withdrawn.length, 0) };
+}
+// The whole table: the lines of the run without those that were withdrawn, and then those that were added.
+function tableLines(existing) {
+  const states = [...allWaiting().values()];
+  const withdrawn = new Set(states.flatMap((state) => state.withdrawn).map(identity));
+  return [...existing.filter((line) => !withdrawn.has(identity(line))), ...states.flatMap((state) => state.added)];
+}
+
+// As markermend.storage.tab_separated writes tables.
+const FORMULA = /^'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
+const NUMBER = /^([+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|nan))$/;
+function cellText(value) {
+  const text = FORMULA.test(value) && !NUMBER.test(value) ? "'" + value : value;
+  return /[\t\r\n"]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text;
+}
+function tableText(columns, lines) {
+  return [columns, ...lines].map((line) => line.map(cellText).join("\t") + "\n").join("");
+}
+
+// As markermend.planning.contradictions finds lines that cannot both be followed, which a run refuses.
+function patternsOverlap(one, other) {
+  if (!one && !other) return true;
+  if (other.startsWith("*") && !one.startsWith("*")) [one, other] = [other, one];
+  if (one.startsWith("*")) return patternsOverlap(one.slice(1), other) || (other !== "" && patternsOverlap(one, other.slice(1)));
+  const fits = one !== "" && other !== "" && (one[0] === other[0] || one[0] === "?" || other[0] === "?");
+  return fits && patternsOverlap(one.slice(1), other.slice(1));
+}
+function excludeEachOther(one, other) {
+  const verbs = new Set([one[VERB], other[VERB]]);
+  if (verbs.has("protect")) return false;
+  if (verbs.size === 1) return (verbs.has("class") || verbs.has("method")) && one[VALUE] !== other[VALUE];
+  if (verbs.has("method")) return [one[VALUE], other[VALUE]].includes("leave") && (verbs.has("accept") || verbs.has("class"));
+  const kinds = [one, other].map((line) => line[VALUE].split(":")[0]);
+  if (kinds[0] === kinds[1]) return true;
+  return kinds.includes("") && !kinds.includes("gap");
+}
+function contradict(one, other) {
+  const start = (line) => (line[FIRST] === "" ? -Infinity : Number(line[FIRST]));
+  const stop = (line) => (line[LAST] === "" ? Infinity : Number(line[LAST]));
+  const same = one[RECORDING] === other[RECORDING] && (one[SUBJECT] === "" || other[SUBJECT] === "" || one[SUBJECT] === other[SUBJECT]);
+  return same && start(one) <= stop(other) && start(other) <= stop(one) && excludeEachOther(one, other) && patternsOverlap(one[MARKER], other[MARKER]);
+}
+function contradictions(lines) {
+  const byRecording = new Map();
+  for (const line of lines) byRecording.set(line[RECORDING], [...(byRecording.get(line[RECORDING]) ?? []), line]);
+  return [...byRecording.values()].flatMap((own) => own.flatMap((one, i) => own.slice(i + 1).filter((other) => contradict(one, other)).map((other) => [one, other])));
+}
+
+function download(columns, existing) {
+  const address = URL.createObjectURL(new Blob([tableText(columns, tableLines(existing))], { type: "text/tab-separated-values" }));
+  element("a", { href: address, download: "decisions.tsv" }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 60000);
+}
