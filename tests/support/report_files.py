@@ -25,6 +25,7 @@ from markermend.planning.decision_table import NONE
 from markermend.planning.partial_report import REPORT_FILES
 from markermend.storage import atomic, change_file, mesh_file, originals_file, stage_files
 from markermend.storage.folder_names import encode
+from markermend.storage.original_bytes import OriginalBytes
 from support.treated import Treated
 
 ORIGIN = {"labels": "swap", "peaks": "peak", "noise": "noise", "steps": "step", "slow": "slow"}
@@ -146,7 +147,10 @@ def write(
     change_file.write(folder / "07_changes.parquet", after.changes, {"stage": "fill"})
     applied = applied_changes(before, after, after.changes)
     atomic.write_text(folder / "changes.tsv", change_table(applied, after))
-    originals_file.write(folder / "originals.parquet", find_originals(before, after, applied), {"stage": "export"})
+    nothing = np.zeros(0, int)
+    stored = OriginalBytes(nothing, nothing, nothing, (), np.zeros(0, bool))
+    found = find_originals(before, after, applied)
+    originals_file.write(folder / "originals.parquet", found, stored, {"stage": "export"})
     count = int(changed(before, after).sum())
     certificate = {
         "original_sha256": "ab" * 32, "cleaned_sha256": "cd" * 32, "changed_samples": count,
