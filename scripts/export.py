@@ -7,6 +7,7 @@ copied unchanged, and its certificate says so.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from markermend.core.recording import Recording, Restored, SetAside
 from markermend.core.written import is_reported, written_changes
 from markermend.export import undo, write_back
 from markermend.export.change_table import change_table
-from markermend.formats.text import trc
+from markermend.export.opensim_trc import write_opensim_trc
 from markermend.options.reporting import ExportOptions
 from markermend.storage import atomic, change_file, stage_files
 
@@ -29,7 +30,7 @@ STAGE.writes("cleaned", "the cleaned recording, in the format of the original")
 STAGE.writes("changes", "table of changes, in the capture program's frame numbers")
 STAGE.writes("originals", "the original value of every changed sample, with its bytes")
 STAGE.writes("certificate", "what changed and that nothing else did, as JSON")
-STAGE.writes("trc", "the cleaned recording as TRC besides", many=True)
+STAGE.writes("trc", "the cleaned recording as TRC besides, with y up", many=True)
 
 
 def work(call: Any) -> str:
@@ -43,7 +44,7 @@ def work(call: Any) -> str:
     sha256 = certificate["original_sha256"]
     undo.keep_originals(call.originals, call.source, call.cleaned, measured, written, sha256=sha256, facts=call.facts)
     for path in call.trc:
-        trc.write_new(path, recording=restored)
+        certificate["trc"] = write_opensim_trc(path, replace(restored, facts=measured.facts), call.options)
     atomic.write_json(call.certificate, certificate)
     refused = f", {len(certificate['refused'])} refused" if certificate["refused"] else ""
     places = f"{certificate['changed_samples']} samples changed in {len(written.applied)} places"
@@ -56,7 +57,7 @@ def set_aside(call: Any, note: SetAside) -> None:
     atomic.write_text(call.changes, change_table([], nothing))
     stage_files.set_aside(call.originals, note.stage, note.reason)
     for path in call.trc:
-        trc.write_new(path, recording=nothing)
+        write_opensim_trc(path, nothing, call.options)
     atomic.write_json(call.certificate, certificate)
 
 

@@ -23,7 +23,19 @@ def flags(folder, *trc):
         "certificate": "certificate.json",
     }  # fmt: skip
     named = [word for flag, name in names.items() for word in (f"--{flag}", str(folder / name))]
-    return [*named, "--within", "none", "--trc", *map(str, trc), "--also-trc", "true" if trc else "false"]
+    return [
+        *named,
+        "--within",
+        "none",
+        "--trc",
+        *map(str, trc),
+        "--also-trc",
+        "true" if trc else "false",
+        "--trc-unit",
+        "mm",
+        "--trc-vertical-axis",
+        "+Y",
+    ]
 
 
 @pytest.fixture

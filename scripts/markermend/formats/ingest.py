@@ -141,6 +141,7 @@ def ingest(
             "format": reading.format,
             "unit": reading.unit,
             "columns": list(reading.columns),
+            **({} if reading.screen is None else {"screen": list(reading.screen)}),
         },
         "recording": recording,
         "subject": subject,

@@ -78,5 +78,5 @@ def _of_cells(original: Path, cleaned: Path, format: str, column: np.ndarray, fr
             if cell < len(news) and news[cell] != was:
                 yield sample, cell_starts[cell], cell_starts[cell] + len(news[cell]), was, False
         for added in range(len(olds), len(news)):
-            sample = next(sample for cell, sample in cells if cell >= added)
+            sample = next((sample for cell, sample in cells if cell >= added), cells[-1][1])
             yield sample, cell_starts[added] - len(layout.delimiter), cell_starts[added], b"", True

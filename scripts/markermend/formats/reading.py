@@ -23,6 +23,8 @@ class Reading:
         Index of each marker among the file's trajectories.
     unlabelled, model_outputs : tuple of str
         Names of trajectories that are left alone.
+    screen : tuple of (str, str) or None
+        The directions to the right and to the top of a screen, such as `+X` and `+Z`; None where the file states none.
     missing : dict of str to int
         How many samples are missing, by clause of the missing-sample rule.
     warnings : tuple of str
@@ -35,6 +37,7 @@ class Reading:
     columns: tuple[int, ...]
     unlabelled: tuple[str, ...] = ()
     model_outputs: tuple[str, ...] = ()
+    screen: tuple[str, str] | None = None
     missing: dict[str, int] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 

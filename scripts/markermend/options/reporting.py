@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Literal
 
 from markermend.options.declaration import (
     Count,
@@ -78,9 +78,18 @@ class ExportOptions:
     """Write the cleaned recordings."""
 
     also_trc: Annotated[bool, Laboratory] = False
-    """Whether recordings in C3D are written as TRC besides, as those in CSV and TSV always are.
+    """Whether recordings in C3D are written as TRC besides, as those in CSV and TSV always are; with y up, for OpenSim.
 
     Change it when OpenSim reads the results."""
+
+    trc_unit: Literal["mm", "m"] = "mm"
+    """Unit of these TRC files; OpenSim reads both."""
+
+    trc_vertical_axis: Annotated[Literal["auto", "+X", "+Y", "+Z", "-X", "-Y", "-Z"], Laboratory] = "auto"
+    """The direction of the laboratory that is up, and becomes y in these TRC files; `auto`: as the recording's file states, else `+Z`, unless
+    the markers show another.
+
+    Change it when a TRC file does not stand upright, or in any case where axes must be the same throughout."""
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,13 @@ def test_whatever_stood_in_a_cell_comes_back(tmp_path, cells, last):
         assert_comes_back(path, seed)
 
 
+def test_a_delimiter_behind_a_blank_last_cell_goes_again(tmp_path):
+    content = text_files.make("trc", text_files.positions(), end="\n").replace(b"\t\n", b"\n")
+    for seed in range(5):
+        (tmp_path / "walk.trc").write_bytes(content)
+        assert_comes_back(tmp_path / "walk.trc", seed)
+
+
 def short_rows(tmp_path):
     """A table in which rows end where nothing more was seen."""
     rows = ["Frame,Time," + ",".join(f"{name}_{axis} (mm)" for name in "ABC" for axis in "xyz")]

@@ -51,6 +51,7 @@ def test_facts_state_what_was_read():
         "model_outputs": ["LHipAngles"],
     }
     json.dumps(recording.facts)
+    assert ingested(replace(reading, screen=("+X", "+Z"))).facts["source"]["screen"] == ["+X", "+Z"]
 
 
 def test_a_marker_that_was_never_seen_stays_with_a_warning():

@@ -16,6 +16,9 @@ from markermend.formats.c3d.parameters import Section, read_section
 from markermend.formats.labels import is_unlabelled, tidy_labels
 from markermend.formats.reading import PatchResult, Reading
 
+DIRECTIONS = {f"{sign}{axis}" for sign in "+-" for axis in "XYZ"}
+"""The directions of the laboratory's axes, as POINT:X_SCREEN and Y_SCREEN name them."""
+
 MODEL_GROUPS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS")
 """Parameters of POINT that list the labels of model outputs, whether TYPE_GROUPS names them or not."""
 
@@ -74,6 +77,7 @@ def read(path: Path, *, unlabelled: Sequence[str], unit: str | None = None) -> R
         tuple(columns),
         tuple(nameless),
         tuple(name for name in names if name in outputs),
+        _screen(section),
         missing,
         (*layout.warnings, *warnings, *residual_warnings, *unit_warnings),
     )
@@ -181,6 +185,12 @@ def _model_outputs(section: Section, names: Sequence[str]) -> set[str]:
         pairs = zip(names, declared, strict=False)
         listed.update(name for name, unit in pairs if unit.strip() and units.unit_of(unit) is None)
     return listed & set(names)
+
+
+def _screen(section: Section) -> tuple[str, str] | None:
+    """The directions to the right and to the top of a screen, if they are stated and perpendicular."""
+    right, up = ("".join(section.texts("POINT", f"{axis}_SCREEN")[:1]).strip().upper() for axis in "XY")
+    return (right, up) if {right, up} <= DIRECTIONS and right[1] != up[1] else None
 
 
 def _units(

@@ -15,6 +15,9 @@ from markermend.formats.text.table_rows import frame_rows, writes_decimal_comma
 HEADER_LINES = 15
 """How many lines from the top the line `Frame, Time, X, Y, Z` is looked for."""
 
+SCREEN = ("+X", "+Y")
+"""Motive's axes: y is up."""
+
 UNLABELLED = ("unlabeled", "unlabelled")
 """What Motive writes before the colon and the number of an unlabelled trajectory."""
 
@@ -72,5 +75,6 @@ def describe(sheet: Sheet) -> Layout:
         frames=count_named(header.get("Total Exported Frames", "")),
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
         own_missing=True,
+        screen=SCREEN,
         warnings=tuple(warnings),
     )

@@ -136,7 +136,7 @@ def sample_cells(
     return tuple((text.replace(".", ",") if layout.decimal_comma else text).encode() for text in texts)
 
 
-def line_with(line: bytes, delimiter: bytes, texts: dict[int, bytes]) -> bytes:
+def line_with(line: bytes, delimiter: bytes, texts: dict[int, bytes], *, ended: bool = False) -> bytes:
     """Give a line with other texts in some of its cells; it grows by as many cells as they need.
 
     Parameters
@@ -147,6 +147,8 @@ def line_with(line: bytes, delimiter: bytes, texts: dict[int, bytes]) -> bytes:
         What stands between two cells.
     texts : dict of int to bytes
         New texts by column.
+    ended : bool, optional
+        Whether a delimiter is put behind the last cell where that becomes blank: OpenSim does not count it otherwise.
 
     Returns
     -------
@@ -160,6 +162,8 @@ def line_with(line: bytes, delimiter: bytes, texts: dict[int, bytes]) -> bytes:
             cells += [b""] * (column + 1 - len(cells))
         if column < len(cells):
             cells[column] = _cell_with(cells[column], text, delimiter)
+    if ended and texts.get(len(cells) - 1) == b"" and cells[-1] == b"":
+        cells.append(b"")
     return delimiter.join(cells) + line[len(body) :]
 
 

@@ -121,6 +121,7 @@ def read(path: Path, *, unlabelled: Sequence[str], rate: float | None, unit: str
         columns=tuple(labelled),
         unlabelled=tuple(name for name, skipped in zip(names, nameless, strict=True) if skipped),
         model_outputs=layout.model_outputs,
+        screen=layout.screen,
         missing=missing,
         warnings=tuple(warnings),
     )
@@ -185,7 +186,8 @@ def patch(
                 refused.append((row, columns[marker]))
             else:
                 texts.update(zip(where, new, strict=True))
-        lines[layout.rows[row]] = patching.line_with(lines[layout.rows[row]], layout.delimiter, texts)
+        line = lines[layout.rows[row]]
+        lines[layout.rows[row]] = patching.line_with(line, layout.delimiter, texts, ended=format == "trc")
     with replacing(target) as temporary:
         temporary.write_bytes(content.joined(lines))
     return PatchResult(int(changed.sum()) - len(refused), tuple(refused))

@@ -43,6 +43,8 @@ class Layout:
         Whether numbers are written with a decimal comma.
     own_missing : bool
         Whether a missing sample is written in the way that the file itself writes one, and not left blank.
+    screen : tuple of (str, str) or None
+        The directions to the right and to the top of a screen; None where neither file nor format has any.
     warnings : tuple of str
         One sentence each.
     """
@@ -62,6 +64,7 @@ class Layout:
     frames: int | None = None
     decimal_comma: bool = False
     own_missing: bool = False
+    screen: tuple[str, str] | None = None
     warnings: tuple[str, ...] = ()
 
     def cells_of(self, trajectories: Sequence[int]) -> list[int]:

@@ -93,7 +93,7 @@ def _count_warnings(promised: str, starts: Sequence[int], widths: Sequence[int])
 def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
     """Write a TRC file that OpenSim opens: tabs, missing samples blank, exact counts, a blank line above the data.
 
-    Times start at zero. A recording without frames or markers gives a file without them.
+    Rows end in a tab, without which OpenSim does not count a blank last cell. Times start at zero. A recording without frames or markers gives a file without them.
 
     Parameters
     ----------
@@ -120,5 +120,5 @@ def write_new(path: Path, *, recording: Recording, unit: str = "mm") -> None:
     missing = np.repeat(recording.missing, 3, axis=1).tolist()
     for row, (cells, blank) in enumerate(zip(positions.tolist(), missing, strict=True)):
         written = ["" if void else f"{cell:.{decimals}f}" for cell, void in zip(cells, blank, strict=True)]
-        lines.append("\t".join([str(recording.first_frame + row), f"{row / recording.rate:.6f}", *written]))
+        lines.append("\t".join([str(recording.first_frame + row), f"{row / recording.rate:.6f}", *written, ""]))
     write_text(path, "\n".join(lines) + "\n")

@@ -40,6 +40,15 @@ def test_metres_declared_as_mm_are_warned_of(tmp_path):
     assert reading.unit == "mm" and "may be metres" in " ".join(reading.warnings)
 
 
+@pytest.mark.parametrize(
+    ("right", "up", "screen"),
+    [("+X", "+Z", ("+X", "+Z")), (" -y ", "+Z", ("-Y", "+Z")), ("+X", "-X", None), ("+X", "", None), ("X", "Z", None)],
+)
+def test_directions_of_the_screen(tmp_path, right, up, screen):
+    path = write(tmp_path / "walk.c3d", groups={"POINT": {"X_SCREEN": [right], "Y_SCREEN": [up]}})
+    assert read(path).screen == screen
+
+
 def test_one_unit_per_point(tmp_path):
     groups = {"POINT": {"UNITS": ["mm", "m", "deg", "mm"]}}
     positions = trajectories()

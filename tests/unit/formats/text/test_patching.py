@@ -34,3 +34,18 @@ def test_patch_in_metres_writes_six_decimals(tmp_path: Path) -> None:
     before, after = content.split(b"\n"), patched(tmp_path, content, {(0, 0): [1234.56789, -1, 0]}).split(b"\n")
     assert after[7].split(b",")[10:13] == [b"1.234568", b"-0.001000", b"0.000000"]
     assert [i for i in range(len(before)) if before[i] != after[i]] == [7]
+
+
+def test_a_delimiter_follows_a_last_cell_that_becomes_blank_in_trc_alone(tmp_path: Path) -> None:
+    values = positions()
+    for format, extra in (("trc", b"\t"), ("csv", b"")):
+        content = make(format, values, end="\n").replace(b"\t\n", b"\n")
+        before, after = (
+            text.split(b"\n")
+            for text in (content, patched(tmp_path, content, {(2, 3): [np.nan] * 3, (3, 3): [1.5] * 3}))
+        )
+        changed = [(old, new) for old, new in zip(before, after, strict=True) if old != new]
+        delimiter = b"\t" if format == "trc" else b","
+        assert len(changed) == 2
+        assert changed[0][1] == changed[0][0].rsplit(delimiter, 3)[0] + 3 * delimiter + extra
+        assert changed[1][1].endswith(delimiter + b"1.500")

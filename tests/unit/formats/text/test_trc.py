@@ -93,7 +93,7 @@ def test_new_trc(tmp_path: Path, unit: str) -> None:
     lines = content.split("\n")
     assert lines[2] == f"120\t120\t30\t4\t{unit}\t120\t705\t30"
     assert lines[5] == "" and lines[-1] == "" and "nan" not in content
-    assert {line.count("\t") for line in lines[6:-1]} == {13}
+    assert {line.count("\t") for line in lines[6:-1]} == {14}
     reading = reader.read(tmp_path / "new.trc", unlabelled=[], rate=None)
     assert_positions(reading, values)
     assert reading.warnings == () and reading.recording.first_frame == 705 and reading.unit == unit
