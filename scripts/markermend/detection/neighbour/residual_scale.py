@@ -123,7 +123,8 @@ def fitted_scale(
     local /= level
     scale = fitted_rise(local, neighbours, motion, count=count, window=window)
     scale *= level
-    return np.maximum(scale, min_scale, out=scale)
+    np.maximum(scale, min_scale, out=scale)
+    return scale
 
 
 def fitted_rise(
@@ -151,7 +152,8 @@ def fitted_rise(
     """
 
     def rise_of(m: int) -> np.ndarray:
-        return np.nan_to_num(relative[:, m], nan=1.0)
+        rise: np.ndarray = np.nan_to_num(relative[:, m], nan=1.0)
+        return rise
 
     def regressors(m: int) -> np.ndarray:
         around = neighbours[m][:count]
