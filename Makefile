@@ -4,7 +4,7 @@ BIN := .venv/bin
 CORES ?= all
 SIZE ?= full
 RESULTS ?= results
-# Only networks need it (config/README.md), and it is large: `make demo TORCH=` does without.
+# For networks (config/README.md), which tests and papers train: 750 of 1,700 MB. Nothing else installs it; `TORCH=` never does.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
 .PHONY: demo papers test test-papers test-cluster faults wheel lint config lock clean
@@ -16,17 +16,17 @@ demo: .venv/ready
 	@echo "$(CURDIR)/demo/results/report/index.html"
 
 # The experiments of the papers (config/evaluate): SIZE=quick takes minutes; RECORDINGS=FOLDER in place of a synthetic person.
-papers: .venv/ready
+papers: .venv/networks
 	$(BIN)/snakemake --cores $(CORES) papers --configfile config/evaluate/$(SIZE).yaml --config results=$(RESULTS) \
 		$(if $(RECORDINGS),"recordings=$(RECORDINGS)")
 	@echo
 	@echo "$(abspath $(RESULTS))/papers/index.html"
 
-test: lint
+test: lint .venv/networks
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network and not cluster"
 
 # The experiments of the papers at quick size, on a synthetic person: some minutes.
-test-papers: .venv/ready
+test-papers: .venv/networks
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -m slow tests/workflow/test_papers.py
 
 # A small SLURM cluster on this machine; skipped where SLURM is not installed, or without root.
@@ -64,10 +64,15 @@ lock: .venv/ready
 		--output-file requirements.lock
 	rm -r .venv-lock
 
-.venv/ready: requirements.lock envs/torch.yaml
+.venv/ready: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| (echo "markermend needs Python 3.11 or later: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1)
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --require-hashes --requirement requirements.lock
+	touch $@
+
+# The lock has the last word on what both need.
+.venv/networks: .venv/ready envs/torch.yaml
 	$(if $(TORCH),$(BIN)/pip install --quiet $(TORCH))
 	$(BIN)/pip install --quiet --require-hashes --requirement requirements.lock
 	touch $@

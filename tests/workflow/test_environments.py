@@ -92,12 +92,16 @@ def test_the_code_imports_nothing_else_and_torch_where_networks_train():
     ]
 
 
-def test_make_installs_the_torch_of_the_environment():
-    command = ["make", "--dry-run", "--always-make", ".venv/ready"]
-    usual = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+def test_make_installs_torch_for_networks_alone_and_that_of_the_environment():
+    def commands(*words):
+        command = ["make", "--dry-run", "--always-make", *words]
+        return subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True).stdout
+
     version = yaml.safe_load((PROJECT / "envs/torch.yaml").read_text())["dependencies"][-1]["pip"][0]
     assert version.startswith("torch==")
-    # before the lock, which then has the last word on what both need
-    assert usual.index(f"pip install --quiet {version}\n") < usual.index("--require-hashes")
-    without = subprocess.run([*command, "TORCH="], cwd=PROJECT, capture_output=True, text=True, check=True).stdout
-    assert "torch" not in without
+    for target in ("test", "papers"):
+        usual = commands(target)
+        # before the lock, which then has the last word on what both need
+        assert usual.index(f"pip install --quiet {version}\n") < usual.rindex("--require-hashes")
+        assert "torch" not in commands(target, "TORCH=")
+    assert "torch" not in commands("demo") + commands("demo", "TORCH=") + commands("faults")

@@ -111,7 +111,7 @@ def test_before_a_run_stands_what_it_will_take(runs, folder, capsys):
 @pytest.mark.parametrize(
     ("words", "status", "said"),
     [
-        (["cleen", "data"], 2, "markermend has no command 'cleen'; did you mean clean?"),
+        (["cleanup", "data"], 2, "markermend has no command 'cleanup'; did you mean clean?"),
         (["data"], 2, "markermend has no command 'data': see markermend --help"),
         (["clean"], 2, "the following arguments are required: FOLDER (see markermend clean --help)"),
         (["clean", "data", "--preste", "gait"], 2, "'--preste' means nothing here; did you mean --preset? (see markermend clean --help)"),
