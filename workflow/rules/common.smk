@@ -29,7 +29,7 @@ DEPLOYED = bool(workflow.deployment_settings.deployment_method)
 PYTHON = "python" if DEPLOYED else sys.executable
 
 try:
-    plan = make_plan(config, PROJECT, deployed=DEPLOYED)
+    plan = make_plan(config, PROJECT, deployed=DEPLOYED, checks_names=workflow.is_main_process)
 except (BadDataSet, OSError) as error:
     raise WorkflowError(str(error))
 

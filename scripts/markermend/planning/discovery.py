@@ -59,10 +59,10 @@ def find_recordings(general: GeneralOptions, results: str, *, schemas: Path) -> 
         config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)
         found = recording_table.from_rows(rows, path)
     else:
+        asked = "which recordings? There is" if general.recordings == GeneralOptions().recordings else "there is"
         raise NoRecordings(
-            f"recordings: no such folder or table: {path}\n"
-            "Name the folder that holds them: --config recordings=FOLDER results=FOLDER\n"
-            "or a table of them (config/README.md); `make demo` shows both on made-up recordings"
+            f"recordings: {asked} no such folder or table: {path}. Name the folder of your recordings, or a table of them: --config "
+            "recordings=FOLDER results=FOLDER"
         )
     return {entry.folders: entry for entry in found}, warnings
 

@@ -25,6 +25,7 @@ from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes, unnoticed_changes
 from markermend.planning.data_set import DataSet, Wildcards, find_data_set
+from markermend.planning.marker_names import unknown_names
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
@@ -266,7 +267,7 @@ class Plan:
                 write_list(listed.format(subject=subject), self._of_subject(pattern, subject))
 
 
-def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
+def make_plan(config: dict[str, Any], project: Path, *, deployed: bool, checks_names: bool = False) -> Plan:
     """Plan a run.
 
     Parameters
@@ -277,6 +278,8 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         The folder of the Snakefile.
     deployed : bool
         Whether stages run in environments of their own.
+    checks_names : bool, optional
+        Whether names of markers that people wrote are held against those of the recordings.
 
     Returns
     -------
@@ -300,11 +303,12 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool) -> Plan:
         *code_changes(project, Path(files.provenance)),
         *unnoticed_changes(Path(results), Path(files.provenance)),
     ]
+    names = unknown_names(options["general"].protect, data.decisions, data.entries) if checks_names else []
     return Plan(
         options=options,
         project=project,
         files=files,
         data=data,
         failures=failures,
-        warnings=[*planning_config.warnings(options), *warnings, *changes],
+        warnings=[*planning_config.warnings(options), *warnings, *names, *changes],
     )

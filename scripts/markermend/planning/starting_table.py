@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from markermend.core.recording import BadRecording
-from markermend.formats.extent import find_extent
+from markermend.formats.outline import read_outline
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.planning import recordings
@@ -215,7 +215,7 @@ def _unreadable(entries: Iterable[Entry]) -> list[str]:
     notes = []
     for entry in entries:
         try:
-            find_extent(Path(entry.source))
+            read_outline(Path(entry.source))
         except (BadRecording, OSError) as error:
             notes.append(f"{entry.subject}/{entry.recording} will be set aside as it is: {error}")
     return notes

@@ -47,7 +47,9 @@ def read_table(
     except OSError as error:
         raise BadDataSet(f"{what}: {path} cannot be read ({error.strerror})") from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise BadDataSet(f"{what}: {path} is not a table in UTF-8 text ({error})") from error
+        raise BadDataSet(
+            f"{what}: {path} is not a table in UTF-8 text: save it with tabs or commas between its columns (in a spreadsheet: CSV UTF-8)"
+        ) from error
     names = table[0][1] if table else []
     repeated = [name for name, count in Counter(names).items() if count > 1 and name]
     if repeated:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from markermend.core.recording import BadRecording
-from markermend.formats.extent import Extent, find_extent
+from markermend.formats.outline import Outline, read_outline
 from markermend.planning.recordings import Entry
 from markermend.planning.result_files import QUALITY
 from markermend.terminal.progress import duration
@@ -44,10 +44,10 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     """
     count, subjects = len(entries), len({entry.subject for entry in entries})
     looked_at = entries[:: math.ceil(count / LOOKED_AT)]
-    extents = [extent for extent in map(_extent, looked_at) if extent]
+    outlines = [outline for outline in map(_outline, looked_at) if outline]
     share = count / len(looked_at)
-    seconds = share * sum(extent.seconds for extent in extents if math.isfinite(extent.seconds))
-    work = count * CPU_PER_RECORDING_S + share * CPU_PER_SAMPLE_S * sum(extent.samples for extent in extents)
+    seconds = share * sum(outline.seconds for outline in outlines if math.isfinite(outline.seconds))
+    work = count * CPU_PER_RECORDING_S + share * CPU_PER_SAMPLE_S * sum(outline.samples for outline in outlines)
     of_cores = min(cores or 1, count)
     where = f"on {_count(cores, 'core')}" if cores else "of one core"
     done = sum(
@@ -60,12 +60,12 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     )
 
 
-def _extent(entry: Entry) -> Extent | None:
-    """How much there is in a recording; nothing in one that will be set aside."""
+def _outline(entry: Entry) -> Outline | None:
+    """The outline of a recording; nothing in one that will be set aside."""
     if entry.leads_out or entry.is_no_file:
         return None
     try:
-        return find_extent(Path(entry.source), rate=entry.rate)
+        return read_outline(Path(entry.source), rate=entry.rate)
     except (BadRecording, OSError):
         return None
 

@@ -45,7 +45,7 @@ def test_of_many_recordings_some_stand_for_all(entries, tmp_path, monkeypatch):
     monkeypatch.setattr(estimate, "LOOKED_AT", 10)
     looked_at = []
     monkeypatch.setattr(
-        estimate, "find_extent", lambda path, rate: looked_at.append(path) or estimate.Extent(600, 2, 6.0)
+        estimate, "read_outline", lambda path, rate: looked_at.append(path) or estimate.Outline(("A", "B"), 600, 6.0)
     )
     text = estimate.line(entries[:1] * 95, tmp_path, cores=1)
     assert len(looked_at) == 10 and text.startswith("95 recordings of 1 subject, 10 min of data: about 10 min")

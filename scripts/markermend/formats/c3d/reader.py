@@ -50,7 +50,7 @@ def read(path: Path, *, unlabelled: Sequence[str], unit: str | None = None) -> R
         If the file is not a C3D file, holds no points, or has a unit that is not one of length.
     """
     section, layout = _open(path)
-    names, warnings = _names(section, layout)
+    names, warnings = point_names(section, layout)
     outputs = _model_outputs(section, names)
     nameless = [name for name in names if name not in outputs and is_unlabelled(name, unlabelled)]
     columns = [c for c, name in enumerate(names) if name not in outputs and name not in set(nameless)]
@@ -156,8 +156,23 @@ def _positions(
     return positions, {clause: int(caught.sum()) for clause, caught in missing.items()}, credible
 
 
-def _names(section: Section, layout: Layout) -> tuple[list[str], list[str]]:
-    """One unique name per point, from LABELS, LABELS2 and so on, and warnings."""
+def point_names(section: Section, layout: Layout) -> tuple[list[str], list[str]]:
+    """Name the points of a file, from LABELS, LABELS2 and so on.
+
+    Parameters
+    ----------
+    section : Section
+        Its parameters.
+    layout : Layout
+        Where its data lie.
+
+    Returns
+    -------
+    names : list of str
+        One for each point, unique.
+    warnings : list of str
+        What is odd about the labels, one sentence each.
+    """
     labels = section.texts("POINT", "LABELS")
     page = 2
     while len(labels) < layout.points and (more := section.texts("POINT", f"LABELS{page}")):
