@@ -8,12 +8,12 @@ import sys
 import pytest
 
 from support.paths import PROJECT
-from support.workflow_runs import write_recording
+from support.workflow_runs import Project, write_recording
 
 COMMAND = "import sys; from markermend.terminal.command_line import main; sys.exit(main())"
 
 
-def markermend(*words, status=0):
+def markermend(*words, status=0, cwd=None):
     """Run the command; gives what it shows."""
     environment = {**os.environ, "PYTHONPATH": str(PROJECT / "scripts"), "COLUMNS": "200"}
     done = subprocess.run(
@@ -22,6 +22,7 @@ def markermend(*words, status=0):
         stderr=subprocess.STDOUT,
         text=True,
         env=environment,
+        cwd=cwd,
     )
     assert done.returncode == status, done.stdout
     return done.stdout.splitlines()
@@ -105,3 +106,36 @@ def test_the_module_is_the_command(tmp_path):
         for words in (["-m", "markermend"], ["-c", COMMAND])
     ]
     assert shown[0] == shown[1] != ""
+
+
+@pytest.mark.parametrize(
+    ("config", "said"),
+    [
+        ([], "recordings: which recordings? There is no such folder or table: {here}/config/recordings.tsv. Name the folder"),
+        (["recordings=nowhere"], "recordings: there is no such folder or table: {here}/nowhere. Name the folder"),
+        (["recordings=empty"], "recordings: no recording (.c3d, .trc, .csv, .tsv) in {here}/empty or below"),
+        (["recordings=Snakefile"], "recordings: {here}/Snakefile has no column recording, subject, file"),
+        (["recordings=empty", "protcet=[A]"], "protcet: there is no such key; did you mean protect?"),
+        (["recordings=empty", "fill=3"], "fill: "),
+    ],
+)  # fmt: skip
+def test_snakemake_by_itself_says_a_mistake_without_a_traceback(tmp_path, config, said):
+    project = Project(tmp_path)
+    (project.folder / "empty").mkdir()
+    words = ["-m", "snakemake", "--dry-run", "--cores", "1", "--config", "results=out", *config]
+    done = subprocess.run(
+        [sys.executable, *words], cwd=project.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    assert done.returncode == 1 and said.format(here=project.folder) in done.stdout and "Traceback" not in done.stdout
+
+
+def test_names_that_no_marker_has_are_said_before_and_after_a_run(recordings, tmp_path):
+    (tmp_path / "own.yaml").write_text("protect: [m2, M3]\ndecisions: decisions.tsv\n")
+    (tmp_path / "decisions.tsv").write_text("recording\tmarker\tdecision\na\tM33\tprotect\n")
+    options = ["--options", tmp_path / "own.yaml", "--results", tmp_path / "out"]
+    lines = markermend("look", recordings, *options, "--cores", "2", cwd=tmp_path)
+    said = [line for line in lines if line.startswith(("protect", "decisions"))]
+    assert said == 2 * [
+        "protect: no recording has a marker m2; did you mean M2?",
+        "decisions: S01/a has no marker M33; did you mean M3?",
+    ]

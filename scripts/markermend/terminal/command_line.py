@@ -18,7 +18,8 @@ from rich.console import Console
 from markermend.command import run_workflow, verification
 from markermend.options.general import GeneralOptions
 from markermend.planning import run_summary
-from markermend.planning.discovery import find_recordings
+from markermend.planning.discovery import find_decisions, find_recordings
+from markermend.planning.marker_names import unknown_names
 from markermend.planning.option_files import read_option_files
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY
@@ -70,7 +71,7 @@ def _clean(call: argparse.Namespace, given: list[str]) -> int:
     if problem := run_workflow.config_file_problem(arguments):
         return _refuse(problem)
     try:
-        print(_estimate(call, [*files, *call.options], profile="--profile" in given), file=sys.stderr)
+        print(*_announce(call, [*files, *call.options], profile="--profile" in given), sep="\n", file=sys.stderr)
     except BadDataSet as error:
         return _refuse(str(error))
     # A plan is shown as Snakemake prints it.
@@ -88,16 +89,16 @@ def _look(call: argparse.Namespace, given: list[str]) -> int:
     return _clean(call, given)
 
 
-def _estimate(call: argparse.Namespace, files: Sequence[str], *, profile: bool) -> str:
-    """What a run will take, in a line."""
-    general: GeneralOptions = read_option_files(files)["general"]
-    found, _ = find_recordings(
-        replace(general, recordings=call.recordings),
-        os.path.abspath(call.results),
-        schemas=workflow_folder() / "workflow/schemas",
-    )
+def _announce(call: argparse.Namespace, files: Sequence[str], *, profile: bool) -> list[str]:
+    """What a run will take, in a line, and names that people wrote and no marker has."""
+    options = read_option_files(files)
+    general: GeneralOptions = replace(options["general"], recordings=call.recordings)
+    schemas = workflow_folder() / "workflow/schemas"
+    found, _ = find_recordings(general, os.path.abspath(call.results), schemas=schemas)
+    decisions, _ = find_decisions(options, list(found.values()))
     cores = None if profile and not call.cores else _cores(call.cores)
-    return estimate.line(list(found.values()), call.results, cores=cores)
+    line = estimate.line(list(found.values()), call.results, cores=cores)
+    return [line, *unknown_names(general.protect, decisions, found)]
 
 
 def _cores(words: str | None) -> int:
