@@ -71,6 +71,7 @@ def test_the_script_writes_markers_and_facts(tmp_path):
         "format": "c3d",
         "unit": "mm",
         "columns": [0, 2, 3],
+        "screen": ["+X", "+Z"],
     }
     assert facts["missing"]["residual"] == 1 and facts["unlabelled"] == ["*1"] and facts["stage"] == "ingest"
     first = target.read_bytes()

@@ -13,6 +13,7 @@ import numpy as np
 from markermend.core.recording import BadRecording, Recording, SourceChanged
 from markermend.formats import files, units
 from markermend.formats.computed_points import computed_points
+from markermend.formats.notes import Note
 from markermend.formats.placeholders import find_placeholders
 from markermend.formats.reading import Reading
 from markermend.options.ingest import IngestOptions
@@ -130,7 +131,7 @@ def ingest(
     reading = _without_placeholders(reading, min_distance_mm=options.min_placeholder_distance_mm)
     markers = reading.recording
     _check_usable(reading, source, options)
-    warnings = list(reading.warnings)
+    warnings = [text for text in reading.warnings if not isinstance(text, Note)]
     never = [markers.markers[m] for m in np.flatnonzero(markers.missing.all(axis=0))]
     if never:
         warnings.append(f"Never seen: {', '.join(never)}.")
@@ -149,6 +150,7 @@ def ingest(
         "kind_reason": reason,
         "missing": reading.missing,
         "warnings": warnings,
+        "notes": [str(text) for text in reading.warnings if isinstance(text, Note)],
         "unlabelled": list(reading.unlabelled),
         "model_outputs": list(reading.model_outputs),
     }

@@ -28,7 +28,7 @@ class Reading:
     missing : dict of str to int
         How many samples are missing, by clause of the missing-sample rule.
     warnings : tuple of str
-        What a person should know about the file, one sentence each.
+        What a person should know about the file, one sentence each; facts that ask for nothing are of type Note.
     """
 
     recording: Recording

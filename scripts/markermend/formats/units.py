@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from markermend.formats.notes import Note
+
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 """Length of each unit in mm."""
 
@@ -32,7 +34,7 @@ LARGEST_IN_METRES = 20.0
 """Coordinates that stay below this are metres: a capture volume in mm exceeds it, one in metres does not."""
 
 SMALLEST_IN_MILLIMETRES = 200.0
-"""Coordinates that exceed this in metres are millimetres: no capture volume is so large."""
+"""Where 5 % of the coordinates exceed this they are millimetres: no capture volume has so many metres."""
 
 ROWS_FOR_UNIT = 1000
 """About how many rows of coordinates, evenly spaced, the unit is inferred from."""
@@ -71,7 +73,7 @@ def settle(stated: Sequence[str | None], *, given: str | None, coordinates: np.n
     used : list of str
         The unit of each trajectory. Where nobody states one, it is m if 95 % of the coordinates are below LARGEST_IN_METRES, else mm.
     warnings : list of str
-        What was assumed, or is implausible, one sentence each.
+        What was assumed, or is implausible, one sentence each; a Note where there is no doubt.
     """
     named = list(dict.fromkeys(unit for unit in stated if unit is not None))
     if given is not None:
@@ -82,6 +84,8 @@ def settle(stated: Sequence[str | None], *, given: str | None, coordinates: np.n
     assumed = "m" if 0 < size < LARGEST_IN_METRES else "mm"
     used = [assumed if unit is None else unit for unit in stated]
     wrong = "The file's unit is {}, but the coordinates are so {} that they may be {}: if so, state the `unit` in the recordings table."
+    if None in stated and size > SMALLEST_IN_MILLIMETRES:
+        return used, [Note("The file states no unit; its coordinates are mm, being too large for m.")]
     if None in stated:
         return used, [f"The file states no unit; by the size of its coordinates, {assumed} is assumed."]
     if "mm" in named and assumed == "m":

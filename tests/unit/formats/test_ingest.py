@@ -9,6 +9,7 @@ import pytest
 
 from markermend.core.recording import BadRecording, Recording
 from markermend.formats.ingest import ingest, motion_mm, recording_kind
+from markermend.formats.notes import Note
 from markermend.formats.reading import Reading
 from markermend.options.ingest import IngestOptions
 
@@ -38,7 +39,7 @@ def kind(recording, name="walk", stated="auto"):
 
 def test_facts_state_what_was_read():
     reading = reading_of(moving(), unlabelled=("*1",), model_outputs=("LHipAngles",), missing={"residual": 3})
-    recording = ingested(replace(reading, warnings=("Odd.",)))
+    recording = ingested(replace(reading, warnings=("Odd.", Note("Plain."))))
     assert recording.facts == {
         "source": {"name": "walk.c3d", "format": "c3d", "unit": "mm", "columns": list(range(10))},
         "recording": "walk",
@@ -47,6 +48,7 @@ def test_facts_state_what_was_read():
         "kind_reason": "Nine markers in ten move up to 395 mm; under 15 mm is static.",
         "missing": {"residual": 3},
         "warnings": ["Odd."],
+        "notes": ["Plain."],
         "unlabelled": ["*1"],
         "model_outputs": ["LHipAngles"],
     }

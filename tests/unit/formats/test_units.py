@@ -7,6 +7,7 @@ import pytest
 
 from markermend.core.recording import BadRecording
 from markermend.formats import files, units
+from markermend.formats.notes import Note
 from support import c3d_files, text_files
 
 CASES = [
@@ -45,7 +46,8 @@ def test_what_is_no_unit_of_length(name: str) -> None:
 def assumed(coordinates: np.ndarray) -> str:
     """The unit of a file that states none."""
     (unit,), warnings = units.settle([None], given=None, coordinates=coordinates)
-    assert warnings == [f"The file states no unit; by the size of its coordinates, {unit} is assumed."]
+    (text,) = warnings
+    assert text.startswith("The file states no unit")
     return unit
 
 
@@ -59,6 +61,12 @@ def test_metres_are_recognised_by_the_size_of_95_percent_of_the_coordinates(size
     coordinates[::9, 3] = np.inf
     assert assumed(coordinates) == unit
     assert assumed(-coordinates) == unit
+
+
+@pytest.mark.parametrize(("size", "doubt"), [(0.5, True), (150.0, True), (250.0, False), (1e5, False)])
+def test_what_cannot_be_metres_is_millimetres_without_a_warning(size: float, doubt: bool) -> None:
+    _, (text,) = units.settle([None], given=None, coordinates=np.full((9, 3), size))
+    assert isinstance(text, Note) != doubt
 
 
 def test_without_coordinates_millimetres_are_assumed() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from markermend.formats.c3d.parameters import BLOCK, Section
+from markermend.formats.notes import Note
 
 SATURATED = 65535
 """The largest count that a 16-bit word holds; longer recordings store it, or the remainder."""
@@ -231,9 +232,9 @@ def frame_rate(section: Section) -> tuple[float, list[str]]:
     """
     stated, written = section.number("POINT", "RATE"), section.header.rate
     usable = [rate for rate in (stated, written) if rate is not None and math.isfinite(rate) and rate > 0]
-    warnings = []
+    warnings: list[str] = []
     if stated is not None and stated in usable and written in usable and abs(written / stated - 1) > 0.001:
         warnings.append(f"The rate is {written:g} Hz by the header and {stated:g} Hz by POINT:RATE, which is used.")
     elif usable and stated not in usable:
-        warnings.append(f"POINT:RATE is missing or unusable; the header's {written:g} Hz is used.")
+        warnings.append(Note(f"POINT:RATE is missing or unusable; the header's {written:g} Hz is used."))
     return (float(usable[0]) if usable else math.nan), warnings

@@ -14,6 +14,7 @@ from markermend.formats.c3d import points as c3d_points
 from markermend.formats.c3d.data_layout import Layout, locate
 from markermend.formats.c3d.parameters import Section, read_section
 from markermend.formats.labels import is_unlabelled, tidy_labels
+from markermend.formats.notes import Note
 from markermend.formats.reading import PatchResult, Reading
 
 DIRECTIONS = {f"{sign}{axis}" for sign in "+-" for axis in "XYZ"}
@@ -183,7 +184,7 @@ def point_names(section: Section, layout: Layout) -> tuple[list[str], list[str]]
         warnings.append(f"Only {len(labels)} labels for {layout.points} points; the others count as unlabelled.")
         labels += [""] * (layout.points - len(labels))
     if any(label.strip() for label in labels[layout.points :]):
-        warnings.append(f"{len(labels)} labels for {layout.points} points; those beyond were left out.")
+        warnings.append(Note(f"{len(labels)} labels for {layout.points} points; those beyond were left out."))
     names, more_warnings = tidy_labels(labels[: layout.points])
     return names, warnings + more_warnings
 

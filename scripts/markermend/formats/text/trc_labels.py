@@ -7,11 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from markermend.core.recording import BadRecording
+from markermend.formats.notes import Note
 
 IN_ORDER = (
     "The labels do not stand above their columns; there are as many as trajectories, and they are taken in order."
 )
-BETWEEN_BLANKS = "The labels are separated by blanks; there are as many as trajectories, and they are taken in order."
+BETWEEN_BLANKS = Note(
+    "The labels are separated by blanks; there are as many as trajectories, and they are taken in order."
+)
 
 
 @dataclass(frozen=True)
