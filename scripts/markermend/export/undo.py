@@ -153,7 +153,7 @@ def undo(
     kept, stored = _kept(originals)
     selected = select_findings(kept, markers=markers, frames=frames)
     if (markers or frames) and not selected.any():
-        raise NothingNamed(f"{cleaned}: nothing that was changed has these markers and frames, which changes.tsv lists")
+        raise NothingNamed(f"{cleaned}: none of its changes is of these markers and frames, see changes.tsv")
     restored = Restoration(int(selected.sum()), _stretches(kept, selected), int((~selected).sum()))
     with atomic.replacing(target, source=cleaned) as temporary:
         with open(temporary, "wb") as file:

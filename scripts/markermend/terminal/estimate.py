@@ -19,7 +19,10 @@ CPU_PER_RECORDING_S = 6.0
 """Time of a core that every recording takes, s (benchmarks/results/runtime.tsv: all jobs of 85_12 and STS1)."""
 
 CPU_PER_SAMPLE_S = 4.1e-5
-"""Time of a core that a sample of a marker takes besides, s: 0.3 s for a minute of a marker at 120 Hz. Many gaps take up to three times as much."""
+"""Time of a core that a sample of a marker takes besides, s: 0.3 s for a minute of a marker at 120 Hz."""
+
+MOST = 3.0
+"""How many times as long recordings with many gaps and artifacts may take."""
 
 LOOKED_AT = 200
 """Recordings that are looked at; of more, as many evenly spaced ones stand for all."""
@@ -40,7 +43,8 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     Returns
     -------
     str
-        Recordings, subjects, duration of the data, and about how long it will take from nothing; how many have results already.
+        Recordings, subjects, duration of the data, and about how long it will take from nothing: if they are clean, and if they have many gaps and
+        artifacts; how many have results already.
     """
     count, subjects = len(entries), len({entry.subject for entry in entries})
     looked_at = entries[:: math.ceil(count / LOOKED_AT)]
@@ -49,6 +53,7 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     seconds = share * sum(outline.seconds for outline in outlines if math.isfinite(outline.seconds))
     work = count * CPU_PER_RECORDING_S + share * CPU_PER_SAMPLE_S * sum(outline.samples for outline in outlines)
     of_cores = min(cores or 1, count)
+    most = duration(MOST * work / of_cores)
     where = f"on {_count(cores, 'core')}" if cores else "of one core"
     done = sum(
         (results / subject / recording / QUALITY).exists() for subject, recording in (e.folders for e in entries)
@@ -56,7 +61,7 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     there = f"; {done} of them have results, which are kept where nothing has changed" if done else ""
     return (
         f"{_count(count, 'recording')} of {_count(subjects, 'subject')}, {duration(seconds)} of data: "
-        f"about {duration(work / of_cores)} {where}{there}"
+        f"about {duration(work / of_cores)} to {most} {where}{there}"
     )
 
 

@@ -103,9 +103,9 @@ def test_every_command_has_help():
 
 def test_before_a_run_stands_what_it_will_take(runs, folder, capsys):
     assert command_line.main(["look", str(folder), "--cores", "2"]) == 0
-    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s on 2 cores\n"
+    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s to 19 s on 2 cores\n"
     assert command_line.main(["clean", str(folder), "--", "--profile", "profiles/slurm"]) == 0
-    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s of one core\n"
+    assert capsys.readouterr().err == "1 recording of 1 subject, 12 s of data: about 6 s to 19 s of one core\n"
 
 
 @pytest.mark.parametrize(

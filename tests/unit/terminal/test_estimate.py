@@ -26,11 +26,12 @@ def entries(tmp_path):
 def test_recordings_data_and_time(entries, tmp_path):
     # 4 recordings of 6 s, and 36,000 samples of 41 us.
     assert (
-        estimate.line(entries, tmp_path, cores=1) == "4 recordings of 2 subjects, 3 min of data: about 25 s on 1 core"
+        estimate.line(entries, tmp_path, cores=1)
+        == "4 recordings of 2 subjects, 3 min of data: about 25 s to 76 s on 1 core"
     )
-    assert estimate.line(entries, tmp_path, cores=2).endswith("about 13 s on 2 cores")
-    assert estimate.line(entries, tmp_path, cores=64).endswith("about 6 s on 64 cores")
-    assert estimate.line(entries, tmp_path, cores=None).endswith("about 25 s of one core")
+    assert estimate.line(entries, tmp_path, cores=2).endswith("about 13 s to 38 s on 2 cores")
+    assert estimate.line(entries, tmp_path, cores=64).endswith("about 6 s to 19 s on 64 cores")
+    assert estimate.line(entries, tmp_path, cores=None).endswith("about 25 s to 76 s of one core")
 
 
 def test_results_that_are_there_are_counted(entries, tmp_path):
@@ -48,7 +49,9 @@ def test_of_many_recordings_some_stand_for_all(entries, tmp_path, monkeypatch):
         estimate, "read_outline", lambda path, rate: looked_at.append(path) or estimate.Outline(("A", "B"), 600, 6.0)
     )
     text = estimate.line(entries[:1] * 95, tmp_path, cores=1)
-    assert len(looked_at) == 10 and text.startswith("95 recordings of 1 subject, 10 min of data: about 10 min")
+    assert len(looked_at) == 10 and text.startswith(
+        "95 recordings of 1 subject, 10 min of data: about 10 min to 29 min "
+    )
 
 
 def test_the_figures_are_those_that_were_measured():

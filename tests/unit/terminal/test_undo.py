@@ -85,7 +85,7 @@ def test_what_is_not_there_is_said_in_one_line(results, tmp_path, capsys):
     assert run(results, "wlak", "--to", tmp_path / "back") == 1
     assert capsys.readouterr().err == f"There is no recording wlak in {results}; did you mean walk?\n"
     assert run(results, "--to", tmp_path / "back", "--markers", "LANK") == 1
-    assert capsys.readouterr().err.endswith("has these markers and frames, which changes.tsv lists\n")
+    assert capsys.readouterr().err.endswith("none of its changes is of these markers and frames, see changes.tsv\n")
     assert not (tmp_path / "back").exists() or not any((tmp_path / "back").rglob("*.c3d"))
 
 
