@@ -1,10 +1,15 @@
 """Files that failed once, each for its whole kind."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
 from markermend import api
 from markermend.core.events import Event
+from support.paths import PROJECT
 
 TOO_LITTLE = [
     ("finger_tap.trc", {"Thumb", "Index"}),
@@ -62,6 +67,64 @@ def test_a_marker_far_away(data, name, found):
     truth = api.read(data / "field" / "jump03m_found.trc").positions[place] - (200.0, 150.0, -200.0)
     assert np.linalg.norm(cleaned.recording.positions[place] - truth, axis=1).max() < 6
     assert len(cleaned.mesh.neighbours[far.marker]) == 30
+
+
+@pytest.mark.data
+@pytest.mark.parametrize(("name", "missing"), [("swap_onesided.trc", (120, 160)), ("swap_with_gap.trc", (135, 145))])
+def test_labels_exchanged_while_one_is_missing(data, tmp_path, name, missing):
+    """They are undone and filled, and the changes are exported and listed."""
+    source = data / "field" / name
+    recording = api.read(source)
+    cleaned = api.clean(recording)
+    table = tmp_path / "changes.tsv"
+    api.write(cleaned, source, tmp_path / name, changes=table)
+    assert not cleaned.recording.missing.any()
+    truth = api.read(data / "field" / "labels_spaces.trc").positions
+    two = [recording.markers.index(marker) for marker in ("M02", "M05")]
+    error = np.linalg.norm(cleaned.recording.positions[:, two] - truth[:, two], axis=2)
+    gap = np.zeros(error.shape, bool)
+    gap[slice(*missing)] = recording.missing[slice(*missing)][:, two[::-1]]
+    assert gap.sum() == missing[1] - missing[0]
+    assert error[~gap].max() == 0 and error[gap].max() < 2
+    written = api.read(tmp_path / name)
+    np.testing.assert_allclose(written.positions, cleaned.recording.positions, rtol=0, atol=0.000501)
+    rows = [line.split("\t") for line in table.read_text().splitlines()[1:]]
+    assert {(row[1], row[6]) for row in rows} == {("M02", "swap"), ("M05", "swap")}
+
+
+@pytest.mark.data
+def test_nothing_but_the_overflow_of_two_persons_is_altered(data):
+    """All other points lie on rigid bodies, whose points cannot drift one by one."""
+    cleaned = api.clean(api.read(data / "field" / "two_persons.c3d"))
+    assert {
+        (change.marker, change.start, change.stop) for change in cleaned.changes if change.outcome.value != "left"
+    } == {("Human1:HEADZ", 962, 972)}
+
+
+@pytest.mark.data
+def test_a_thousand_frames_a_second_need_little_memory(data):
+    """A recording of 20,000 frames is cleaned within 500 MB."""
+    work = f"from markermend import api; api.clean(api.read({str(data / 'field/khz.c3d')!r}))"
+    largest = "import resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    call = [sys.executable, "-c", f"{work}; {largest}"]
+    environment = {**os.environ, "PYTHONPATH": str(PROJECT / "scripts"), "OMP_NUM_THREADS": "1"}
+    done = subprocess.run(call, env=environment, capture_output=True, text=True, check=True)
+    assert int(done.stdout) < 500_000
+
+
+@pytest.mark.data
+def test_units_and_rates_are_said(data):
+    """What was taken in place of what a header states is a warning, and what leaves no doubt none."""
+    facts = {
+        name: api.read(data / "field" / name).facts for name in ("rate.trc", "meters_word.c3d", "labels_spaces.trc")
+    }
+    assert facts["rate.trc"]["warnings"] == [
+        "The header says 250 Hz, but the times are evenly spaced at 25 Hz, which is used."
+    ]
+    assert facts["meters_word.c3d"]["source"]["unit"] == "m" and facts["meters_word.c3d"]["warnings"] == []
+    assert (
+        facts["labels_spaces.trc"]["warnings"] == [] and "separated by blanks" in facts["labels_spaces.trc"]["notes"][0]
+    )
 
 
 @pytest.mark.data
