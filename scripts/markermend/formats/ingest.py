@@ -271,7 +271,7 @@ def _why_empty(reading: Reading) -> str:
         f"{len(names)} {what}"
         for names, what in (
             (reading.unlabelled, "unlabelled trajectories"),
-            (reading.model_outputs, "model outputs or computed points"),
+            (reading.model_outputs, "model outputs or computed points (ingest: computed)"),
         )
         if names
     ]

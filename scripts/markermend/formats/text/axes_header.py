@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import compress
 
-from markermend.core.recording import BadRecording
-from markermend.formats.text.header_values import unit_named
+from markermend.formats.text.header_values import unit_shared
 from markermend.formats.text.lines import Sheet
 from markermend.formats.text.table_layout import Layout
 from markermend.formats.text.table_rows import frame_rows, plain_rows, writes_decimal_comma
@@ -96,24 +96,24 @@ def below_axes(sheet: Sheet, axes_line: int, delimiter: bytes, format: str, rate
     starts = triples(axes, 0)
     names += [""] * (len(axes) - len(names))
     units = sheet.texts(axes_line + 1, delimiter)
-    stated = {unit_named(sheet, units[i]) for i in starts if i < len(units) and units[i][:1].isalpha()}
-    if len(stated) > 1:
-        raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(stated))})")
+    texts = [units[i] if i < len(units) and units[i][:1].isalpha() else "" for i in starts]
+    unit, are_positions = unit_shared(sheet, texts)
     if starts[0] > 0:
         rows, warnings = frame_rows(sheet, axes_line + 1, delimiter, section=True)
     else:
-        rows, warnings = plain_rows(sheet, axes_line + (2 if stated else 1), delimiter), []
+        rows, warnings = plain_rows(sheet, axes_line + (2 if any(texts) else 1), delimiter), []
     time = next((i for i, axis in enumerate(axes[: starts[0]]) if axis.lower().startswith("time")), None)
     return Layout(
         format=format,
         delimiter=delimiter,
         rows=rows,
-        names=tuple(names[i] for i in starts),
-        columns=consecutive(starts),
-        unit=stated.pop() if stated else None,
+        names=tuple(names[i] for i in compress(starts, are_positions)),
+        columns=consecutive(list(compress(starts, are_positions))),
+        unit=unit,
         rate=rate,
         frame=0 if starts[0] > 0 and time != 0 else None,
         time=time,
+        model_outputs=tuple(names[i] for i, own in zip(starts, are_positions, strict=True) if not own),
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
         warnings=tuple(warnings),
     )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import compress
 
 from markermend.core.recording import BadRecording
 from markermend.formats.text.axes_header import below_axes, find_axes
-from markermend.formats.text.header_values import unit_named
+from markermend.formats.text.header_values import unit_shared
 from markermend.formats.text.lines import Sheet, likeliest_delimiter
 from markermend.formats.text.table_layout import Layout
 from markermend.formats.text.table_rows import frame_rows, plain_rows, writes_decimal_comma
@@ -106,9 +107,9 @@ def _layout(
 ) -> Layout:
     """The layout of a table below one line of titles."""
     complete = {key: axes for key, axes in found.items() if len(axes) == 3}
-    units = {unit_named(sheet, unit) for axes in complete.values() for _, unit in axes.values() if unit}
-    if len(units) > 1:
-        raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(units))})")
+    stated = [next((unit for _, unit in axes.values() if unit), "") for axes in complete.values()]
+    unit, are_positions = unit_shared(sheet, stated)
+    positions = {key: complete[key] for key in compress(complete, are_positions)}
     frame, time, seconds = _counting_columns(titles)
     warnings = [
         f"Columns of '{name}' do not have all of x, y, z and are left alone."
@@ -124,13 +125,14 @@ def _layout(
         format="csv",
         delimiter=delimiter,
         rows=rows,
-        names=tuple(name for name, _ in complete),
-        columns=tuple((axes["x"][0], axes["y"][0], axes["z"][0]) for axes in complete.values()),
-        unit=units.pop() if units else None,
+        names=tuple(name for name, _ in positions),
+        columns=tuple((axes["x"][0], axes["y"][0], axes["z"][0]) for axes in positions.values()),
+        unit=unit,
         rate=None,
         frame=frame,
         time=time,
         seconds=seconds,
+        model_outputs=tuple(key[0] for key in complete if key not in positions),
         decimal_comma=writes_decimal_comma(sheet, rows, delimiter),
         own_missing=True,
         warnings=tuple(warnings),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from markermend.core.recording import BadRecording
 from markermend.formats import units
@@ -33,6 +34,37 @@ def unit_named(sheet: Sheet, text: str) -> str:
     if unit is None:
         raise BadRecording(f"{sheet.name}: the unit '{text[:40]}' is not known: correct it in the file ({units.KNOWN})")
     return unit
+
+
+def unit_shared(sheet: Sheet, texts: Sequence[str]) -> tuple[str | None, list[bool]]:
+    """Give the unit of the trajectories that are positions; those in another unit than one of length (deg, N) are none.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The file, for error messages.
+    texts : sequence of str
+        The unit of each trajectory; empty where it states none.
+
+    Returns
+    -------
+    unit : str or None
+        A key of units.MILLIMETRES; None where none is stated.
+    are_positions : list of bool
+        One for each trajectory.
+
+    Raises
+    ------
+    BadRecording
+        If no trajectory has a unit of length although all have one, or the units of length differ.
+    """
+    are_positions = [not text or units.unit_of(text) is not None for text in texts]
+    if texts and not any(are_positions):
+        unit_named(sheet, texts[0])
+    named = {unit_named(sheet, text) for text, own in zip(texts, are_positions, strict=True) if own and text}
+    if len(named) > 1:
+        raise BadRecording(f"{sheet.name}: its trajectories are in several units ({', '.join(sorted(named))})")
+    return next(iter(named), None), are_positions
 
 
 def rate_named(text: str) -> float | None:

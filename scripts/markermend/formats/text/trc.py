@@ -10,7 +10,7 @@ import numpy as np
 from markermend.core.recording import BadRecording, Recording
 from markermend.formats.text.axes_header import consecutive
 from markermend.formats.text.header_values import count_named, rate_named, unit_named
-from markermend.formats.text.lines import Sheet, likeliest_delimiter
+from markermend.formats.text.lines import Sheet, is_number, likeliest_delimiter
 from markermend.formats.text.table_layout import Layout
 from markermend.formats.text.table_rows import frame_rows, row_widths, writes_decimal_comma
 from markermend.formats.text.trc_labels import labelled_columns
@@ -61,7 +61,8 @@ def describe(sheet: Sheet) -> Layout:
         rows=rows,
         names=own.names,
         columns=consecutive(own.starts),
-        unit=unit_named(sheet, header["Units"]) if header.get("Units") else None,
+        # A number is that of the next field: no unit stands between the delimiters.
+        unit=unit_named(sheet, stated) if (stated := header.get("Units", "")) and not is_number(stated) else None,
         rate=rate_named(header.get("DataRate", "")),
         time=1 if own.first == 2 else None,
         frames=count_named(header.get("NumFrames", "")),

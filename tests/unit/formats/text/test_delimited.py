@@ -82,3 +82,17 @@ def test_axes_at_the_end_of_names_count_where_none_stands_apart(tmp_path: Path) 
         content.replace(b"index,flex", b"A_x,A_y,A_z").replace(b",1,2\n", b",1,2,3\n").replace(b",2,2\n", b",1,2,3\n")
     )
     assert read(tmp_path, apart).recording.markers == ("A",)
+
+
+def test_columns_in_degrees_are_model_outputs(tmp_path: Path) -> None:
+    content = (
+        b"time,A_x (mm),A_y (mm),A_z (mm),Knee_x (deg),Knee_y (deg),Knee_z (deg)\n0,1,2,30,4,5,6\n0.01,1,2,30,4,5,6\n"
+    )
+    two_lines = b",A,,,Knee,,\ntime,X,Y,Z,X,Y,Z\n,mm,mm,mm,deg,deg,deg\n0,1,2,30,4,5,6\n0.01,1,2,30,4,5,6\n"
+    for own in (content, two_lines):
+        reading = read(tmp_path, own)
+        assert (reading.recording.markers, reading.unit, reading.model_outputs) == (("A",), "mm", ("Knee",))
+        with pytest.raises(BadRecording, match="'deg' is not known"):
+            read(tmp_path, own.replace(b"mm", b"deg"))
+        with pytest.raises(BadRecording, match="several units"):
+            read(tmp_path, own.replace(b"deg", b"cm"))

@@ -25,6 +25,7 @@ TRC = make("trc", positions())
         (b"\r\n103\t", b"\r\n203\t", "1 go back, 1 leap"),
         (b"\r\n103\t", b"\r\nx\t", "no frame number"),
         (b"\t4\tmm", b"\t4\t", "states no unit"),
+        (b"100\t100\t30\t4\tmm\t100", b"100\t\t100\t\t30\t\t4\t\t\t\t100", "states no unit"),
         (b"\r\n100\t", b"\r\n50\t", "header says 50 Hz, but the times are evenly spaced at 100 Hz"),
         (b"LASI\t\t\tRASI\t\t\tC7\t\t\tT10", b"LASI   RASI   C7   T10", "separated by blanks"),
     ],
