@@ -38,7 +38,7 @@ def read_option_files(files: Sequence[str]) -> dict[str, Any]:
             with open(path, encoding="utf-8") as file:
                 _update(config, yaml.safe_load(file) or {})
         except (OSError, ValueError, yaml.YAMLError) as error:
-            raise BadDataSet(f"{path} cannot be read as a file of options: {error}") from error
+            raise BadDataSet(f"{path} cannot be read as a file of options: {' '.join(str(error).split())}") from error
     try:
         return read_config({key: value for key, value in config.items() if key != EXPERIMENTS})
     except BadOptions as problems:

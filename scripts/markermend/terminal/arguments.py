@@ -102,10 +102,9 @@ def make_parser(work: Mapping[str, Work], presets: Collection[str]) -> Parser:
     clean.add_argument("--preset", choices=presets, help="options for a purpose: see markermend presets")
     _about_recordings(add("look", "find and report what a folder has, and alter nothing"))
     _about_report(add("report", "print what became of the recordings, and where the report is"))
-    # Listed only: its arguments are parsed by itself.
-    commands.add_parser(
-        "verify", help="check every result and original against its checksum: see markermend verify --help"
-    )
+    verify = add("verify", "check every result and original against its checksum")
+    _about_results(verify)
+    verify.add_argument("--remake", action="store_true", help="let the next run make anew what differs")
     _about_undoing(add("undo", "get originals back from cleaned files, or parts of them"))
     _about_table(add("table", "write a table of the recordings of a folder, for you to correct and clean"))
     add("presets", "list the presets")
@@ -125,7 +124,19 @@ def _about_run(command: argparse.ArgumentParser) -> None:
         "--results", type=Path, default=Path("results"), help="the folder for the results (default: results)"
     )
     _about_options(command)
-    command.add_argument("--cores", help="number of cores (default: all; on a cluster what its profile says)")
+    command.add_argument(
+        "--cores",
+        type=_cores,
+        metavar="N|all",
+        help="number of cores (default: all; on a cluster what its profile says)",
+    )
+
+
+def _cores(words: str) -> str:
+    """Read a number of cores."""
+    if words != "all" and not (words.isdecimal() and int(words)):
+        raise argparse.ArgumentTypeError(f"{words!r} is neither a number of cores nor all")
+    return words
 
 
 def _about_options(command: argparse.ArgumentParser) -> None:
@@ -135,9 +146,14 @@ def _about_options(command: argparse.ArgumentParser) -> None:
     )
 
 
+def _about_results(command: argparse.ArgumentParser) -> None:
+    """Add the folder of results."""
+    command.add_argument("results", type=Path, metavar="RESULTS", help="the folder of results")
+
+
 def _about_report(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command that prints the summary."""
-    command.add_argument("results", type=Path, metavar="RESULTS", help="the folder of results")
+    _about_results(command)
     command.add_argument("--open", action="store_true", help="open the report in the browser")
 
 

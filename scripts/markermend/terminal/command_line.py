@@ -50,10 +50,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if argv is None else list(argv)
     if words and words[0].startswith("-") and words[0] not in OWN_FLAGS:
         return run_workflow.run(words)
-    if words[:1] == ["verify"]:
-        return verification.main(words[1:])
     if words and words[0] not in (*COMMANDS, *OWN_FLAGS):
-        advice = suggestion(words[0], [*COMMANDS, "verify"]) or ": see markermend --help"
+        advice = suggestion(words[0], COMMANDS) or ": see markermend --help"
         print(f"markermend has no command {words[0]!r}{advice}", file=sys.stderr)
         return 2
     own, given = (words[: words.index("--")], words[words.index("--") + 1 :]) if "--" in words else (words, [])
@@ -103,7 +101,7 @@ def _announce(call: argparse.Namespace, files: Sequence[str], *, profile: bool) 
 
 def _cores(words: str | None) -> int:
     """The number of cores of a run."""
-    return int(words) if words and words.isdigit() and int(words) else os.cpu_count() or 1
+    return os.cpu_count() or 1 if words in (None, "all") else int(words)
 
 
 def _repeat_papers(call: argparse.Namespace, given: list[str]) -> int:
@@ -131,6 +129,11 @@ def _report(call: argparse.Namespace, given: list[str]) -> int:
     if call.open:
         webbrowser.open(index.resolve().as_uri())
     return 0
+
+
+def _verify(call: argparse.Namespace, given: list[str]) -> int:
+    """Check results and originals."""
+    return verification.main([str(call.results), *["--remake"] * call.remake])
 
 
 def _undo(call: argparse.Namespace, given: list[str]) -> int:
@@ -174,9 +177,10 @@ COMMANDS: dict[str, Work] = {
     "clean": _clean,
     "look": _look,
     "report": _report,
+    "verify": _verify,
     "undo": _undo,
     "table": _write_table,
     "presets": _list_presets,
     "papers": _repeat_papers,
 }
-"""What each command does, but for `verify`, whose arguments are parsed by itself."""
+"""What each command does."""

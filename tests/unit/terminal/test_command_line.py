@@ -95,7 +95,7 @@ def test_a_report_that_is_not_there_is_said_in_one_line(tmp_path, capsys):
 
 
 def test_every_command_has_help():
-    for name in (*command_line.COMMANDS, "verify"):
+    for name in command_line.COMMANDS:
         with pytest.raises(SystemExit) as ended:
             command_line.main([name, "--help"])
         assert ended.value.code == 0
@@ -116,6 +116,12 @@ def test_before_a_run_stands_what_it_will_take(runs, folder, capsys):
         (["clean"], 2, "the following arguments are required: FOLDER (see markermend clean --help)"),
         (["clean", "data", "--preste", "gait"], 2, "'--preste' means nothing here; did you mean --preset? (see markermend clean --help)"),
         (["clean", "data", "more"], 2, "'more' means nothing here (see markermend clean --help)"),
+        (["clean", "data", "--cores", "two"], 2, "argument --cores: 'two' is neither a number of cores nor all (see markermend clean --help)"),
+        (["clean", "data", "--preset", "gate"], 2, "argument --preset: invalid choice: 'gate'"),
+        (["clean", "data", "--options", "bad.yaml"], 1, "bad.yaml cannot be read as a file of options: while parsing"),
+        ([], 2, "the following arguments are required: COMMAND (see markermend --help)"),
+        (["verify"], 2, "the following arguments are required: RESULTS (see markermend verify --help)"),
+        (["verify", "data", "--remke"], 2, "'--remke' means nothing here; did you mean --remake? (see markermend verify --help)"),
         (["clean", "empty"], 1, "recordings: no recording (.c3d, .trc, .csv, .tsv) in {here}/empty or below"),
         (["clean", "data/S01/walk.c3d"], 1, "recordings: {here}/data/S01/walk.c3d is a recording itself: name the folder that holds it, or a table"),
         (["clean", "notes.pdf"], 1, "recordings: {here}/notes.pdf is not a table in UTF-8 text"),
@@ -131,6 +137,7 @@ def test_a_mistake_is_said_in_a_sentence(runs, folder, tmp_path, monkeypatch, ca
     (tmp_path / "empty").mkdir()
     (tmp_path / "notes.pdf").write_bytes(b"%PDF\xff\xfe")
     (tmp_path / "typo.yaml").write_text("fill: {max_gap_ms: 1}\n")
+    (tmp_path / "bad.yaml").write_text("fill: [1,\n")
     try:
         found = command_line.main(words)
     except SystemExit as ended:
