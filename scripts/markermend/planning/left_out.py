@@ -72,7 +72,10 @@ class LeftOut:
         """
         unread = {kind: names for kind, names in self.kinds.items() if kind in UNREADABLE}
         others = {kind: names for kind, names in self.kinds.items() if kind not in UNREADABLE}
-        said = [f"{text}, each of which {UNREADABLE[kind]}" for kind, text in _counts(unread).items()]
+        said = [
+            f"{text}, {'each of ' * (len(unread[kind]) > 1)}which {UNREADABLE[kind]}"
+            for kind, text in _counts(unread).items()
+        ]
         rest = list(_counts(others).values())
         lines = [("not read", "; ".join(said))] * bool(said) + [("left alone", ", ".join(rest))] * bool(rest)
         return [_one_line(f"recordings: {what} below {self.top}: {text}") for what, text in lines]

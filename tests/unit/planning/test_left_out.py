@@ -11,7 +11,7 @@ def test_files_that_may_hold_recordings_are_named_with_what_to_do_and_others_are
     left.note("hidden", "/data/S02", [])
     assert left.warnings() == [
         "recordings: not read below /data: 2 .gz (S01/a.c3d.gz, S01/b.trc.GZ), each of which is compressed: unpack it;"
-        " 1 .trb (S01/take.trb), each of which is a binary TRB file: export it from Cortex as C3D or TRC",
+        " 1 .trb (S01/take.trb), which is a binary TRB file: export it from Cortex as C3D or TRC",
         "recordings: left alone below /data: 4 .txt (S01/b.txt, S01/c.txt, S01/d.txt and 1 more),"
         " 2 hidden (._walk.c3d, S01/.git/), 1 without an ending (readme)",
     ]
