@@ -19,6 +19,7 @@ from markermend import __version__
 from markermend.planning.run_summary import STATUSES
 from markermend.report.dataset_summary import distinct_methods, motion_advice, ordered, totals
 from markermend.report.methods_text import REFERENCES
+from markermend.report.shared_warnings import find_shared_warnings
 from markermend.report.template_filters import FILTERS
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -73,7 +74,11 @@ def index(summaries: Sequence[Mapping[str, Any]], unfinished: Sequence[str] = ()
     str
         HTML.
     """
-    entries = [{**summary, "href": href(summary["page"])} for summary in ordered(summaries)]
+    shared = find_shared_warnings(summaries)
+    entries = [
+        {**summary, "href": href(summary["page"]), "warnings": shared.without(summary.get("warnings", ()))}
+        for summary in ordered(summaries)
+    ]
     names = sorted({entry["subject"] for entry in entries})
     return render(
         "index.html.j2",
@@ -83,6 +88,7 @@ def index(summaries: Sequence[Mapping[str, Any]], unfinished: Sequence[str] = ()
         total=totals(entries),
         subjects={name: totals([entry for entry in entries if entry["subject"] == name]) for name in names},
         advice=motion_advice(entries),
+        shared=shared.texts(),
         texts=distinct_methods(entries),
         statuses=STATUSES,
         references=REFERENCES,

@@ -76,3 +76,17 @@ def test_a_subject_who_moved_too_little_is_advised_once_and_only_where_it_matter
     text = "only 2.0 s of motion (10 s wanted): record a range-of-motion trial or supply a mesh"
     assert advice == {"found": text, "unjudged": text}
     assert rendering.index(entries).count("range-of-motion trial") == 2
+
+
+def test_what_most_recordings_are_warned_of_is_said_once(made):
+    entries = [
+        {
+            **made.summary,
+            "recording": f"r{n}",
+            "page": f"s/r{n}/page.html",
+            "warnings": ["Never seen: C7.", f"Odd {n}."][: 1 + n // 3],
+        }
+        for n in range(4)
+    ]
+    page = rendering.index(entries)
+    assert page.count("Never seen: C7.") == 1 and "4 of 4 recordings: Never seen: C7." in page and "Odd" not in page
