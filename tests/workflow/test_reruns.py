@@ -207,7 +207,7 @@ def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
     with edited(finished.folder / "config/decisions.tsv", f"{line}\n"):
         plan = finished.plan()
         assert plan.jobs == {**dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)}
-        assert plan.parameters_changed == {"repair", "report"}
+        assert plan.parameters_changed == {"repair"}
         finished.run()
         assert places(changes(finished, "S01/a")) == places(row for row in found if row != peak)
         assert changes(finished, "S02/b") == untouched
@@ -218,6 +218,12 @@ def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
         assert NOTHING in finished.plan().text
     finished.run()
     assert changes(finished, "S01/a") == found
+
+
+def test_a_decision_on_a_recording_that_is_not_there_is_kept_in_the_report(finished):
+    with edited(finished.folder / "config/decisions.tsv", "gone\tM1\t1\t5\treject\n"):
+        plan = finished.plan()
+    assert plan.jobs == {"report": 1, "all": 1} and plan.parameters_changed == {"report"}
 
 
 def test_a_table_of_decisions_that_contradicts_itself_stops_before_anything_runs(finished):

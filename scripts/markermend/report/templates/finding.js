@@ -53,7 +53,7 @@ function closeFinding(row) {
   const below = row.nextElementSibling;
   if (window.Plotly) {
     below.querySelectorAll(".figure").forEach(release);
-    below.querySelectorAll(".plot").forEach((place) => Plotly.purge(place));
+    below.querySelectorAll(".plot").forEach(undraw);
   }
   below.remove();
 }
@@ -62,7 +62,7 @@ const findingRows = [...document.querySelectorAll("table.findings > tbody > tr")
 for (const row of findingRows) {
   const see = button("Show", () => (isOpen(row) ? closeFinding(row) : openFinding(row)), { className: "see" });
   see.setAttribute("aria-expanded", "false");
-  see.setAttribute("aria-label", "Finding " + numberOf(row) + ": plot and figure");
+  see.setAttribute("aria-label", "Show finding " + numberOf(row));
   row.cells[0].prepend(see);
 }
 // On a narrow screen each line is a card, in which every value has the heading of its column.

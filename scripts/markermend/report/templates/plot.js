@@ -105,10 +105,10 @@ function layout(finding, width) {
       layer: "below", fillcolor: "rgba(" + colour("span") + ",0.17)", line: { width: 1, color: "rgba(" + colour("span") + ",0.8)" } }],
   };
 }
+const drawn = new Map();
 function draw(place, finding) {
-  const width = place.clientWidth;
-  const chart = layout(finding, width);
-  Plotly.newPlot(place, traces(finding), chart, { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d"] });
+  drawn.set(place, finding);
+  Plotly.newPlot(place, traces(finding), layout(finding, place.clientWidth), { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d"] });
   place.on("plotly_relayout", (change) => {
     if ("xaxis.tickvals" in change) return;
     const [low, high] = place.layout.xaxis.range;
@@ -116,3 +116,12 @@ function draw(place, finding) {
     Plotly.relayout(place, { "xaxis.tickvals": fresh.tickvals, "xaxis.ticktext": fresh.ticktext });
   });
 }
+function undraw(place) {
+  drawn.delete(place);
+  Plotly.purge(place);
+}
+// After the colours of the page changed.
+function redraw() {
+  for (const [place, finding] of drawn) Plotly.react(place, traces(finding), layout(finding, place.clientWidth));
+}
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);

@@ -11,6 +11,15 @@ async function printAll() {
   findingRows.filter(isOpen).forEach(closeFinding);
   document.documentElement.classList.remove("paper");
 }
+// What is open is printed in the colours of paper, whatever those of the screen.
+window.addEventListener("beforeprint", () => {
+  document.documentElement.classList.add("printing");
+  redraw();
+});
+window.addEventListener("afterprint", () => {
+  document.documentElement.classList.remove("printing");
+  redraw();
+});
 const printPlace = document.getElementById("print");
 if (document.querySelector('script[id^="data-finding-"]')) printPlace.append(button("Print with all plots", printAll));
 if (new URLSearchParams(location.search).has("print")) {

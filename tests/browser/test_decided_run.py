@@ -1,0 +1,76 @@
+"""Decisions made in the page, downloaded, put into the config, and the run repeated: what they say is done, and nothing else."""
+
+import csv
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from support.browser import decide
+from support.paths import PROJECT
+from support.workflow_runs import Project
+
+SUBJECT = "S01"
+OTHER = "a recording\tLANK\t1\t9\tprotect\t\tof another data set\t\n"
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory) -> Project:
+    """A project whose workflow has run, on two short recordings of a synthetic person: one contaminated, one clean."""
+    folder = tmp_path_factory.mktemp("decided")
+    project = Project(folder)
+    command = [sys.executable, PROJECT / "scripts/synthesize.py", "--seed", "3", "--subjects", "1", "--duration-s", "6"]
+    subprocess.run(
+        [*command, "--folder", folder / "made", "--truth", folder / "truth"], check=True, capture_output=True
+    )
+    (project.recordings / SUBJECT).mkdir(parents=True)
+    for name in ("daily", "gait"):
+        shutil.copy(folder / "made" / SUBJECT / f"{name}.c3d", project.recordings / SUBJECT)
+    with open(project.folder / "config/decisions.tsv", "a", encoding="utf-8") as table:
+        table.write(OTHER)
+    project.run()
+    return project
+
+
+def changes(project: Project) -> dict[tuple[str, ...], dict[str, str]]:
+    """The changes of the contaminated recording, by marker, first and last frame, and class."""
+    with open(project.results / SUBJECT / "daily/changes.tsv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file, delimiter="\t"))
+    return {tuple(row[name] for name in ("marker", "first_frame", "last_frame", "class")): row for row in rows}
+
+
+def test_a_run_follows_what_was_decided_in_the_page(project, browser):
+    before, clean = changes(project), project.outputs()
+    page = browser.open(project.results / SUBJECT / "daily/page.html")
+    decided = {}
+    for kind, verb in (("peak", "reject"), ("noise", "protect"), ("step", "method local_ridge"), ("gap", "reject")):
+        row = page.locator(f'#changes tbody tr[data-kind="{kind}"]').first
+        decide(page, row, f"{verb} {kind}" if verb == "reject" else verb)
+        decided[kind] = tuple(row.locator("td").nth(place).inner_text() for place in (3, 4, 5))
+    text = browser.download(page)
+    assert OTHER.strip() in text
+    (project.folder / "config/decisions.tsv").write_text(text, encoding="utf-8")
+
+    plan = project.plan()
+    assert plan.jobs["repair"] == plan.jobs["report"] == 1 and plan.parameters_changed == {"repair"}
+    assert plan.jobs.keys().isdisjoint({"ingest", "mesh", "detect"})
+    project.run()
+
+    after = changes(project)
+    places = {key[:3]: row for key, row in after.items()}
+    assert (*decided["peak"], "peak") in before and decided["peak"] not in places
+    assert decided["noise"] not in places and decided["gap"] not in places
+    assert places[decided["step"]]["method"] == "local_ridge"
+    touched = {place[0] for place in decided.values()}
+    same = [key for key in before if key[0] not in touched]
+    assert same and all(key in after for key in same)
+    made = project.outputs()
+    for name in ("cleaned.c3d", "changes.tsv"):
+        assert [made[path] == clean[path] for path in made if path.endswith(f"gait/{name}")] in ([True], [])
+
+    page = browser.open(project.results / SUBJECT / "daily/page.html")
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+    assert page.locator("#decided tbody tr").count() == 4
+    assert browser.download(page) == text
+    assert "Nothing to be done" in project.plan().text

@@ -1,0 +1,228 @@
+"""Decisions made in the pages: kept, counted, downloaded as the table that a run reads, and refused where they cannot be followed."""
+
+import csv
+import io
+import itertools
+import json
+import shutil
+
+import pytest
+
+from markermend.planning.contradictions import Line, find_contradictions
+from markermend.planning.decision_cells import parse
+from markermend.planning.decision_table import COLUMNS, load
+from markermend.planning.recordings import Entry
+from markermend.storage import tab_separated
+from support.browser import REFUSED, Browser, decide
+from support.html_pages import HOSTILE
+
+ENTRIES = [Entry("Anna", "Walk 1", "/a.c3d"), Entry("Anna", "Calm", "/b.c3d"), Entry("Bob", "Bad", "/c.c3d")]
+ANY = ("local_ridge", "spline", "blank", "ensemble")
+
+
+def lines(text):
+    """The lines of a table, without its header."""
+    header, *rows = csv.reader(io.StringIO(text), delimiter="\t")
+    assert tuple(header) == COLUMNS
+    return rows
+
+
+@pytest.fixture
+def walk(report):
+    return report / "Anna/Walk%201/page.html"
+
+
+def row_of(page, kind, table="changes", nth=0):
+    return page.locator(f'#{table} tbody tr[data-kind="{kind}"]').nth(nth)
+
+
+def cells(row):
+    """Marker, first and last frame of a finding's line."""
+    return [row.locator("td").nth(place).inner_text() for place in (3, 4, 5)]
+
+
+def test_each_decision_waits_and_is_downloaded_as_the_table_that_a_run_reads(browser, report, walk, tmp_path):
+    page = browser.open(walk)
+    expected = []
+    for kind, choice, verb, value in (
+        ("peak", "reject peak", "reject", "peak"),
+        ("step", "accept step", "accept", "step"),
+        ("noise", "protect", "protect", ""),
+        ("slow", "method blank", "method", "blank"),
+        ("gap", "reject gap", "reject", "gap"),
+    ):
+        row = row_of(page, kind)
+        decide(page, row, choice)
+        assert row.locator(".state").inner_text() == "waiting"
+        expected.append(["Walk 1", *cells(row), verb, value, "", "Anna"])
+    assert "5 decisions waiting in 1 recording" in page.locator("#waiting").inner_text()
+    text = browser.download(page)
+    assert [row for row in lines(text) if row in expected] == expected
+    assert lines(text)[:2] == [
+        ["Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna"],
+        ["gone", "A*", "5", "9", "reject", "peak", "", ""],
+    ]
+
+    index = browser.open(report / "report/index.html")
+    assert browser.download(index) == text
+    walked = index.locator('tr[data-recording="Walk 1"] td.decisions')
+    assert walked.inner_text() == "1 + 5"
+    (tmp_path / "decisions.tsv").write_text(text, encoding="utf-8")
+    decided, warnings = load(str(tmp_path / "decisions.tsv"), ENTRIES, ANY)
+    assert len(decided["Anna", "Walk%201"]) == 6 and len(warnings) == 1 and "gone" in warnings[0]
+
+
+def test_decisions_are_kept_from_one_day_to_the_next_and_can_be_changed_and_withdrawn(browser, walk):
+    page = browser.open(walk)
+    row = row_of(page, "peak")
+    decide(page, row, "reject peak")
+    page.close()
+    page = browser.open(walk)
+    row = row_of(page, "peak")
+    assert row.locator("select").input_value() == "reject peak"
+    decide(page, row, "accept peak")
+    assert [line[4] for line in lines(browser.download(page))] == ["protect", "reject", "accept"]
+    page.locator("#added").get_by_role("button", name="Withdraw").click()
+    assert row.locator("select").input_value() == "" and row.locator(".state").inner_text() == ""
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+
+
+def test_a_note_goes_into_the_table_on_one_line(browser, walk):
+    page = browser.open(walk)
+    row = page.locator("#finding-0")
+    decide(page, row, "protect")
+    note = page.locator("input.reason").first
+    note.fill(f"=1+1 \t  {HOSTILE}")
+    note.blur()
+    assert lines(browser.download(page))[-1][6] == f"'=1+1 {HOSTILE}"
+
+
+def test_a_decision_of_the_run_can_be_withdrawn_and_kept_again(browser, walk):
+    page = browser.open(walk)
+    assert "LFIN" in page.locator("#decided").inner_text()
+    page.locator("#decided").get_by_role("button", name="Withdraw").click()
+    assert [line[0] for line in lines(browser.download(page))] == ["gone"]
+    page.locator("#decided").get_by_role("button", name="Keep").click()
+    assert [line[0] for line in lines(browser.download(page))] == ["Walk 1", "gone"]
+
+
+def test_what_the_run_has_followed_waits_no_longer(browser, report, walk):
+    page = browser.open(walk)
+    followed = ["Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna"]
+    state = json.dumps({"added": [followed], "withdrawn": [["other", *followed[1:]]]})
+    page.evaluate("state => localStorage.setItem(keyOf('Walk 1', 'Anna'), state)", state)
+    page = browser.open(report / "report/index.html")
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+
+
+def test_decisions_that_contradict_each_other_are_not_downloaded(browser, walk):
+    page = browser.open(walk)
+    page.evaluate(
+        "line => { writeWaiting(key, {added: [line], withdrawn: []}); }",
+        ["Walk 1", "*", "", "", "reject", "peak", "", "Anna"],
+    )
+    decide(page, row_of(page, "peak"), "accept peak")
+    saving = page.get_by_role("button", name="Download decisions.tsv")
+    assert saving.is_disabled()
+    assert "contradict each other" in page.locator("#waiting-notes").inner_text()
+    page.locator("#added").get_by_role("button", name="Withdraw").first.click()
+    assert saving.is_enabled() and page.locator("#waiting-notes").is_hidden()
+
+
+def test_all_that_waits_can_be_discarded(browser, report, walk):
+    page = browser.open(walk)
+    decide(page, row_of(page, "peak"), "protect")
+    page.on("dialog", lambda dialog: dialog.accept())
+    page.get_by_role("button", name="Discard").click()
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+
+
+def test_where_nothing_is_kept_the_page_says_so_and_downloads_all_the_same(browser, walk):
+    browser.context.add_init_script(REFUSED)
+    page = browser.open(walk)
+    decide(page, row_of(page, "peak"), "reject peak")
+    assert "keeps nothing" in page.locator("#waiting-notes").inner_text()
+    assert lines(browser.download(page))[-1][4:6] == ["reject", "peak"]
+
+
+def test_what_somebody_else_wrote_into_the_storage_does_no_harm(browser, walk):
+    page = browser.open(walk)
+    for text in ("x", "null", "[]", '{"added": [["Walk 1"]], "withdrawn": []}', '{"added": 1}'):
+        page.evaluate("text => localStorage.setItem(key, text)", text)
+        page.reload()
+        page.wait_for_selector("#waiting button")
+        assert "No decision waiting" in page.locator("#waiting").inner_text()
+
+
+def test_two_data_sets_do_not_share_decisions(browser, report, walk, tmp_path):
+    other = shutil.copytree(report, tmp_path / "other")
+    page = browser.open(walk)
+    decide(page, row_of(page, "peak"), "protect")
+    page = browser.open(other / "report/index.html")
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+
+
+def test_cells_are_written_as_by_the_program(browser, walk):
+    page = browser.open(walk)
+    texts = [
+        HOSTILE,
+        "=1",
+        "-1",
+        "+.5e3",
+        "-x",
+        "@a",
+        "'=1",
+        "''+",
+        "a\tb",
+        'say "x"',
+        "line\nend",
+        "\uff1d1",
+        "*0",
+        "",
+        "nan",
+        "-inf",
+        "ü",
+        "'",
+    ]
+    rows = [texts[at : at + 4] for at in range(0, len(texts), 4)]
+    own = page.evaluate("rows => tableText([], rows).slice(1)", rows)
+    assert own == tab_separated.lines(rows)
+
+
+def test_contradictions_are_found_as_by_the_program(browser, walk):
+    page = browser.open(walk)
+    verbs = [("accept", ""), ("accept", "peak"), ("accept", "gap"), ("reject", ""), ("reject", "slow"), ("reject", "gap"), ("protect", ""),
+             ("method", "spline"), ("method", "leave"), ("missing", ""), ("class", "peak"), ("class", "swap:LTOE"), ("class", "noise")]  # fmt: skip
+    places = [("LANK", "", ""), ("L*", "5", "9"), ("?ANK", "9", "12"), ("LA*K", "13", "14"), ("RANK", "5", "9")]
+    table = [
+        ["r", marker, first, last, verb, value, "", ""]
+        for (marker, first, last), (verb, value) in itertools.product(places, verbs)
+    ]
+    table = [
+        line
+        for line in table
+        if line[4] != "class" or (line[2] and not ("swap" in line[5] and set("*?") & set(line[1])))
+    ]
+    found = {
+        tuple(sorted(pair))
+        for pair in page.evaluate(
+            "lines => contradictions(lines).map((pair) => pair.map((line) => lines.indexOf(line)))", table
+        )
+    }
+    read = [
+        Line(n, dict(parse({name: cell for name, cell in zip(COLUMNS, line, strict=True) if cell}, ANY)))
+        for n, line in enumerate(table)
+    ]
+    stated = {
+        tuple(map(int, text.split(" contradict")[0].removeprefix("lines ").split(" and ")))
+        for text in find_contradictions(read)
+    }
+    assert found == stated and len(found) > 100
+
+
+def test_two_people_do_not_see_each_other_s_decisions(browser, chromium, walk):
+    page = browser.open(walk)
+    decide(page, row_of(page, "peak"), "protect")
+    other = Browser(chromium)
+    assert "No decision waiting" in other.open(walk).locator("#waiting").inner_text()
+    other.close()
