@@ -37,7 +37,7 @@ def test_a_command_has_the_options_of_its_section(name):
     assert own <= required - files
     given = {
         **{stage: {"code"} for stage in DETECTORS},
-        "ingest": {"recording", "subject", "kind", "rate", "sha256", "within"},
+        "ingest": {"recording", "subject", "kind", "rate", "unit", "sha256", "within"},
         "repair": {"decisions"},
         "fill": {"decisions", "code"},
         "export": {"within"},
