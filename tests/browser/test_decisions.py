@@ -145,6 +145,28 @@ def test_where_nothing_is_kept_the_page_says_so_and_downloads_all_the_same(brows
     assert lines(browser.download(page))[-1][4:6] == ["reject", "peak"]
 
 
+def test_links_carry_what_waits_where_pages_share_no_storage(browser, report, walk):
+    """As in browsers that keep a storage for each file, or none."""
+    browser.context.add_init_script(REFUSED)
+    page = browser.open(walk)
+    decide(page, row_of(page, "peak"), "reject peak")
+    for name in ("Recording ›", "‹ Recording"):
+        page.get_by_role("button", name=name).click()
+        page.wait_for_selector("#waiting button")
+        assert "1 decision waiting" in page.locator("#waiting").inner_text() and "#waiting" not in page.url
+    page.get_by_role("link", name="All recordings").click()
+    page.wait_for_selector("#table")
+    page.wait_for_selector("#waiting button.main")
+    assert page.locator('tr[data-recording="Walk 1"] td.decisions').inner_text() == "1 + 1"
+    page.get_by_role("link", name="Bad").click()
+    page.get_by_role("button", name="Recording ›").click()
+    page.wait_for_selector("#waiting button.main")
+    page.locator("#added").get_by_role("button", name="Withdraw").click()
+    page.get_by_role("link", name="All recordings").click()
+    page.wait_for_selector("#waiting button")
+    assert page.locator('tr[data-recording="Walk 1"] td.decisions').inner_text() == "1"
+
+
 def test_what_somebody_else_wrote_into_the_storage_does_no_harm(browser, walk):
     page = browser.open(walk)
     for text in ("x", "null", "[]", '{"added": [["Walk 1"]], "withdrawn": []}', '{"added": 1}'):

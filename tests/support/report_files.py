@@ -135,10 +135,10 @@ def write(
     ):
         stage_files.write_recording(folder / f"{file}.parquet", after, {"stage": stage, "options": options})
     order = tuple(sorted(before.markers))
-    segments = (
-        Segment("pelvis", order[:2], 0.8, None, None, None, 0, 0.93),
-        Segment(order[2], order[2:], 4.2, 0, order[0], 12.5, 0, 0.61),
-    )
+    segments: tuple[Segment, ...] = ()
+    if len(order) > 2:
+        pelvis = Segment("pelvis", order[:2], 0.8, None, None, None, 0, 0.93)
+        segments = (pelvis, Segment(order[2], order[2:], 4.2, 0, order[0], 12.5, 0, 0.61))
     nobody: dict[str, tuple[str, ...]] = dict.fromkeys(order, ())
     body = Mesh((name,), order, segments, nobody, nobody, **mesh_parts)
     mesh_file.write(

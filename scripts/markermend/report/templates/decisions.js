@@ -26,18 +26,15 @@ function understood(text) {
   try {
     const state = JSON.parse(text);
     const lines = (list) => Array.isArray(list) && list.every((line) => Array.isArray(line) && line.length === 8 && line.every((cell) => typeof cell === "string"));
-    if (lines(state.added) && lines(state.withdrawn)) return state;
+    if (lines(state.added) && lines(state.withdrawn)) return { added: state.added, withdrawn: state.withdrawn, at: Number(state.at) || 0 };
   } catch { /* what somebody else wrote */ }
-  return { added: [], withdrawn: [] };
+  return { added: [], withdrawn: [], at: 0 };
 }
 function readWaiting(key) { return understood(memory.get(key) ?? store?.getItem(key) ?? "{}"); }
-function writeWaiting(key, state) {
-  const text = JSON.stringify(state), empty = state.added.length + state.withdrawn.length === 0;
-  try {
-    if (empty) store?.removeItem(key); else store?.setItem(key, text);
-    if (store) memory.delete(key);
-  } catch { keeps = false; }
-  if (!store || !keeps) { if (empty) memory.delete(key); else memory.set(key, text); }
+function writeWaiting(key, { added, withdrawn, at = Date.now() }) {
+  const text = JSON.stringify({ added, withdrawn, at });
+  try { store?.setItem(key, text); memory.delete(key); } catch { keeps = false; }
+  if (!store || !keeps) memory.set(key, text);
 }
 function allWaiting() {
   const keys = new Set(memory.keys());
@@ -48,10 +45,8 @@ function allWaiting() {
 function settle(existing) {
   const known = new Set(existing.map(identity));
   for (const [key, state] of allWaiting()) {
-    writeWaiting(key, {
-      added: state.added.filter((line) => !known.has(identity(line))),
-      withdrawn: state.withdrawn.filter((line) => known.has(identity(line))),
-    });
+    const added = state.added.filter((line) => !known.has(identity(line))), withdrawn = state.withdrawn.filter((line) => known.has(identity(line)));
+    if (added.length + withdrawn.length < state.added.length + state.withdrawn.length) writeWaiting(key, { added, withdrawn });
   }
 }
 function countWaiting() {

@@ -23,7 +23,7 @@ async function stepRecording(step) {
   const { recordings } = await dataSet();
   const own = recordings.findIndex(([page]) => addressOf(page) === location.href.split(/[?#]/)[0]);
   const next = recordings[own + step];
-  if (own >= 0 && next) location.href = addressOf(next[0]);
+  if (own >= 0 && next) leave(addressOf(next[0]));
 }
 function addressOf(page) { return new URL(results + page.split("/").map(encodeURIComponent).join("/")).href; }
 function pick(name) {

@@ -1,5 +1,5 @@
 // The number of decisions that wait, their download, and what is wrong with them: beside the text of the page that is about decisions.
-const NOT_KEPT = "This browser keeps nothing for this page (its storage is refused or full): download the decisions before you leave.";
+const NOT_KEPT = "This browser keeps nothing for this page (its storage is refused or full): download the decisions before you close it. Links between the pages carry them along.";
 let shared = { columns: [], decisions: [], recordings: [] };
 let incomplete = "";
 let unsaved = false;
@@ -34,4 +34,4 @@ function discard() {
 }
 document.addEventListener("decisions", () => { unsaved = countWaiting().decisions > 0; offer(); });
 window.addEventListener("storage", () => document.dispatchEvent(new Event("decisions")));
-window.addEventListener("beforeunload", (event) => { if (unsaved && !keeps) event.preventDefault(); });
+window.addEventListener("beforeunload", (event) => { if (unsaved && !keeps && !carrying) event.preventDefault(); });

@@ -1,0 +1,29 @@
+// Some browsers share no storage among pages that are opened from a folder, and some keep none: links between the pages carry what waits.
+const CARRIED = "#waiting=";
+let carrying = false;
+function carried() {
+  const states = [...allWaiting()].filter(([, state]) => state.at);
+  return location.protocol === "file:" && states.length ? CARRIED + encodeURIComponent(JSON.stringify(states)) : "";
+}
+function leave(address) {
+  carrying = true;
+  location.href = address + carried();
+}
+function takeCarried() {
+  if (!location.hash.startsWith(CARRIED)) return;
+  try {
+    for (const [key, state] of JSON.parse(decodeURIComponent(location.hash.slice(CARRIED.length)))) {
+      const { added, withdrawn, at } = understood(JSON.stringify(state));
+      if (key.startsWith(PREFIX) && at > readWaiting(key).at) writeWaiting(key, { added, withdrawn, at });
+    }
+  } catch { /* not of our making */ }
+  history.replaceState(null, "", location.href.split("#")[0]);
+}
+document.addEventListener("click", (event) => {
+  const link = event.target.closest?.("a[href]");
+  const address = link?.href.split("#")[0];
+  if (!address?.endsWith(".html") || !address.startsWith(results) || address === location.href.split("#")[0]) return;
+  link.href = address + carried();
+  carrying = !event.defaultPrevented;
+});
+takeCarried();
