@@ -1,7 +1,7 @@
 """markermend: from recordings of optical motion capture to cleaned ones, with a record of every change.
 
 Reads: the recordings named by the config's `recordings`, a folder or a table.
-Writes: {results}/{subject}/{recording}/ with a file per stage and the cleaned recording, and {results}/report/;
+Writes: {results}/{subject}/{recording}/ with a file per stage, {results}/cleaned/ with the cleaned files, and {results}/report/;
 the targets gaps2021, pma2018, artifacts2022 and papers write {results}/papers/.
 """
 
@@ -69,7 +69,7 @@ def part():
     batch = workflow.dag_settings.batch
     if batch is None or batch.is_final:
         return None
-    return {(job.wildcards.subject, job.wildcards.recording) for job in workflow.dag.jobs if job.rule.name == "qc"}
+    return {(job.wildcards.subject, job.wildcards.recording) for job in workflow.dag.jobs if job.rule.name == "finish"}
 
 
 onstart:

@@ -1,9 +1,9 @@
 """Write the cleaned recording in its own format, the list of changes, and a certificate.
 
 Reads: the original file, 01_markers.parquet, 07_filled.parquet, 07_changes.parquet.
-Writes: cleaned.* (the original with only the changed samples overwritten; for CSV and TSV, and on
-request for C3D, also cleaned.trc), changes.tsv, originals.parquet (what the changed samples were), certificate.json. A recording that was set aside is
-copied unchanged, and its certificate says so.
+Writes: changes.tsv, originals.parquet (what the changed samples were), certificate.json, and the cleaned file under its own name in the tree of
+cleaned files (the original with only the changed samples overwritten; on request also as TRC). A recording that was set aside is copied unchanged,
+and its certificate says so.
 """
 
 from collections.abc import Sequence
@@ -26,11 +26,12 @@ STAGE.reads_original("the original file")
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("filled", "trajectories after repair and filling")
 STAGE.reads("record", "what repair and filling did to each stretch")
-STAGE.writes("cleaned", "the cleaned recording, in the format of the original")
 STAGE.writes("changes", "table of changes, in the capture program's frame numbers")
 STAGE.writes("originals", "the original value of every changed sample, with its bytes")
 STAGE.writes("certificate", "what changed and that nothing else did, as JSON")
+STAGE.writes("cleaned", "the cleaned recording, in the format of the original")
 STAGE.writes("trc", "the cleaned recording as TRC besides, with y up", many=True)
+STAGE.keeps_outputs()
 
 
 def work(call: Any) -> str:
@@ -45,7 +46,7 @@ def work(call: Any) -> str:
     undo.keep_originals(call.originals, call.source, call.cleaned, measured, written, sha256=sha256, facts=call.facts)
     for path in call.trc:
         certificate["trc"] = write_opensim_trc(path, replace(restored, facts=measured.facts), call.options)
-    atomic.write_json(call.certificate, certificate)
+    write_back.write_certificate(call.certificate, certificate, call.cleaned)
     refused = f", {len(certificate['refused'])} refused" if certificate["refused"] else ""
     places = f"{certificate['changed_samples']} samples changed in {len(written.applied)} places"
     return f"{places}{refused}, every other byte equal"
@@ -58,7 +59,7 @@ def set_aside(call: Any, note: SetAside) -> None:
     stage_files.set_aside(call.originals, note.stage, note.reason)
     for path in call.trc:
         write_opensim_trc(path, nothing, call.options)
-    atomic.write_json(call.certificate, certificate)
+    write_back.write_certificate(call.certificate, certificate, call.cleaned)
 
 
 def main(argv: Sequence[str] | None = None) -> None:

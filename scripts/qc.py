@@ -24,6 +24,7 @@ STAGE.reads("changes", "what repair and filling did to each stretch")
 STAGE.reads("certificate", "what changed, and that nothing else did")
 STAGE.writes("qc", "the recording in numbers, as JSON")
 STAGE.writes("page", "the recording for a person, as HTML")
+STAGE.keeps_outputs()
 
 
 def work(call: Any) -> str:

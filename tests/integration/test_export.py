@@ -19,12 +19,14 @@ from markermend.storage import atomic, change_file, originals_file, stage_files
 def flags(folder, *trc):
     names = {
         "source": "walk.c3d", "markers": "01.parquet", "filled": "07.parquet", "record": "07_changes.parquet",
-        "cleaned": "cleaned.c3d", "changes": "changes.tsv", "originals": "originals.parquet",
+        "cleaned": "cleaned/walk.c3d", "changes": "changes.tsv", "originals": "originals.parquet",
         "certificate": "certificate.json",
     }  # fmt: skip
     named = [word for flag, name in names.items() for word in (f"--{flag}", str(folder / name))]
     return [
         *named,
+        "--code",
+        "c",
         "--within",
         "none",
         "--trc",
@@ -71,6 +73,7 @@ def test_the_table_and_the_originals_say_what_was_changed(folder):
     assert [row.split("\t")[1:4] for row in rows] == [["A", "706", "707"], ["B", "721", "725"]]
     originals = originals_file.read(folder / "originals.parquet")
     certificate = json.loads((folder / "certificate.json").read_text())
+    assert certificate["cleaned"] == "cleaned/walk.c3d"
     assert len(originals.frame) == certificate["changed_samples"] == 7 and originals.measured.sum() == 2
     assert pq.read_table(folder / "originals.parquet")["class"].to_pylist() == ["peak"] * 2 + ["gap"] * 5
 
@@ -87,16 +90,16 @@ def test_a_recording_set_aside_has_no_changes(folder):
     for name in ("01", "07", "07_changes"):
         stage_files.set_aside(folder / f"{name}.parquet", "ingest", "no C3D file")
     export.main(flags(folder))
-    assert (folder / "cleaned.c3d").read_bytes() == (folder / "walk.c3d").read_bytes()
+    assert (folder / "cleaned/walk.c3d").read_bytes() == (folder / "walk.c3d").read_bytes()
     assert (folder / "changes.tsv").read_text() == "\t".join(COLUMNS) + "\n"
     with pytest.raises(SetAside, match="no C3D file"):
         originals_file.read(folder / "originals.parquet")
 
 
 def test_trc_holds_the_cleaned_recording_with_blanks_where_a_marker_is_missing(folder):
-    export.main(flags(folder, folder / "cleaned.trc"))
+    export.main(flags(folder, folder / "cleaned/walk.trc"))
     cleaned, text = (
-        files.read(folder / f"cleaned.{end}", unlabelled=[], rate=None).recording for end in ("c3d", "trc")
+        files.read(folder / f"cleaned/walk.{end}", unlabelled=[], rate=None).recording for end in ("c3d", "trc")
     )
     assert text.markers == cleaned.markers and text.rate == cleaned.rate
     assert np.allclose(text.positions, cleaned.positions, atol=1e-3, equal_nan=True)

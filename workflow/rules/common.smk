@@ -19,8 +19,8 @@ gc.set_threshold(100_000, 50, 1000)
 
 from markermend.planning import end_of_run
 from markermend.planning.missing_results import count_missing, find_missing
-from markermend.planning.plan import make_plan
-from markermend.planning.recordings import FORMATS, BadDataSet
+from markermend.planning.plan import FINISHING, make_plan
+from markermend.planning.recordings import BadDataSet
 from markermend.storage.atomic import check_writable
 
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a

@@ -25,7 +25,7 @@ if plan.detectors:
             runtime=plan.data.need(30),
         params:
             code=plan.code("detect"),
-            detectors=plan.detectors_file,
+            detectors=plan.flags_file(*plan.detectors),
             failures=plan.failed(*plan.detectors),
         message:
             "Detect artifacts in {wildcards.subject}/{wildcards.recording}"

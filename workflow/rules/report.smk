@@ -1,43 +1,8 @@
-"""Judge every recording, and put the data set into one report.
+"""Put the data set into one report.
 
-Reads: everything that the stages wrote.
-Writes: 08_qc.json and page.html for each recording; report/ with index.html, summary.tsv, plotly.min.js and data_set.js, and a folder for each
-batch of recordings where these are many.
+Reads: 08_qc.json of every recording, the table of decisions.
+Writes: report/ with index.html, summary.tsv, plotly.min.js and data_set.js, and a folder for each batch of recordings where these are many.
 """
-
-
-rule qc:
-    input:
-        markers=files.markers,
-        mesh=files.mesh,
-        events=plan.events,
-        repaired=files.repaired,
-        filled=files.filled,
-        changes=files.changes,
-        certificate=files.certificate,
-    output:
-        qc=files.quality,
-        page=files.page,
-    log:
-        f"{files.logs}/qc.log",
-    benchmark:
-        f"{files.logs}/qc.tsv"
-    conda:
-        "../../envs/base.yaml"
-    threads: 1
-    resources:
-        mem_mb=plan.data.need(2000),
-        runtime=plan.data.need(10),
-    params:
-        code=plan.code("qc", "report/templates"),
-        options=plan.stage_options("qc"),
-        failures=plan.failed("qc"),
-    message:
-        "Judge {wildcards.subject}/{wildcards.recording}"
-    shell:
-        "{PYTHON:q} {SCRIPTS:q}/qc.py --markers {input.markers:q} --mesh {input.mesh:q} --events {input.events:q}"
-        " --repaired {input.repaired:q} --filled {input.filled:q} --changes {input.changes:q}"
-        " --certificate {input.certificate:q} --qc {output.qc:q} --page {output.page:q} {params.options} 2> {log:q}"
 
 
 rule collect:
@@ -84,7 +49,7 @@ rule report:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(20),
     params:
-        code=plan.code("report", "report/templates"),
+        code=plan.code("report"),
         options=plan.stage_options("report"),
         failures=plan.failed("report"),
         list=files.quality_list,

@@ -1,8 +1,9 @@
-"""Repair what was found, sample the poses of each subject, fill the gaps, write the result back into the recording's own format.
+"""Repair what was found, sample the poses of each subject; in one job then fill the gaps, write the result back into the recording's own
+format, and judge it.
 
 Reads: 01_markers.parquet, mesh.json, the events, a person's decisions, the original file.
-Writes: 06_repaired.parquet, 07_filled.parquet, each with a file of changes, poses.parquet for each subject, cleaned.* with changes.tsv, originals.parquet
-and certificate.json.
+Writes: 06_repaired.parquet, 07_filled.parquet, each with a file of changes, poses.parquet for each subject, changes.tsv, originals.parquet,
+certificate.json, 08_qc.json, page.html, and the cleaned file in the tree of cleaned files.
 """
 
 
@@ -65,20 +66,27 @@ rule poses:
         " --poses {output.poses:q} {params.options} 2> {log:q}"
 
 
-rule fill:
+rule finish:
     input:
+        markers=files.markers,
+        mesh=files.mesh,
+        events=plan.events,
         repaired=files.repaired,
         repairs=files.repairs,
-        mesh=files.mesh,
         poses=plan.poses,
     output:
-        # Not removed before the job, which keeps them where its inputs are written again with the same bytes.
+        # Not removed before the job, which keeps those whose stage has the same inputs, options and code.
         filled=update(files.filled),
         changes=update(files.changes),
+        table=update(files.change_table),
+        originals=update(files.originals),
+        certificate=update(files.certificate),
+        qc=update(files.quality),
+        page=update(files.page),
     log:
-        f"{files.logs}/fill.log",
+        f"{files.logs}/finish.log",
     benchmark:
-        f"{files.logs}/fill.tsv"
+        f"{files.logs}/finish.tsv"
     conda:
         "../../envs/torch.yaml" if plan.trains_networks else "../../envs/base.yaml"
     threads: 1
@@ -86,56 +94,20 @@ rule fill:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("fill"),
-        options=plan.stage_options("fill"),
+        code=plan.code("finish"),
+        stages=plan.flags_file(*FINISHING),
         decisions=plan.data.decisions_flag,
-        failures=plan.failed("fill"),
+        failures=plan.failed(*FINISHING),
+        source=plan.data.original,
+        within=plan.data.within,
+        source_hash=plan.data.source_hash,
+        # Under its own name in a tree like that of the originals: no pattern of subjects and recordings.
+        cleaned=plan.cleaned,
+        trc=plan.trc,
     message:
-        "Fill the gaps of {wildcards.subject}/{wildcards.recording}"
+        "Finish {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/fill.py --repaired {input.repaired:q} --repairs {input.repairs:q}"
-        " --mesh {input.mesh:q} --poses {input.poses:q} --filled {output.filled:q} --changes {output.changes:q}"
-        " --code {params.code} {params.options} {params.decisions:q} 2> {log:q}"
-
-
-for suffix in FORMATS:
-
-    rule:
-        name:
-            f"export_{suffix}"
-        input:
-            markers=files.markers,
-            filled=files.filled,
-            record=files.changes,
-        output:
-            cleaned=f"{files.recording}/cleaned.{suffix}",
-            trc=[f"{files.recording}/cleaned.trc"] if plan.writes_trc(suffix) else [],
-            changes=files.change_table,
-            originals=files.originals,
-            certificate=files.certificate,
-        log:
-            f"{files.logs}/export.log",
-        benchmark:
-            f"{files.logs}/export.tsv"
-        wildcard_constraints:
-            subject=plan.data.subjects_of(suffix),
-        conda:
-            "../../envs/base.yaml"
-        threads: 1
-        resources:
-            mem_mb=plan.data.need(2000),
-            runtime=plan.data.need(10),
-        params:
-            code=plan.code("export"),
-            options=plan.stage_options("export"),
-            failures=plan.failed("export"),
-            source=plan.data.original,
-            within=plan.data.within,
-            source_hash=plan.data.source_hash,
-        message:
-            "Export {wildcards.subject}/{wildcards.recording}"
-        shell:
-            "{PYTHON:q} {SCRIPTS:q}/export.py --source {params.source:q} --within {params.within:q} --markers {input.markers:q}"
-            " --filled {input.filled:q} --record {input.record:q} --cleaned {output.cleaned:q} --trc {output.trc:q}"
-            " --changes {output.changes:q} --originals {output.originals:q}"
-            " --certificate {output.certificate:q} {params.options} 2> {log:q}"
+        "{PYTHON:q} {SCRIPTS:q}/finish.py --source {params.source:q} --within {params.within:q} --markers {input.markers:q} --mesh {input.mesh:q}"
+        " --events {input.events:q} --repaired {input.repaired:q} --repairs {input.repairs:q} --poses {input.poses:q} --filled {output.filled:q}"
+        " --changes {output.changes:q} --cleaned {params.cleaned:q} --trc {params.trc:q} --table {output.table:q} --originals {output.originals:q}"
+        " --certificate {output.certificate:q} --qc {output.qc:q} --page {output.page:q} --stages {params.stages:q} {params.decisions:q} 2> {log:q}"

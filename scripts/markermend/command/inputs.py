@@ -19,6 +19,7 @@ from markermend.core.recording import BadRecording, SetAside
 from markermend.storage import output_checksums, source_file
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
+from markermend.storage.folder_names import CLEANED
 from markermend.storage.installation import workflow_folder
 
 log = logging.getLogger("markermend")
@@ -169,7 +170,8 @@ def _make_anew(path: Path, record: output_checksums.OutputRecord) -> bool:
     script = workflow_folder() / "scripts" / f"{record.stage}.py"
     if len(record.command) < 2 or Path(record.command[1]).resolve() != script.resolve():
         return False
-    if {output.parent for output in _outputs(script, record.command[2:])} != {path.parent}:
+    outputs = _outputs(script, record.command[2:])
+    if not outputs or not all(_belongs(output, path.parent) for output in outputs):
         return False
     log.warning("%s is damaged: running %s once more, which wrote it", path.name, record.stage)
     try:
@@ -177,6 +179,12 @@ def _make_anew(path: Path, record: output_checksums.OutputRecord) -> bool:
         return sha256(path) == record.outputs[path.name]
     except (OSError, subprocess.SubprocessError):
         return False
+
+
+def _belongs(output: Path, folder: Path) -> bool:
+    """Whether an output lies in the folder of its recording, or among the cleaned files beside the subjects."""
+    cleaned = folder.parent.parent / CLEANED
+    return output.parent == folder or (cleaned in output.parents and ".." not in output.parts)
 
 
 def _outputs(script: Path, words: Sequence[str]) -> list[Path]:

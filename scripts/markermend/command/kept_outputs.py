@@ -35,7 +35,7 @@ def dependencies_hash(made_from: Mapping[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def are_current(stage: str, outputs: Sequence[Path], dependencies: str) -> bool:
+def are_current(stage: str, outputs: Sequence[Path], folder: Path, dependencies: str) -> bool:
     """Say whether outputs are there as they were recorded, made from the same.
 
     Parameters
@@ -43,7 +43,9 @@ def are_current(stage: str, outputs: Sequence[Path], dependencies: str) -> bool:
     stage : str
         Name of their stage.
     outputs : sequence of Path
-        The output files, in one folder.
+        The output files.
+    folder : Path
+        The folder that they belong to.
     dependencies : str
         What `dependencies_hash` gives.
 
@@ -52,9 +54,11 @@ def are_current(stage: str, outputs: Sequence[Path], dependencies: str) -> bool:
     bool
         Whether there is nothing to do.
     """
-    record = output_checksums.read(outputs[0].parent, stage) if outputs else None
+    record = output_checksums.read(folder, stage)
+    if record is None or record.dependencies != dependencies or not outputs:
+        return False
     try:
-        return bool(record and record.dependencies == dependencies and record.outputs == output_checksums.of(outputs))
+        return record.outputs == output_checksums.of(outputs, folder)
     except OSError:
         return False
 

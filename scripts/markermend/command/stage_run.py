@@ -102,7 +102,9 @@ class StageRun:
             else:
                 for name in self.outputs:
                     stage_files.set_aside(getattr(call, name), failure.stage, failure.reason)
-        output_checksums.write(self.stage, self._written(), command=self.command, dependencies=call.dependencies)
+        output_checksums.write(
+            self.stage, self._written(), folder=self._folder, command=self.command, dependencies=call.dependencies
+        )
         log.info("%s: %s (%.2f s)", self.stage, result or "done", time.perf_counter() - started)
 
     def _call(self) -> Any:
@@ -117,7 +119,7 @@ class StageRun:
 
     @property
     def _folder(self) -> Path:
-        """The folder of the outputs."""
+        """The folder that the outputs belong to: that of the first."""
         first: Path = self.arguments[self.outputs[0]]
         return first.parent
 
@@ -143,7 +145,7 @@ class StageRun:
         """Work, unless the outputs are kept and those that the work would give."""
         code = self.arguments.get("code")
         dependencies = None if code is None else dependencies_hash({**call.facts, "code": code})
-        if dependencies and are_current(self.stage, self._written(), dependencies):
+        if dependencies and are_current(self.stage, self._written(), self._folder, dependencies):
             result: str | None = "the outputs are kept: inputs, options and code are those that they were made from"
         else:
             # A record of earlier outputs says nothing of what is written now, should this process be killed.

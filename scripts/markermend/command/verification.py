@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from markermend.command.inputs import original_checksum
 from markermend.storage import output_checksums, snakemake_records, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
-from markermend.storage.folder_names import RESERVED_SUBJECTS, printable
+from markermend.storage.folder_names import CLEANED, RESERVED_SUBJECTS, printable
 from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 UNRECORDED = "nothing recorded"
@@ -23,10 +24,10 @@ READABLE, UNREADABLE = "a record", "cannot be read"
 """Stand for the checksums of a record of which none is known."""
 
 ALWAYS_RECORDED = (
-    *("*.parquet", "cleaned.*", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
+    *("*.parquet", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
     *("index.html", "summary.tsv", "plotly.min.js", "data_set.js", "qc.json"),
 )
-"""Files of which a checksum must be recorded."""
+"""Files of which a checksum must be recorded; and every cleaned file."""
 
 
 @dataclass(frozen=True)
@@ -41,33 +42,20 @@ class Checked:
         Its checksums as recorded and as computed, or why there is none.
     stage : str, optional
         The stage that wrote it; none for an original.
+    folder : str, optional
+        The folder that the outputs of the stage belong to, from that of results.
     """
 
     file: str
     expected: str
     found: str
     stage: str = ""
+    folder: str = ""
 
     @property
     def differs(self) -> bool:
         """Whether the file is not as it was."""
         return self.expected != self.found
-
-    def folder(self, results: Path) -> Path:
-        """Find the folder of the outputs of its stage.
-
-        Parameters
-        ----------
-        results : Path
-            The folder of results.
-
-        Returns
-        -------
-        Path
-            The folder that it is in; that above for a record.
-        """
-        parent = (results / self.file).parent
-        return parent.parent if parent.name == output_checksums.FOLDER else parent
 
 
 def check(results: Path) -> Iterator[Checked]:
@@ -87,8 +75,15 @@ def check(results: Path) -> Iterator[Checked]:
     subjects = [path for path in _folders(results) if path.name not in RESERVED_SUBJECTS]
     recordings = [path for subject in subjects for path in _folders(subject) if path.name != output_checksums.FOLDER]
     report = [results / "report", *_folders(results / "report/batches")]
+    recorded: set[str] = set()
     for folder in [*report, *sorted([*subjects, *recordings])]:
-        yield from _outputs(folder, results)
+        for one in _outputs(folder, results):
+            recorded.add(one.file)
+            yield one
+    cleaned = (path for path in (results / CLEANED).rglob("*") if path.is_file() and not path.name.startswith("."))
+    for path in sorted(cleaned):
+        if path.relative_to(results).as_posix() not in recorded:
+            yield Checked(path.relative_to(results).as_posix(), UNRECORDED, _checksum(path))
     for path in snakemake_records.unreadable(results):
         yield Checked(str(path.relative_to(results)), READABLE, UNREADABLE)
     sources = SourceChecksums(results / "report/logs/sources.json").recorded
@@ -104,18 +99,20 @@ def _folders(path: Path) -> list[Path]:
 
 
 def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
-    """The files in one folder of results."""
-    place = folder.relative_to(results)
+    """The files of one folder of results, and those elsewhere that belong to it."""
+    place = folder.relative_to(results).as_posix()
     recorded: set[str] = set()
     for record in output_checksums.records(folder):
         recorded |= record.outputs.keys()
         for name, expected in record.outputs.items():
-            yield Checked(str(place / name), expected, _checksum(folder / name), record.stage)
+            yield Checked(
+                os.path.normpath(f"{place}/{name}"), expected, _checksum(folder / name), record.stage, folder=place
+            )
     for stage in output_checksums.unreadable(folder):
-        yield Checked(str(place / output_checksums.FOLDER / f"{stage}.json"), READABLE, UNREADABLE, stage)
+        yield Checked(f"{place}/{output_checksums.FOLDER}/{stage}.json", READABLE, UNREADABLE, stage, folder=place)
     for path in sorted({path for pattern in ALWAYS_RECORDED for path in folder.glob(pattern)}):
         if path.name not in recorded:
-            yield Checked(str(place / path.name), UNRECORDED, _checksum(path))
+            yield Checked(f"{place}/{path.name}", UNRECORDED, _checksum(path))
 
 
 def _source(folder: Path, path: str | None) -> Iterator[Checked]:
@@ -170,9 +167,9 @@ def main(arguments: Sequence[str]) -> int:
     if different:
         rows = [[printable(one.file), one.expected, one.found] for one in different]
         print(tab_separated.lines([["file", "expected", "found"], *rows]), end="")
-    for folder, stage in {(one.folder(flags.results), one.stage) for one in different if one.stage}:
+    for folder, stage in {(one.folder, one.stage) for one in different if one.stage}:
         if flags.remake:
-            count_failure(folder, stage, "its outputs are not as it wrote them")
+            count_failure(flags.results / folder, stage, "its outputs are not as it wrote them")
     if flags.remake:
         snakemake_records.renew(flags.results)
     print(f"{len(checked) - len(different)} files are as they were, {len(different)} differ", file=sys.stderr)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -150,6 +152,27 @@ def pass_through(source: Path, cleaned: Path, note: SetAside, *, within: Path | 
         "refused": [],
         "untouched": {"stage": note.stage, "reason": note.reason},
     }
+
+
+def write_certificate(path: Path, certificate: Mapping[str, Any], cleaned: Path) -> None:
+    """Write a certificate, with the path of the cleaned file from its folder.
+
+    Parameters
+    ----------
+    path : Path
+        Its file.
+    certificate : mapping of str to Any
+        What `write_cleaned` or `pass_through` gives.
+    cleaned : Path
+        The cleaned file.
+
+    Raises
+    ------
+    NotWritten
+        Where it cannot be written.
+    """
+    place = Path(os.path.relpath(cleaned, path.parent)).as_posix()
+    atomic.write_json(path, {**certificate, "cleaned": place})
 
 
 def _checksum(source: Path, within: Path | None) -> str | None:

@@ -78,7 +78,7 @@ class ExportOptions:
     """Write the cleaned recordings."""
 
     also_trc: Annotated[bool, Laboratory] = False
-    """Whether recordings in C3D are written as TRC besides, as those in CSV and TSV always are; with y up, for OpenSim.
+    """Whether recordings are written as TRC besides, with y up, for OpenSim.
 
     Change it when OpenSim reads the results."""
 

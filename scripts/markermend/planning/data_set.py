@@ -15,8 +15,7 @@ from typing import Any, Protocol
 
 from markermend.options.general import GeneralOptions
 from markermend.options.values import text
-from markermend.planning import discovery
-from markermend.planning.alternatives import any_of
+from markermend.planning import cleaned_tree, discovery
 from markermend.planning.decision_table import NONE
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
@@ -55,6 +54,8 @@ class DataSet:
         What a person decided about each recording, by the names of its folders.
     decision_table : str, optional
         The table of these decisions, for the report.
+    places : mapping of Folders to str, optional
+        Where the cleaned file of each recording goes, from the folder of cleaned files, see `cleaned_tree.places`.
     missing : str, optional
         Why there are no recordings, where the config names none and the table of its default is not there. Experiments do without.
     """
@@ -64,6 +65,7 @@ class DataSet:
     meshes: Mapping[str, list[str]] = field(default_factory=dict)
     decisions: Mapping[Folders, list[dict[str, Any]]] = field(default_factory=dict)
     decision_table: str = NONE
+    places: Mapping[Folders, str] = field(default_factory=dict)
     missing: str = ""
 
     @cached_property
@@ -179,24 +181,6 @@ class DataSet:
         """The mesh files that the user supplies for the subject; see `DataSet.entry`."""
         return self.meshes[wildcards.subject]
 
-    def subjects_of(self, suffix: str) -> str:
-        """Write a constraint on the wildcard `subject` that only recordings of one format meet.
-
-        Parameters
-        ----------
-        suffix : str
-            The format.
-
-        Returns
-        -------
-        str
-            A regular expression that looks ahead at the recording.
-        """
-        folders = ["/".join(pair) + "/" for pair, entry in self.entries.items() if entry.format == suffix]
-        if len(folders) == len(self.entries) > 0:
-            return "[^/]+"
-        return f"(?={any_of(folders)})[^/]+" if folders else "(?!)"
-
 
 def find_data_set(
     options: Mapping[str, Any],
@@ -238,7 +222,9 @@ def find_data_set(
         failed[f"{subject}/{recording}"] += count if stage in SOURCE_STAGES else 0
     checksums = SourceChecksums(Path(ResultFiles(results).sources), failed)
     table = discovery.standard_decisions(options)
-    return DataSet(entries, checksums, meshes, decisions, table, missing), [*left_out, *warnings]
+    path = os.path.abspath(os.path.expanduser(options["general"].recordings))
+    places = cleaned_tree.places(entries, path if os.path.isdir(path) else os.path.dirname(path))
+    return DataSet(entries, checksums, meshes, decisions, table, places, missing), [*left_out, *warnings]
 
 
 def _entries(general: GeneralOptions, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str, list[str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from pathlib import Path
+from types import SimpleNamespace
 
 from markermend.planning.discovery import Folders
 from markermend.planning.plan import Plan
@@ -29,16 +30,18 @@ def find_missing(plan: Plan) -> list[Missing]:
         The stages of recordings that were judged, those of their subjects, and the report where it was made of a recording that is no
         longer judged; what has not been made yet is not gone.
     """
-    stages = {suffix: _stages(plan, suffix) for suffix in {entry.format for entry in plan.data.entries.values()}}
+    stages = _stages(plan)
     missing: list[Missing] = []
     judged: list[Folders] = []
-    for (subject, recording), entry in plan.data.entries.items():
+    for subject, recording in plan.data.entries:
         there = _names(plan.files.recording.format(subject=subject, recording=recording))
-        if QUALITY in there:
-            judged.append((subject, recording))
-            missing += [
-                (subject, recording, stage) for stage, own in stages[entry.format].items() if not there.issuperset(own)
-            ]
+        if QUALITY not in there:
+            continue
+        judged.append((subject, recording))
+        missing += [(subject, recording, stage) for stage, own in stages.items() if not there.issuperset(own)]
+        about = SimpleNamespace(subject=subject, recording=recording)
+        if not all(map(os.path.exists, [plan.cleaned(about), *plan.trc(about)])):
+            missing.append((subject, recording, "export"))
     for subject in dict(judged):
         shared = {"mesh": plan.files.mesh, **({"poses": plan.files.poses} if plan.pools(subject) else {})}
         missing += [
@@ -46,19 +49,18 @@ def find_missing(plan: Plan) -> list[Missing]:
         ]
     if len(judged) < len(plan.data.entries) and os.path.exists(f"{plan.files.report}/index.html"):
         missing += [("report", "", stage) for stage in ("collect", "report")]
-    return missing
+    return list(dict.fromkeys(missing))
 
 
-def _stages(plan: Plan, suffix: str) -> dict[str, set[str]]:
-    """Names of the files that each stage writes for a recording of a format."""
+def _stages(plan: Plan) -> dict[str, set[str]]:
+    """Names of the files that each stage writes into the folder of a recording."""
     files = plan.files
-    trc = [f"{files.recording}/cleaned.trc"] if plan.writes_trc(suffix) else []
     written = {
         "ingest": [files.markers],
         **{stage: [files.events[stage]] for stage in plan.detectors},
         "repair": [files.repaired, files.repairs],
         "fill": [files.filled, files.changes],
-        "export": [f"{files.recording}/cleaned.{suffix}", *trc, files.change_table, files.originals, files.certificate],
+        "export": [files.change_table, files.originals, files.certificate],
         "qc": [files.quality, files.page],
     }
     return {stage: set(map(os.path.basename, own)) for stage, own in written.items()}

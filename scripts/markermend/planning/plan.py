@@ -1,7 +1,7 @@
 """What a run consists of, for the rules to ask: recordings, result files, and what each command depends on.
 
 Reads: the recordings' folder or table, the decisions, failures.tsv among the results, the code of the stages.
-Writes: lists of files beside the results, and the flags of the detectors.
+Writes: lists of files beside the results, and the flags of stages that share a job.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import markermend
 from markermend.core.artifacts import DETECTORS
 from markermend.options.flags import flags, write_flags
 from markermend.options.general import EXPERIMENTS
-from markermend.planning import code_hashes
+from markermend.planning import cleaned_tree, code_hashes
 from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes, unnoticed_changes
@@ -34,6 +34,12 @@ from markermend.storage.atomic import write_json, write_list, write_text
 
 LIBRARY = Path(markermend.__file__).parent
 """The folder of the package."""
+
+FINISHING = ("fill", "export", "qc")
+"""The stages that finish a recording, in their order."""
+
+READS_BESIDES = {"qc": ("report/templates",), "report": ("report/templates",)}
+"""Files and folders of the package that a stage reads besides its modules."""
 
 
 @dataclass(frozen=True)
@@ -73,20 +79,39 @@ class Plan:
         """The detectors that run, in their strict order."""
         return [stage for stage in DETECTORS if stage in self.options["general"].detect]
 
-    @cached_property
-    def detector_flags(self) -> dict[str, list[str]]:
-        """The options and the code of each detector that runs, as flags of its command."""
-        return {stage: [f"--code={self.code(stage)}", *flags(self.options[stage])] for stage in self.detectors}
+    def flags(self, *stages: str) -> dict[str, list[str]]:
+        """List the options and the code of stages that run in one job.
 
-    @cached_property
-    def detectors_file(self) -> str:
-        """The file of these flags: its name is another where a flag is, and the job that reads it runs again.
+        Parameters
+        ----------
+        *stages : str
+            Their names.
+
+        Returns
+        -------
+        dict of str to list of str
+            The flags of the command of each.
+        """
+        return {stage: [f"--code={self.code(stage)}", *flags(self.options[stage])] for stage in stages}
+
+    def flags_file(self, *stages: str) -> str:
+        """Name the file of these flags: its name is another where a flag is, and the job that reads it runs again.
 
         The flags themselves would be in the command that Snakemake records of each of the files that the job writes, in all a hundred
         thousand bytes a recording.
+
+        Parameters
+        ----------
+        *stages : str
+            Their names.
+
+        Returns
+        -------
+        str
+            Its path.
         """
-        content = json.dumps(self.detector_flags, sort_keys=True)
-        return self.files.detectors.format(checksum=hashlib.sha256(content.encode()).hexdigest()[:16])
+        content = json.dumps(self.flags(*stages), sort_keys=True)
+        return self.files.flags.format(checksum=hashlib.sha256(content.encode()).hexdigest()[:16])
 
     @property
     def trains_networks(self) -> bool:
@@ -185,31 +210,33 @@ class Plan:
         stage : str
             Name of its script.
         *extra : str
-            Files and folders of the package that the stage reads besides.
+            Files and folders of the package that the stage reads, besides those of READS_BESIDES.
 
         Returns
         -------
         str
-            The first 16 hex digits of the sha256 of its script and modules. Snakemake keeps the parameters of every job, and writes them
-            to disk for every file: a hundred hashes each would be most of its memory.
+            The first 16 hex digits of the sha256 of its script and modules, and what it reads besides. Snakemake keeps the parameters of every
+            job, and writes them to disk for every file: a hundred hashes each would be most of its memory.
         """
-        entries = code_hashes.code(self.project / "scripts" / f"{stage}.py", map(LIBRARY.joinpath, extra))
+        read = map(LIBRARY.joinpath, (*READS_BESIDES.get(stage, ()), *extra))
+        entries = code_hashes.code(self.project / "scripts" / f"{stage}.py", read)
         return hashlib.sha256("\n".join(entries).encode()).hexdigest()[:16]
 
-    def writes_trc(self, suffix: str) -> bool:
-        """Whether recordings of a format are written as TRC besides.
+    def cleaned(self, wildcards: Wildcards) -> str:
+        """The cleaned file of a recording; see `DataSet.entry`."""
+        return f"{self.files.cleaned}/{self.data.places[wildcards.subject, wildcards.recording]}"
 
-        Parameters
-        ----------
-        suffix : str
-            Suffix of the format, without the dot.
+    def trc(self, wildcards: Wildcards) -> list[str]:
+        """Its copy as TRC, where the options want one of a file in another format; see `DataSet.entry`."""
+        if not self.options["export"].also_trc or self.data.entry(wildcards).format == "trc":
+            return []
+        place = self.data.places[wildcards.subject, wildcards.recording]
+        return [f"{self.files.cleaned}/{cleaned_tree.beside(place, '.trc', self._taken)}"]
 
-        Returns
-        -------
-        bool
-            True for text that OpenSim does not read, and for C3D where the options want it.
-        """
-        return suffix in ("csv", "tsv") or (suffix == "c3d" and self.options["export"].also_trc)
+    @cached_property
+    def _taken(self) -> frozenset[str]:
+        """Where all cleaned files go."""
+        return frozenset(self.data.places.values())
 
     def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
         """Write the options of a stage as flags.
@@ -252,8 +279,9 @@ class Plan:
         return of_job
 
     def write_lists(self) -> None:
-        """Write what commands have no room for: flags of detectors, the table of decisions, lists of files for meshes, poses and report."""
-        write_json(Path(self.detectors_file), self.detector_flags)
+        """Write what commands have no room for: flags of stages, the table of decisions, lists of files for meshes, poses and report."""
+        for stages in (self.detectors, FINISHING):
+            write_json(Path(self.flags_file(*stages)), self.flags(*stages))
         write_text(Path(self.files.decision_table), self.data.decision_table)
         write_list(self.files.quality_list, self.report_files)
         if len(self.batches) > 1:

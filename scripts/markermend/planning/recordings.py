@@ -216,9 +216,10 @@ def _walk(
             )
             folders.clear()
             continue
-        if "01_markers.parquet" in files:
+        earlier = real != results and os.path.isfile(os.path.join(path, "report", "logs", "recordings.txt"))
+        if earlier or "01_markers.parquet" in files:
             left.note("results of earlier runs", os.path.dirname(path), [os.path.basename(path)])
-        if real in seen or real == results or "01_markers.parquet" in files:
+        if real in seen or real == results or earlier or "01_markers.parquet" in files:
             folders.clear()
             continue
         seen.add(real)

@@ -4,33 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from markermend.core.artifacts import BY_STAGE
+from markermend.storage.folder_names import CLEANED
 
 QUALITY = "08_qc.json"
 """Name of the file with a recording in numbers."""
 
 CERTIFICATE = "certificate.json"
 """Name of the certificate of a recording."""
-
-
-def cleaned_file(folder: Path, source: str) -> Path:
-    """Find the cleaned file of a recording.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder of the recording.
-    source : str
-        Name of its original.
-
-    Returns
-    -------
-    Path
-        The file.
-    """
-    return folder / f"cleaned{Path(source).suffix.lower()}"
 
 
 @dataclass(frozen=True)
@@ -118,6 +100,11 @@ class ResultFiles:
         return f"{self.recording}/{CERTIFICATE}"
 
     @property
+    def cleaned(self) -> str:
+        """The folder of the cleaned files, which holds nothing else."""
+        return f"{self.results}/{CLEANED}"
+
+    @property
     def quality(self) -> str:
         """A recording in numbers."""
         return f"{self.recording}/{QUALITY}"
@@ -158,9 +145,9 @@ class ResultFiles:
         return f"{self.subject}/logs/repaired.txt"
 
     @property
-    def detectors(self) -> str:
-        """The flags of the detectors, with the wildcard `{checksum}` of this file itself."""
-        return f"{self.report}/logs/detectors_{{checksum}}.json"
+    def flags(self) -> str:
+        """The flags of stages that share a job, with the wildcard `{checksum}` of this file itself."""
+        return f"{self.report}/logs/flags_{{checksum}}.json"
 
     @property
     def batch(self) -> str:

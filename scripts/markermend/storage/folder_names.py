@@ -11,7 +11,10 @@ from urllib.parse import unquote_to_bytes
 LONGEST = 255
 """Bytes that a file system takes for one name (NAME_MAX)."""
 
-RESERVED_SUBJECTS = frozenset({"report", "papers"})
+CLEANED = "cleaned"
+"""The folder of the cleaned files, beside the subjects' folders."""
+
+RESERVED_SUBJECTS = frozenset({CLEANED, "report", "papers"})
 """Names beside the subjects' folders that are ours."""
 
 RESERVED_RECORDINGS = frozenset({"mesh.json", "poses.parquet", "logs", "failures.tsv"})

@@ -1,8 +1,9 @@
-"""The records `logs/STAGE.json`: what each stage wrote beside them, by checksums, and by which command."""
+"""The records `logs/STAGE.json`: what each stage wrote into a folder or for it, by checksums, and by which command."""
 
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,14 +17,14 @@ FOLDER = "logs"
 
 @dataclass(frozen=True)
 class OutputRecord:
-    """What a stage wrote into one folder.
+    """What a stage wrote into one folder, and elsewhere for it.
 
     Attributes
     ----------
     stage : str
         Its name.
     outputs : mapping of str to str
-        The sha256 of each file, by its name.
+        The sha256 of each file, by its path from the folder: its name where it is there.
     command : tuple of str
         The command line that wrote them; empty where it is not known.
     dependencies : str or None
@@ -36,7 +37,14 @@ class OutputRecord:
     dependencies: str | None = None
 
 
-def write(stage: str, outputs: Sequence[Path], *, command: Sequence[str] = (), dependencies: str | None = None) -> None:
+def write(
+    stage: str,
+    outputs: Sequence[Path],
+    *,
+    folder: Path | None = None,
+    command: Sequence[str] = (),
+    dependencies: str | None = None,
+) -> None:
     """Record what a stage wrote.
 
     Parameters
@@ -44,7 +52,9 @@ def write(stage: str, outputs: Sequence[Path], *, command: Sequence[str] = (), d
     stage : str
         Its name.
     outputs : sequence of Path
-        The files, in one folder; where there are none, nothing is recorded.
+        The files; where there are none, nothing is recorded.
+    folder : Path, optional
+        The folder that they belong to; that of the first where it is not given.
     command : sequence of str, optional
         The command line that wrote them.
     dependencies : str, optional
@@ -52,8 +62,9 @@ def write(stage: str, outputs: Sequence[Path], *, command: Sequence[str] = (), d
     """
     if not outputs:
         return
-    content = {"outputs": of(outputs), "command": list(command), "dependencies": dependencies}
-    write_json(outputs[0].parent / FOLDER / f"{stage}.json", content)
+    folder = folder or outputs[0].parent
+    content = {"outputs": of(outputs, folder), "command": list(command), "dependencies": dependencies}
+    write_json(folder / FOLDER / f"{stage}.json", content)
 
 
 def remove(folder: Path, stage: str) -> None:
@@ -69,20 +80,22 @@ def remove(folder: Path, stage: str) -> None:
     (folder / FOLDER / f"{stage}.json").unlink(missing_ok=True)
 
 
-def of(outputs: Sequence[Path]) -> dict[str, str]:
+def of(outputs: Sequence[Path], folder: Path) -> dict[str, str]:
     """Compute the checksums of files.
 
     Parameters
     ----------
     outputs : sequence of Path
         The files.
+    folder : Path
+        The folder that they belong to.
 
     Returns
     -------
     dict of str to str
-        The sha256 of each, by its name.
+        The sha256 of each, by its path from the folder.
     """
-    return {path.name: sha256(path) for path in outputs}
+    return {Path(os.path.relpath(path, folder)).as_posix(): sha256(path) for path in outputs}
 
 
 def read(folder: Path, stage: str) -> OutputRecord | None:

@@ -14,18 +14,10 @@ from typing import Any
 
 from markermend.planning.result_files import QUALITY
 
-WORK = {
-    "detect": 10.0,
-    "fill": 2.0,
-    "repair": 1.5,
-    "export_c3d": 0.5,
-    "export_trc": 0.5,
-    "export_csv": 0.5,
-    "export_tsv": 0.5,
-}
+WORK = {"detect": 10.0, "finish": 3.0, "repair": 1.5}
 """What the jobs of a recording take, in units of the shortest (benchmarks/results/runtime.tsv); 0.5 for all others."""
 
-LAST = "qc"
+LAST = "finish"
 """The last job of a recording."""
 
 SHORTEST_S = 5.0

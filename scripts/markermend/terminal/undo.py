@@ -5,6 +5,7 @@ Reads: the cleaned files; originals.parquet and certificate.json of their record
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
@@ -12,9 +13,9 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from markermend.export.undo import NothingNamed, NotUndone, Restoration, read_certificate, undo
-from markermend.planning.result_files import CERTIFICATE, cleaned_file
+from markermend.planning.result_files import CERTIFICATE
 from markermend.storage.atomic import NotWritten
-from markermend.storage.folder_names import decode
+from markermend.storage.folder_names import CLEANED, decode
 
 STRETCHES = 4
 """Stretches that are named in the line of a recording."""
@@ -74,9 +75,10 @@ def _restore(folder: Path, to: Path, markers: Sequence[str], frames: tuple[int, 
     """Restore a recording, and say so in a line."""
     stated = read_certificate(folder / CERTIFICATE)
     folder = folder.resolve()
-    target = to / folder.parent.name / f"{folder.name}{Path(stated['source']).suffix}"
+    cleaned = Path(os.path.normpath(folder / stated["cleaned"]))
+    target = to / cleaned.relative_to(folder.parent.parent / CLEANED)
     done = undo(
-        cleaned_file(folder, stated["source"]),
+        cleaned,
         target,
         originals=folder / "originals.parquet",
         certificate=stated,

@@ -14,7 +14,7 @@ WRITTEN = {
     "S01": {"mesh": ["mesh.json"]},
     "S01/walk": {
         "ingest": ["01_markers.parquet"],
-        "export": ["cleaned.c3d", "changes.tsv", "originals.parquet", "certificate.json"],
+        "export": ["changes.tsv", "../../cleaned/walk.c3d", "originals.parquet", "certificate.json"],
     },
     "report": {"report": ["index.html"]},
     "report/batches/1_of_2": {"collect": ["qc.json"]},
@@ -26,6 +26,7 @@ def results(tmp_path):
     """The results of one recording, whose original is in another folder."""
     source, top = tmp_path / "walk.c3d", tmp_path / "results"
     source.write_text("walk")
+    (top / "cleaned").mkdir(parents=True)
     for folder, stages in WRITTEN.items():
         (top / folder).mkdir(parents=True)
         for stage, names in stages.items():
@@ -56,7 +57,7 @@ def test_files_that_are_as_they_were_are_counted(results, capsys):
     assert lines(results, capsys) == (0, [], "9 files are as they were, 0 differ")
 
 
-@pytest.mark.parametrize("name", [f"{folder}/{name}" for folder in WRITTEN for names in WRITTEN[folder].values() for name in names])  # fmt: skip
+@pytest.mark.parametrize("name", [os.path.normpath(f"{folder}/{name}") for folder in WRITTEN for names in WRITTEN[folder].values() for name in names])  # fmt: skip
 def test_a_changed_file_is_listed_with_both_checksums_whatever_its_date(results, capsys, name):
     path, before = results / name, sha256(results / name)
     file, content = path.stat(), bytearray(path.read_bytes())
@@ -71,9 +72,9 @@ def test_a_changed_file_is_listed_with_both_checksums_whatever_its_date(results,
 
 
 def test_a_missing_file_is_listed(results):
-    before = sha256(results / "S01/walk/cleaned.c3d")
-    (results / "S01/walk/cleaned.c3d").unlink()
-    assert different(results) == {"S01/walk/cleaned.c3d": (before, ABSENT)}
+    before = sha256(results / "cleaned/walk.c3d")
+    (results / "cleaned/walk.c3d").unlink()
+    assert different(results) == {"cleaned/walk.c3d": (before, ABSENT)}
 
 
 def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
@@ -86,6 +87,13 @@ def test_an_original_is_held_against_what_was_read_of_it(results, tmp_path):
     assert different(results) == {str(source): (before, ABSENT)}
     (results / "report/logs/sources.json").unlink()
     assert different(results) == {"the original of S01/walk": (before, UNRECORDED)}
+
+
+def test_a_file_among_the_cleaned_ones_that_is_none_is_listed(results):
+    (results / "cleaned/more").mkdir()
+    (results / "cleaned/more/walk.c3d").write_text("walk")
+    path = results / "cleaned/more/walk.c3d"
+    assert different(results) == {"cleaned/more/walk.c3d": (UNRECORDED, sha256(path))}
 
 
 def test_a_file_of_which_nothing_is_recorded_is_listed_and_a_note_of_a_person_is_not(results):
@@ -119,7 +127,7 @@ def test_a_record_of_snakemake_that_cannot_be_read_is_listed_and_replaced_on_req
 
 
 def test_the_next_run_makes_anew_what_differs_on_request(results, capsys):
-    (results / "S01/walk/cleaned.c3d").write_text("edited")
+    (results / "cleaned/walk.c3d").write_text("edited")
     (results / "S01/walk/changes.tsv").unlink()
     assert lines(results, capsys)[0] == 1 and not list(results.rglob("failures.tsv"))
     assert lines(results, capsys, "--remake")[0] == 1

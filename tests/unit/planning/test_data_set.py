@@ -2,8 +2,6 @@
 
 import json
 import os
-import re
-from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -95,20 +93,6 @@ def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
     assert plan.data.decisions_flag(job()) == decided.data.decisions_flag(job()) == "--decisions=[]"
     name, _, value = decided.data.decisions_flag(job(recording="run")).partition("=")
     assert name == "--decisions" and [line["marker"] for line in json.loads(value)] == ["M1"]
-
-
-def test_only_recordings_of_one_format_meet_the_constraint_on_their_subject(plan):
-    found = {
-        suffix: [
-            folders
-            for folders in plan.data.entries
-            if re.match(rf"(?P<subject>{plan.data.subjects_of(suffix)})/(?P<recording>[^/]+)/", "/".join(folders) + "/")
-        ]
-        for suffix in ("c3d", "trc", "csv", "tsv")
-    }
-    assert found == {"c3d": [("S%201", "walk")], "trc": [("S%201", "run")], "csv": [("S2", "%7Bx%7D")], "tsv": []}
-    alike = replace(plan.data, entries={("S%201", "walk"): plan.data.entry(job())})
-    assert alike.subjects_of("c3d") == "[^/]+" and alike.subjects_of("trc") == "(?!)"
 
 
 def test_what_is_missing_by_default_is_said_and_what_is_named_must_be_there(tmp_path, config, monkeypatch):

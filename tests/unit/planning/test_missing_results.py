@@ -20,7 +20,7 @@ STAGES = {
     "slow": ["05_slow.parquet"],
     "repair": ["06_repaired.parquet", "06_changes.parquet"],
     "fill": ["07_filled.parquet", "07_changes.parquet"],
-    "export": ["cleaned.c3d", "changes.tsv", "originals.parquet", "certificate.json"],
+    "export": ["../../cleaned/walk.c3d", "changes.tsv", "originals.parquet", "certificate.json"],
     "qc": ["08_qc.json", "page.html"],
 }
 
@@ -30,6 +30,7 @@ def walk(plan, tmp_path):
     """The folder of a recording that is finished, of a subject with two; the report has been made."""
     folder = tmp_path / "out/S%201/walk"
     folder.mkdir(parents=True)
+    (tmp_path / "out/cleaned").mkdir()
     for name in [*chain.from_iterable(STAGES.values()), "../mesh.json", "../poses.parquet"]:
         (folder / name).touch()
     return folder
@@ -76,7 +77,7 @@ def test_a_report_of_recordings_that_are_gone_is_made_anew_with_them(plan, walk,
 def test_a_copy_as_trc_is_missed_where_it_is_written(config, walk):
     config["export"]["also_trc"] = True
     assert find_missing(make_plan(config, PROJECT, deployed=False)) == [("S%201", "walk", "export")]
-    (walk / "cleaned.trc").touch()
+    (walk / "../../cleaned/walk.trc").touch()
     assert find_missing(make_plan(config, PROJECT, deployed=False)) == []
 
 

@@ -11,7 +11,7 @@ from markermend.core.artifacts import DETECTORS
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
 from markermend.planning import end_of_run
-from markermend.planning.plan import Plan, make_plan
+from markermend.planning.plan import FINISHING, Plan, make_plan
 from markermend.planning.recordings import BadDataSet
 from support.paths import PROJECT
 
@@ -55,29 +55,41 @@ def test_detectors_that_run_have_events_in_their_strict_order(plan, config):
     assert plan.detectors == list(DETECTORS)
     assert plan.events == [plan.files.events[stage] for stage in DETECTORS]
     some = make_plan({**config, "detect": ["slow", "peaks"]}, PROJECT, deployed=False)
-    assert some.detectors == list(some.detector_flags) == ["peaks", "slow"]
+    assert some.detectors == ["peaks", "slow"]
     assert some.events == [plan.files.events["peaks"], plan.files.events["slow"]]
 
 
-def test_the_flags_of_detectors_lie_in_a_file_that_has_another_name_where_one_changes(plan, config, monkeypatch):
+def test_the_flags_of_stages_that_share_a_job_lie_in_a_file_that_has_another_name_where_one_changes(
+    plan, config, monkeypatch
+):
+    def name(config):
+        made = make_plan(config, PROJECT, deployed=False)
+        return made.flags_file(*made.detectors)
+
     plan.write_lists()
-    assert json.loads(Path(plan.detectors_file).read_text()) == plan.detector_flags
-    code, *options = plan.detector_flags["slow"]
+    for stages in (plan.detectors, FINISHING):
+        assert json.loads(Path(plan.flags_file(*stages)).read_text()) == plan.flags(*stages)
+    code, *options = plan.flags("slow")["slow"]
     assert code == f"--code={plan.code('slow')}"
     assert options == shlex.split(plan.stage_options("slow")(job()))
-    assert make_plan(config, PROJECT, deployed=False).detectors_file == plan.detectors_file
+    assert name(config) == plan.flags_file(*plan.detectors)
     changed = [{**config, "detect": ["peaks"]}, {**config, "frozen": {**config["frozen"], "min_frames": 9}}]
-    names = {make_plan(each, PROJECT, deployed=False).detectors_file for each in changed}
+    names = {name(each) for each in changed}
     monkeypatch.setattr(Plan, "code", lambda plan, stage: "edited")
-    names.add(make_plan(config, PROJECT, deployed=False).detectors_file)
-    assert len({*names, plan.detectors_file}) == 4
+    names.add(name(config))
+    monkeypatch.undo()
+    assert len({*names, plan.flags_file(*plan.detectors)}) == 4
 
 
-def test_trc_is_written_besides_text_and_on_request_besides_c3d(plan, config):
-    suffixes = ("c3d", "trc", "csv", "tsv")
-    assert [suffix for suffix in suffixes if plan.writes_trc(suffix)] == ["csv", "tsv"]
+def test_cleaned_files_go_to_a_tree_under_their_own_names_with_a_copy_as_trc_on_request(plan, config, tmp_path):
+    folders = list(plan.data.entries)
+    assert [plan.cleaned(job(*own)) for own in folders] == [
+        f"{tmp_path}/out/cleaned/{name}" for name in ("run.trc", "walk.c3d", "{x}.csv")
+    ]
+    assert [plan.trc(job(*own)) for own in folders] == [[], [], []]
     wanted = make_plan({**config, "export": {"also_trc": True}}, PROJECT, deployed=False)
-    assert [suffix for suffix in suffixes if wanted.writes_trc(suffix)] == ["c3d", "csv", "tsv"]
+    copies = [[], [f"{tmp_path}/out/cleaned/walk.trc"], [f"{tmp_path}/out/cleaned/{{x}}.trc"]]
+    assert [wanted.trc(job(*own)) for own in folders] == copies
 
 
 @pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "poses", "fill", "export", "qc", "report"])
@@ -96,7 +108,7 @@ def test_an_option_reaches_the_stages_that_read_it_and_no_other(plan, config):
 
 def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_it_reads(plan):
     assert len(plan.code("qc")) == 16 and plan.code("qc") == plan.code("qc")
-    assert len({plan.code("qc"), plan.code("qc", "report/templates"), plan.code("fill")}) == 3
+    assert len({plan.code("fill"), plan.code("fill", "report/templates"), plan.code("qc")}) == 3
 
 
 def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):

@@ -12,11 +12,9 @@ STATS = {
     "mesh": 1,
     "detect": 2,
     "repair": 2,
-    "fill": 2,
-    "export_c3d": 2,
-    "qc": 2,
+    "finish": 2,
     "report": 1,
-    "total": 14,
+    "total": 10,
 }
 
 
@@ -55,10 +53,10 @@ def test_a_recording_has_its_line_when_it_is_judged(tmp_path):
     write_quality(tmp_path)
     run = Progress(tmp_path)
     assert run.tell({"event": "run_info", "stats": STATS}) is None
-    for number, rule in enumerate(("ingest", "detect", "repair", "fill", "export_c3d")):
+    for number, rule in enumerate(("ingest", "detect", "repair")):
         assert run.tell(begin(number, rule)) is None
         assert run.tell(end(number)) is None
-    assert run.tell(begin(9, "qc")) is None
+    assert run.tell(begin(9, "finish")) is None
     assert run.tell(end(9)) == "S/a: cleaned, 12 samples altered, 5 samples filled, 2 gaps left"
     assert run.line().startswith("1 of 2 recordings")
 
@@ -73,16 +71,16 @@ def test_what_is_worked_on_is_named(tmp_path):
 
 def test_the_time_that_is_left_follows_from_the_work_that_is_done(tmp_path, clock):
     run = Progress(tmp_path)
-    run.tell({"event": "run_info", "stats": {"detect": 4, "qc": 4, "total": 8}})
+    run.tell({"event": "run_info", "stats": {"detect": 4, "finish": 4, "total": 8}})
     run.tell(begin(1, "detect"))
     clock[0] = 21.0
     run.tell(end(1))
-    # 10 of 42 units took 21 s.
-    assert run.share == pytest.approx(10 / 42)
-    assert run.seconds_left == pytest.approx(21 * 32 / 10)
-    assert "about 67 s left" in run.line()
-    run.tell({"event": "run_info", "stats": {"detect": 4, "qc": 4, "total": 8}})  # told again at the end of a run
-    assert run.share == pytest.approx(10 / 42)
+    # 10 of 52 units took 21 s.
+    assert run.share == pytest.approx(10 / 52)
+    assert run.seconds_left == pytest.approx(21 * 42 / 10)
+    assert "about 88 s left" in run.line()
+    run.tell({"event": "run_info", "stats": {"detect": 4, "finish": 4, "total": 8}})  # told again at the end of a run
+    assert run.share == pytest.approx(10 / 52)
 
 
 def test_nothing_is_said_of_the_time_left_before_anything_is_done(tmp_path, clock):

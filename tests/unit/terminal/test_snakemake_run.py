@@ -9,8 +9,8 @@ from rich.console import Console
 
 from markermend.terminal import snakemake_run
 
-STATS = {"event": "run_info", "stats": {"qc": 1, "total": 1}}
-BEGUN = {"event": "job_info", "jobid": 4, "rule_name": "qc", "wildcards": {"subject": "S", "recording": "a"}}
+STATS = {"event": "run_info", "stats": {"finish": 1, "total": 1}}
+BEGUN = {"event": "job_info", "jobid": 4, "rule_name": "finish", "wildcards": {"subject": "S", "recording": "a"}}
 FINISHED = {"event": "job_finished", "job_id": 4}
 
 

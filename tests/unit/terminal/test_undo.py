@@ -1,12 +1,12 @@
 """`markermend undo`: which recordings are restored, where they go, and what is said."""
 
-import json
 import os
 
 import numpy as np
 import pytest
 
 from markermend import api
+from markermend.export.write_back import write_certificate
 from markermend.terminal import command_line
 from support import c3d_files
 
@@ -22,8 +22,11 @@ def add(results, subject, recording, *, name="walk.c3d", peak=True):
     if peak:
         done.recording.positions[10:13, 1] += 7.0
         done.recording.origin[10:13, 1] = 1
-    certificate = api.write(done, path, folder / "cleaned.c3d", originals=folder / "originals.parquet")
-    (folder / "certificate.json").write_text(json.dumps(certificate))
+    cleaned_name = f"{recording}.c3d" if name == "walk.c3d" else name
+    cleaned = results / "cleaned" / subject.replace("%20", " ") / cleaned_name
+    cleaned.parent.mkdir(parents=True, exist_ok=True)
+    certificate = api.write(done, path, cleaned, originals=folder / "originals.parquet")
+    write_certificate(folder / "certificate.json", certificate, cleaned)
     content = path.read_bytes()
     path.unlink()
     return content
@@ -59,17 +62,17 @@ def test_a_recording_is_named_with_or_without_its_subject(results, tmp_path, nam
 
 def test_a_recording_is_named_by_its_own_folder_wherever_that_was_moved(results, tmp_path, monkeypatch):
     add(results, "S01", "walk")
-    os.rename(results / "S01", tmp_path / "S01")
-    monkeypatch.chdir(tmp_path / "S01/walk")
+    os.rename(results, tmp_path / "moved")
+    monkeypatch.chdir(tmp_path / "moved/S01/walk")
     assert run(".", "--to", tmp_path / "back") == 0
     assert (tmp_path / "back/S01/walk.c3d").exists()
 
 
 def test_names_with_blanks_and_letters_of_any_script(results, tmp_path):
     content = add(results, "S%2001", "lauf%20ä", name="läuf 1.C3D")
-    (results / "S%2001/lauf%20ä/cleaned.c3d").chmod(0o444)
+    (results / "cleaned/S 01/läuf 1.C3D").chmod(0o444)
     assert run(results, "S 01/lauf ä", "--to", tmp_path / "zurück 1") == 0
-    assert (tmp_path / "zurück 1/S%2001/lauf%20ä.C3D").read_bytes() == content
+    assert (tmp_path / "zurück 1/S 01/läuf 1.C3D").read_bytes() == content
 
 
 def test_a_finding_is_restored_and_the_line_says_so(results, tmp_path, capsys):
@@ -99,11 +102,11 @@ def test_recordings_without_what_is_named_are_passed_over(results, tmp_path, cap
 def test_one_that_was_altered_is_refused_and_the_others_come_back(results, tmp_path, capsys):
     add(results, "S01", "walk")
     add(results, "S01", "turn")
-    with open(results / "S01/turn/cleaned.c3d", "ab") as file:
+    with open(results / "cleaned/S01/turn.c3d", "ab") as file:
         file.write(b"\0")
     assert run(results, "--to", tmp_path / "back") == 1
     said = capsys.readouterr()
-    assert len(said.out.splitlines()) == 1 and "turn/cleaned.c3d was altered after it was written" in said.err
+    assert len(said.out.splitlines()) == 1 and "S01/turn.c3d was altered after it was written" in said.err
     assert [path.name for path in (tmp_path / "back").rglob("*.c3d")] == ["walk.c3d"]
 
 
