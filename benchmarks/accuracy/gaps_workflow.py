@@ -6,7 +6,7 @@ Writes: C3D files with gaps and results below a temporary folder (or --folder); 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.accuracy.gaps_workflow --iterations 1 --cores 2
 
 Each case becomes a subject of its own: a copy of the recording whose samples in the gaps are marked as missing. What
-the workflow writes into cleaned.c3d is compared with the truth, and so is what benchmarks/accuracy/gaps.py fills. Detection is
+the workflow writes into the cleaned file is compared with the truth, and so is what benchmarks/accuracy/gaps.py fills. Detection is
 off, and the rules of what may be filled are lifted, as there.
 """
 
@@ -66,7 +66,7 @@ def run(recordings: Path, results: Path, cores: int) -> None:
 def compare(folder: Path, case: Case, results: Path) -> tuple[float, float, float]:
     """Errors of a case, mm: by the predictors alone, by the workflow; and how far apart the two are at most."""
     _, _, alone = fill_case(str(folder), case, OPTIONS["fill"].members)
-    (cleaned,) = results.glob(f"{case['seq']}_{case['cond']}_{case['it']}/*/cleaned.c3d")
+    (cleaned,) = results.glob(f"cleaned/{case['seq']}_{case['cond']}_{case['it']}/*.c3d")
     written = files.read(cleaned, unlabelled=UNLABELLED, rate=None).recording
     truth, through = load(str(folder), case["seq"]), []
     for marker, start, stop in case["gaps"]:

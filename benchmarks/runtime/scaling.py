@@ -4,7 +4,7 @@ Writes: tables to stdout; in each one number varies and the others are those of 
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.runtime.scaling --vary seconds markers
 
-The workflow cleans each recording; then the command of each job runs alone with one thread, and so does that of each detector
+The workflow cleans each recording; then the command of each job runs alone with one thread, and so does that of each stage that shares a job
 (`benchmarks.runtime.stages`). Seconds of a core and peak memory include the start of the process and its files; `jobs` are those of the
 workflow together, `starts` what they need to start, `snakemake` what the workflow took in addition. As many gaps of half a second as peaks
 of two samples are at random places on random markers.

@@ -28,6 +28,7 @@ from pathlib import Path
 
 from benchmarks.support import result_tables
 from markermend.core.artifacts import DETECTORS
+from markermend.planning.plan import FINISHING
 from markermend.storage import output_checksums
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -118,16 +119,16 @@ class Version:
         for row in reversed(list(csv.DictReader(printed.splitlines(), delimiter="\t"))):
             if row["shellcmd"] != "-":
                 self.jobs.setdefault(row["rule"], Job(row["shellcmd"])).outputs.append(Path(row["output_file"]))
-        self.detectors = {
+        self.parts = {
             record.stage: Job(shlex.join(record.command), [folder.parent / name for name in record.outputs])
             for folder in results.glob("*/*/logs")
             for record in output_checksums.records(folder.parent)
-            if record.stage in DETECTORS and record.stage not in self.jobs
+            if record.stage in (*DETECTORS, *FINISHING) and record.stage not in self.jobs
         }
 
     def run(self) -> None:
         """Run the command of each stage once."""
-        for job in (*self.jobs.values(), *self.detectors.values()):
+        for job in (*self.jobs.values(), *self.parts.values()):
             job.run(self.project)
 
     def costs(self) -> dict[str, dict[str, float]]:
@@ -136,7 +137,7 @@ class Version:
         starts, seconds = (sum(row[name] for row in rows.values()) for name in ("start_s", "cpu_s"))
         rows["all"] = {"start_s": starts, "cpu_s": seconds, "megabytes": max(row["megabytes"] for row in rows.values())}
         rows["snakemake"] = {"cpu_s": self.workflow - seconds}
-        return {**{stage: job.cost() for stage, job in self.detectors.items()}, **rows}
+        return {**{stage: job.cost() for stage, job in self.parts.items()}, **rows}
 
 
 def measure(recording: Path, projects: Sequence[Path], runs: int) -> list[dict[str, dict[str, float]]]:

@@ -1,7 +1,7 @@
 """Results as if the workflow had run: empty files, and the records that Snakemake keeps of its jobs.
 
 Reads: the arguments of Snakemake, with `--dry-run`.
-Writes: every output of the jobs that are planned, as an empty file, and its record below `.snakemake` in the working folder.
+Writes: every output of the jobs that are planned and the cleaned files, as empty files, and their records below `.snakemake` in the working folder.
 
     PYTHONPATH=scripts .venv/bin/python -m benchmarks.support.planned_results --dry-run --config recordings=FOLDER results=FOLDER
 
@@ -28,7 +28,8 @@ def build_and_write(workflow: Any) -> None:
     old = time.time() - 3600
     for number, level in enumerate(workflow.dag.toposorted()):
         for job in level:
-            for output in job.output:
+            params = job.params if job.rule.name == "finish" else {}
+            for output in [*job.output, *filter(None, [params.get("cleaned")]), *params.get("trc", [])]:
                 Path(output).parent.mkdir(parents=True, exist_ok=True)
                 Path(output).touch()
                 os.utime(output, (old + number, old + number))

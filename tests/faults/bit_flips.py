@@ -16,15 +16,14 @@ from markermend.storage import output_checksums, snakemake_records
 READERS = {
     "S01/walk/01_markers.parquet": ("mesh", "repair"),
     "S01/walk/02_peaks.parquet": ("repair",),
-    "S01/walk/05_slow.parquet": ("qc",),
-    "S01/walk/06_repaired.parquet": ("poses", "fill"),
-    "S01/walk/06_changes.parquet": ("fill",),
-    "S01/walk/07_filled.parquet": ("export_c3d",),
-    "S01/walk/07_changes.parquet": ("qc",),
-    "S01/walk/certificate.json": ("qc",),
+    "S01/walk/05_slow.parquet": ("finish",),
+    "S01/walk/06_repaired.parquet": ("poses", "finish"),
+    "S01/walk/06_changes.parquet": ("finish",),
+    "S01/walk/07_filled.parquet": ("finish",),
+    "S01/walk/certificate.json": ("finish",),
     "S01/walk/08_qc.json": ("report",),
     "S01/mesh.json": ("repair",),
-    "S01/poses.parquet": ("fill",),
+    "S01/poses.parquet": ("finish",),
 }
 """Rules that read a result."""
 

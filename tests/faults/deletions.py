@@ -8,8 +8,8 @@ from faults.trial import Outcome, Trial
 from faults.workplace import Workplace
 
 DELETED = (
-    "S01/walk/cleaned.c3d",
-    "S02/reach/cleaned.trc",
+    "cleaned/S01/walk.c3d",
+    "cleaned/S02/reach.trc",
     "S01/walk/changes.tsv",
     "S01/walk/originals.parquet",
     "S01/walk/certificate.json",
@@ -25,6 +25,7 @@ DELETED = (
     "report/plotly.min.js",
     "S01/walk",
     "S01",
+    "cleaned",
     "report",
     ".snakemake",
 )

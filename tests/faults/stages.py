@@ -10,7 +10,7 @@ STAGES = (
 )  # fmt: skip
 
 FIRST_OF_JOBS = ("ingest", "mesh", "labels", "repair", "poses", "fill", "export", "qc", "report")
-"""The first stage of each job."""
+"""The first stage of each job, and those that finish a recording, of which one that keeps its outputs passes at once."""
 
 
 def remove_from(stage: str, results: Path) -> int:

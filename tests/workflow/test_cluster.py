@@ -18,7 +18,7 @@ PROFILE = ("--profile", "profiles/slurm", "--slurm-init-seconds-before-status-ch
 HANGING = """
 import os, sys, time
 script = os.path.basename(sys.orig_argv[1]) if len(sys.orig_argv) > 1 else ""
-if script in ("mesh.py", "repair.py", "fill.py"):
+if script in ("mesh.py", "repair.py", "finish.py"):
     with open(os.path.join({folder!r}, script + ".jobs"), "a") as file:
         file.write(os.environ["SLURM_JOB_ID"] + "\\n")
     try:
@@ -93,7 +93,7 @@ def test_a_job_that_was_cancelled_or_out_of_time_or_on_a_node_that_was_lost_is_d
             # Of six recordings side by side: half an hour to detect, as much to repair, and 4 GB each.
             assert first == (60, 24)
             cluster.call("scontrol", "update", f"JobId={slow}", "TimeLimit=1")
-            lost, node = hanging("fill.py")
+            lost, node = hanging("finish.py")
             cluster.lose(node)
             assert running.wait(timeout=900) == 0, (tmp_path / "log").read_text()
         finally:
@@ -102,4 +102,4 @@ def test_a_job_that_was_cancelled_or_out_of_time_or_on_a_node_that_was_lost_is_d
     assert subject.items() <= project.outputs(tmp_path / "out").items()
     assert cancelled in jobs("mesh.py")[:-1]
     assert cluster.limits(jobs("repair.py")[-1]) == tuple(2 * limit for limit in first)
-    assert jobs("fill.py").count(lost) == 1 and cluster.node_of(lost) not in ("", node)
+    assert jobs("finish.py").count(lost) == 1 and cluster.node_of(lost) not in ("", node)

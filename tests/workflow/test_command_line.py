@@ -57,7 +57,7 @@ def test_a_folder_is_cleaned_with_a_line_for_each_recording(recordings, tmp_path
 def test_a_look_leaves_every_byte(recordings, tmp_path):
     markermend("look", recordings, "--results", tmp_path / "out", "--cores", "2")
     for name in "ab":
-        cleaned = tmp_path / f"out/S01/{name}/cleaned.c3d"
+        cleaned = tmp_path / f"out/cleaned/S01/{name}.c3d"
         assert cleaned.read_bytes() == (recordings / f"S01/{name}.c3d").read_bytes()
 
 

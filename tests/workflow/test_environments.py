@@ -20,7 +20,7 @@ WANTED = {*RUNTIME, *DECLARED["dependency-groups"]["dev"], *DECLARED["project"][
 MODULES = {"yaml": "pyyaml", "sklearn": "scikit-learn"}
 """Packages by the module that is imported, where the names differ."""
 ENVIRONMENTS = {
-    "fill": ("base", "torch"),
+    "finish": ("base", "torch"),
     "artifacts2022_networks": ("evaluate",),
     "artifacts2022_operators": ("evaluate",),
     "artifacts2022_readings": ("evaluate",),

@@ -10,7 +10,7 @@ from markermend.storage import atomic, poses_file, stage_files
 from support.workflow_runs import Project, write_recording
 
 NOTHING = "Nothing to be done"
-AFTER_REPAIR = ("fill", "export_c3d", "qc")
+AFTER_REPAIR = ("finish",)
 
 
 @pytest.fixture(scope="module")
@@ -78,12 +78,12 @@ def test_without_pooling_no_job_is_about_poses(finished, tmp_path):
     plan = finished.plan("--configfile", str(tmp_path / "study.yaml"))
     assert plan.jobs == {**dict.fromkeys(AFTER_REPAIR, 7), "report": 1, "all": 1}
     fresh = finished.plan("--configfile", str(tmp_path / "study.yaml"), results=tmp_path / "results")
-    assert "poses" not in fresh.jobs and fresh.jobs["fill"] == 7
+    assert "poses" not in fresh.jobs and fresh.jobs["finish"] == 7
 
 
 def test_on_a_cluster_no_batch_waits_for_one_that_waits_for_it(finished, tmp_path):
     plan = finished.plan("--profile", str(finished.folder / "profiles/slurm"), results=tmp_path)
-    assert plan.jobs["poses"] == 2 and plan.jobs["fill"] == 7
+    assert plan.jobs["poses"] == 2 and plan.jobs["finish"] == 7
 
 
 def test_an_added_recording_repeats_its_subject_and_leaves_the_others(finished):
@@ -96,7 +96,7 @@ def test_an_added_recording_repeats_its_subject_and_leaves_the_others(finished):
     assert facts_of(finished, "S01/walk")["learned_from"] == ["jump", "new", "turn"]
     after = finished.outputs()
     changed = {name for name in before if before[name] != after[name]}
-    assert {name.split("/")[0] for name in changed} == {"S01", "report"}
+    assert {name.removeprefix("cleaned/").split("/")[0] for name in changed} == {"S01", "report"}
     assert not any(name.endswith("01_markers.parquet") for name in changed)
     new.unlink()
     finished.run()
@@ -113,9 +113,9 @@ def test_a_decision_that_changes_no_pose_refills_its_recording_alone(finished, t
     finished.run(*flags)
     after = finished.outputs()
     changed = {name for name in before if before[name] != after[name]}
-    assert {name.rpartition("/")[0] for name in changed} == {"S01/walk", "report"}
-    logs = {name: (finished.results / f"S01/{name}/logs/fill.log").read_text() for name in ("walk", "jump", "turn")}
-    assert [name for name, text in logs.items() if "outputs are kept" in text] == ["jump", "turn"]
+    assert {name.rpartition("/")[0] for name in changed} == {"S01/walk", "cleaned/S01", "report"}
+    logs = {name: (finished.results / f"S01/{name}/logs/finish.log").read_text() for name in ("walk", "jump", "turn")}
+    assert [name for name, text in logs.items() if "fill: the outputs are kept" in text] == ["jump", "turn"]
     assert NOTHING in finished.plan(*flags).text
     finished.run()
     assert finished.outputs() == before

@@ -17,10 +17,11 @@ import yaml
 
 from markermend.core.artifacts import DETECTORS
 from markermend.planning import code_hashes
+from markermend.planning.plan import FINISHING
 from markermend.storage import stage_files
 from support.workflow_runs import Project, write_recording
 
-CHAIN = ["ingest", "mesh", "detect", "repair", "fill", "export_c3d", "qc", "report"]
+CHAIN = ["ingest", "mesh", "detect", "repair", "finish", "report"]
 NOTHING = "Nothing to be done"
 FAULT = """
 import os, sys
@@ -33,7 +34,7 @@ if os.path.basename(sys.orig_argv[1]) == "repair.py":
 """
 NO_ROOM = """
 import os, sys
-if os.path.basename(sys.orig_argv[1]) == "fill.py":
+if os.path.basename(sys.orig_argv[1]) == "finish.py":
     def fail(source, target):
         raise OSError(28, "No space left on device")
     os.replace = fail
@@ -74,7 +75,7 @@ def places(rows: Iterable[dict[str, str]]) -> list[tuple[str, ...]]:
 
 def scripts(rule):
     """The scripts that a job of a rule runs."""
-    return ["detect", *DETECTORS] if rule == "detect" else [rule.split("_")[0]]
+    return [rule, *{"detect": DETECTORS, "finish": FINISHING}.get(rule, ())]
 
 
 def code_of(project, rule):
@@ -139,7 +140,7 @@ def test_an_edit_reruns_the_first_stage_that_uses_the_module_and_what_follows(fi
     [
         ("detect", {"steps": {"threshold_sigmas": 7.5}}),
         ("detect", {"advanced": {"steps": {"paper": {"window_s": 0.2}}}}),
-        ("qc", {"qc": {"plots": 7}}),
+        ("finish", {"qc": {"plots": 7}}),
     ],
 )
 def test_an_option_reruns_its_job_and_what_follows(finished, rule, change, tmp_path):
@@ -157,6 +158,16 @@ def test_an_option_of_a_detector_reruns_it_and_no_detector_before(finished, tmp_
     kept = re.findall(r"^INFO (\w+): the outputs are kept", log, re.MULTILINE)
     assert kept == [stage for stage in DETECTORS if stage != "slow"]
     assert NOTHING in finished.plan("--configfile", str(tmp_path / "study.yaml")).text
+    finished.run()
+    assert finished.outputs() == before and NOTHING in finished.plan().text
+
+
+def test_an_option_of_the_page_keeps_what_was_filled_and_written(finished, tmp_path):
+    before = finished.outputs()
+    (tmp_path / "study.yaml").write_text(yaml.safe_dump({"qc": {"plots": 7}}))
+    finished.run("--configfile", str(tmp_path / "study.yaml"))
+    log = (finished.results / "S01/a/logs/finish.log").read_text()
+    assert re.findall(r"^INFO (\w+): the outputs are kept", log, re.MULTILINE) == ["fill", "export"]
     finished.run()
     assert finished.outputs() == before and NOTHING in finished.plan().text
 
@@ -206,7 +217,7 @@ def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
     )
     with edited(finished.folder / "config/decisions.tsv", f"{line}\n"):
         plan = finished.plan()
-        assert plan.jobs == {**dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)}
+        assert plan.jobs == {**dict.fromkeys(("repair", "finish", "report", "all"), 1)}
         assert plan.parameters_changed == {"repair"}
         finished.run()
         assert places(changes(finished, "S01/a")) == places(row for row in found if row != peak)
@@ -270,9 +281,9 @@ def test_a_failure_that_may_pass_is_tried_again_until_it_has_passed(finished, tm
 
 def test_results_that_are_gone_are_made_anew(finished):
     before = finished.outputs()
-    for name in ("S01/a/changes.tsv", "S02/b/page.html"):
+    for name in ("S01/a/changes.tsv", "S02/b/page.html", "cleaned/S02/b.c3d"):
         (finished.results / name).unlink()
-    assert finished.plan().parameters_changed == {"export_c3d", "qc"}
+    assert finished.plan().parameters_changed == {"finish"}
     finished.run()
     assert finished.outputs() == before and NOTHING in finished.plan().text
 
@@ -306,12 +317,12 @@ def damage(path: Path) -> None:
 
 def test_a_damaged_file_is_made_anew_and_alters_no_result(finished):
     before = finished.outputs()
-    for name in ("05_slow.parquet", "07_filled.parquet", "07_changes.parquet"):
+    for name in ("05_slow.parquet", "06_repaired.parquet", "07_changes.parquet"):
         damage(finished.results / "S01/a" / name)
-    finished.run("--forcerun", "qc")
+    finished.run("--forcerun", "finish")
     assert finished.outputs() == before
     logs = "".join(path.read_text() for path in (finished.results / "S01/a/logs").glob("*.log"))
-    assert "07_filled.parquet is damaged: running fill once more" in logs
+    assert "06_repaired.parquet is damaged: running repair once more" in logs
 
 
 def test_a_damaged_file_of_a_subject_is_made_anew_by_the_next_run(finished):

@@ -17,10 +17,11 @@ def same(project: Project, folder: Path) -> dict[str, list[bool]]:
         recordings = [api.read(path) for path in paths]
         for path, cleaned in zip(paths, api.clean_subject(recordings), strict=True):
             there = project.results / subject.name / path.stem
-            names = [f"cleaned{path.suffix.lower()}", "changes.tsv"]
-            api.write(cleaned, path, folder / names[0], changes=folder / names[1])
+            made = [folder / path.name, folder / "changes.tsv"]
+            api.write(cleaned, path, made[0], changes=made[1])
+            written = [project.results / "cleaned" / subject.name / path.name, there / "changes.tsv"]
             equal[f"{subject.name}/{path.stem}"] = [
-                (folder / name).read_bytes() == (there / name).read_bytes() for name in names
+                one.read_bytes() == other.read_bytes() for one, other in zip(made, written, strict=True)
             ]
     return equal
 

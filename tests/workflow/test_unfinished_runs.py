@@ -13,7 +13,7 @@ import os, sys
 script = os.path.basename(sys.orig_argv[1]) if len(sys.orig_argv) > 1 else ""
 if script == "ingest.py" and os.path.exists({vanishing!r}):
     os.unlink({vanishing!r})
-if script == "fill.py" and "S01/full/" in " ".join(sys.orig_argv):
+if script == "finish.py" and "S01/full/" in " ".join(sys.orig_argv):
     def fail(source, target):
         raise OSError(28, "No space left on device")
     os.replace = fail
@@ -56,7 +56,7 @@ def test_the_others_are_finished_and_the_summary_says_what_is_not(ended):
     assert "not finished: S01/full: fill: " in text and "07_filled.parquet was not written: there is no room" in text
     assert f"not finished: S02/killed: see {project.results}/S02/killed/logs" in text
     assert json.loads((project.results / "S04/fine/08_qc.json").read_text())["status"] == "cleaned"
-    assert (project.results / "S04/fine/cleaned.c3d").exists()
+    assert (project.results / "cleaned/S04/fine.c3d").exists()
 
 
 def test_the_report_comes_with_what_is_finished_and_names_the_rest(ended):

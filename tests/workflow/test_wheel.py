@@ -75,8 +75,8 @@ def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, pro
     text = run(environment / "markermend", *words, cwd=tmp_path)
     assert "2 recordings: 2 cleaned" in text and "S01/a: cleaned" in text
     here, there = tmp_path / "out/S01/a", project.results / "S01/a"
-    names = [path.name for path in there.iterdir() if path.is_file()]
-    assert {"cleaned.c3d", "changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
+    names = [path.name for path in there.iterdir() if path.is_file()] + ["../../cleaned/S01/a.c3d"]
+    assert {"changes.tsv", "07_filled.parquet", "page.html"} <= set(names)
     assert [name for name in names if (here / name).read_bytes() != (there / name).read_bytes()] == []
 
 
@@ -95,5 +95,7 @@ def test_ten_lines_clean_a_recording_as_the_workflow_does(environment, project, 
     assert run(environment / "python", "walk.py", cwd=tmp_path).endswith("samples changed\n")
     for name in "ab":
         there = project.results / "S01" / name
-        assert (tmp_path / f"{name}_cleaned.c3d").read_bytes() == (there / "cleaned.c3d").read_bytes()
+        assert (tmp_path / f"{name}_cleaned.c3d").read_bytes() == (
+            project.results / f"cleaned/S01/{name}.c3d"
+        ).read_bytes()
         assert (tmp_path / f"{name}_changes.tsv").read_bytes() == (there / "changes.tsv").read_bytes()

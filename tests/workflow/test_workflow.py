@@ -15,11 +15,12 @@ import yaml
 from markermend.core.artifacts import DETECTORS
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
-from markermend.planning.recordings import FORMATS
+from markermend.planning.plan import FINISHING
 from support.workflow_runs import PROJECT, Project, write_recording
 
-RULES = ("ingest", "mesh", "detect", "repair", "poses", "fill", "export", "qc", "report")
-STAGES = tuple(stage for rule in RULES for stage in (DETECTORS if rule == "detect" else [rule]))
+RULES = ("ingest", "mesh", "detect", "repair", "poses", "finish", "report")
+TOGETHER = {"detect": DETECTORS, "finish": FINISHING}
+STAGES = tuple(stage for rule in RULES for stage in TOGETHER.get(rule, [rule]))
 
 
 def stage_of(name):
@@ -40,7 +41,8 @@ def test_a_command_has_the_options_of_its_section(name):
         "ingest": {"recording", "subject", "kind", "rate", "unit", "sha256", "within"},
         "repair": {"decisions"},
         "fill": {"decisions", "code"},
-        "export": {"within"},
+        "export": {"within", "code"},
+        "qc": {"code"},
     }
     assert required - files - own == given.get(name, set())
 
@@ -55,17 +57,15 @@ def test_a_folder_of_every_format_is_planned_whole(project):
         (project.recordings / name).parent.mkdir(parents=True, exist_ok=True)
         (project.recordings / name).touch()
     plan = project.plan()
-    every = dict.fromkeys(("ingest", "detect", "repair", "fill", "qc"), 4)
-    exports = dict.fromkeys(["export_c3d", "export_trc", "export_csv", "export_tsv"], 1)
-    assert plan.jobs == {**every, **exports, "mesh": 2, "poses": 2, "report": 1, "all": 1}
+    every = dict.fromkeys(("ingest", "detect", "repair", "finish"), 4)
+    assert plan.jobs == {**every, "mesh": 2, "poses": 2, "report": 1, "all": 1}
     assert "OMP_NUM_THREADS" not in plan.text
 
 
 def test_on_a_cluster_every_stage_but_the_report_travels_in_a_group():
     profile = yaml.safe_load((PROJECT / "profiles/slurm/profile.yaml").read_text())
     groups = dict(entry.split("=") for entry in profile["groups"])
-    assert {rule.split("_")[0] for rule in groups} == {*RULES} - {"report"}
-    assert {f"export_{suffix}" for suffix in FORMATS} < set(groups)
+    assert set(groups) == {*RULES} - {"report"}
     assert {entry.split("=")[0] for entry in profile["group-components"]} == set(groups.values())
 
 
@@ -165,7 +165,7 @@ def test_a_logged_command_can_be_pasted_anywhere(hostile):
     folder, text = hostile
     path = next(folder.glob("out/%2E*/-n*/07_filled.parquet"))
     before = path.read_bytes()
-    command = next(line for line in text.splitlines() if "fill.py" in line and "/-n" in line).partition(
+    command = next(line for line in text.splitlines() if "finish.py" in line and "/-n" in line).partition(
         "Shell command: "
     )[2]
     path.unlink()
