@@ -9,7 +9,7 @@ from faults.workplace import Workplace
 
 DELETED = (
     "cleaned/S01/walk.c3d",
-    "cleaned/S02/reach.trc",
+    "cleaned/S02/reach.csv",
     "S01/walk/changes.tsv",
     "S01/walk/originals.parquet",
     "S01/walk/certificate.json",
