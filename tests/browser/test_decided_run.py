@@ -55,7 +55,7 @@ def test_a_run_follows_what_was_decided_in_the_page(project, browser):
     (project.folder / "config/decisions.tsv").write_text(text, encoding="utf-8")
 
     plan = project.plan(*STUDY)
-    assert plan.jobs == dict.fromkeys(("repair", "fill", "export_c3d", "qc", "report", "all"), 1)
+    assert plan.jobs == dict.fromkeys(("repair", "finish", "report", "all"), 1)
     assert plan.parameters_changed == {"repair"}
     project.run(*STUDY)
 
