@@ -65,7 +65,7 @@ def _clean(call: argparse.Namespace, given: list[str]) -> int:
     if not Path(call.recordings).expanduser().exists():
         return _refuse(f"There is no {call.recordings}: name a folder of recordings, or a table of them")
     files = [str(workflow_folder() / f"config/presets/{call.preset}.yaml")] if call.preset else []
-    arguments = _arguments(call, [f"recordings={call.recordings}"], [*files, *call.options], given)
+    arguments = _arguments(call, [f"recordings={_absolute(call.recordings)}"], [*files, *call.options], given)
     if problem := run_workflow.config_file_problem(arguments):
         return _refuse(problem)
     try:
@@ -107,7 +107,7 @@ def _cores(words: str | None) -> int:
 def _repeat_papers(call: argparse.Namespace, given: list[str]) -> int:
     """Run the experiments of the papers."""
     files = [str(workflow_folder() / f"config/evaluate/{call.size}.yaml"), *call.options]
-    recordings = [f"recordings={call.recordings}"] if call.recordings else []
+    recordings = [f"recordings={_absolute(call.recordings)}"] if call.recordings else []
     return run_workflow.run(["papers", *_arguments(call, recordings, files, given)])
 
 
@@ -117,7 +117,13 @@ def _arguments(
     """Arguments of Snakemake, with those that were given for it."""
     cores = call.cores or (None if "--profile" in given else "all")
     named = ["--configfile", *files] if files else []
-    return [*(["--cores", cores] if cores else []), *named, "--config", *config, f"results={call.results}", *given]
+    results = f"results={_absolute(call.results)}"
+    return [*(["--cores", cores] if cores else []), *named, "--config", *config, results, *given]
+
+
+def _absolute(path: str | Path) -> str:
+    """An absolute path, which Snakemake takes for a name whatever it is: 2024 would be a number."""
+    return os.path.abspath(os.path.expanduser(path))
 
 
 def _report(call: argparse.Namespace, given: list[str]) -> int:

@@ -1,5 +1,7 @@
 """The commands of `markermend`, without a run."""
 
+import os
+
 import pytest
 
 from markermend.command import run_workflow
@@ -33,7 +35,22 @@ def test_a_folder_is_cleaned_with_a_preset_and_own_options_over_it(runs, folder,
     assert command_line.main(["clean", str(folder), *words, "--", "--keep-going"]) == 0
     [arguments] = runs[0]
     files = ["--configfile", f"{PROJECT}/config/presets/gait.yaml", words[3]]
-    assert arguments == ["--cores", "3", *files, "--config", f"recordings={folder}", "results=out", "--keep-going"]
+    assert arguments == [
+        "--cores",
+        "3",
+        *files,
+        "--config",
+        f"recordings={folder}",
+        f"results={os.getcwd()}/out",
+        "--keep-going",
+    ]
+
+
+def test_names_that_look_like_numbers_are_names(runs, folder, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    folder.rename("2024")
+    assert command_line.main(["clean", "2024", "--results", "17"]) == 0
+    assert runs[0][0][-2:] == [f"recordings={tmp_path}/2024", f"results={tmp_path}/17"]
 
 
 def test_a_look_alters_nothing(runs, folder):
