@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
 from markermend.export.undo import NothingNamed, NotUndone, Restoration, read_certificate, undo
 from markermend.planning.result_files import CERTIFICATE
@@ -75,8 +76,8 @@ def _restore(folder: Path, to: Path, markers: Sequence[str], frames: tuple[int, 
     """Restore a recording, and say so in a line."""
     stated = read_certificate(folder / CERTIFICATE)
     folder = folder.resolve()
-    cleaned = Path(os.path.normpath(folder / stated["cleaned"]))
-    target = to / cleaned.relative_to(folder.parent.parent / CLEANED)
+    place = _place(folder, stated)
+    cleaned, target = folder.parent.parent / CLEANED / place, to / place
     done = undo(
         cleaned,
         target,
@@ -88,6 +89,18 @@ def _restore(folder: Path, to: Path, markers: Sequence[str], frames: tuple[int, 
     name = f"{folder.parent.name}/{folder.name}"
     what = "the original, bit for bit" if done.whole else _summary(done)
     return f"{name}: {what}: {target}"
+
+
+def _place(folder: Path, stated: Mapping[str, Any]) -> str:
+    """The path of the cleaned file of a recording below the folder of cleaned files."""
+    path = os.path.normpath(folder / str(stated.get("cleaned", "")))
+    place = os.path.relpath(path, folder.parent.parent / CLEANED)
+    if place.split(os.sep)[0] in (os.curdir, os.pardir):
+        raise NotUndone(
+            f"{folder / CERTIFICATE} names no file in {folder.parent.parent / CLEANED}: it is damaged or of an earlier version, clean the "
+            "recording again"
+        )
+    return place
 
 
 def _summary(done: Restoration) -> str:

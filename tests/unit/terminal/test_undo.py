@@ -1,5 +1,6 @@
 """`markermend undo`: which recordings are restored, where they go, and what is said."""
 
+import json
 import os
 
 import numpy as np
@@ -16,6 +17,7 @@ def add(results, subject, recording, *, name="walk.c3d", peak=True):
     folder = results / subject / recording
     folder.mkdir(parents=True)
     positions = np.cumsum(np.random.default_rng(3).normal(0, 2, (40, 4, 3)), axis=0) + 500
+    (results.parent / name).parent.mkdir(exist_ok=True)
     path = c3d_files.write(results.parent / name, positions)
     measured = api.read(path)
     done = api.clean(measured, options=api.Options.read({"detect": []}))
@@ -115,3 +117,24 @@ def test_a_folder_that_cannot_be_written_is_said(results, tmp_path, capsys):
     (tmp_path / "file").touch()
     assert run(results, "--to", tmp_path / "file/back") == 1
     assert "was not written: a file stands where a folder must be" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", [None, "cleaned.c3d", "../../walk.c3d", "../../cleaned", "/etc/passwd", 7])
+def test_a_certificate_that_names_no_cleaned_file_is_said(results, tmp_path, capsys, place):
+    add(results, "S01", "walk")
+    path = results / "S01/walk/certificate.json"
+    stated = json.loads(path.read_text())
+    del stated["cleaned"]
+    path.write_text(json.dumps(stated if place is None else {**stated, "cleaned": place}))
+    assert run(results, "--to", tmp_path / "back") == 1
+    assert "names no file in" in capsys.readouterr().err and not (tmp_path / "back").exists()
+
+
+def test_two_recordings_of_one_file_name_go_where_their_cleaned_files_are(results, tmp_path):
+    for recording in ("walk", "turn"):
+        add(results, "S01", recording, name=f"{recording}/a.c3d")
+    assert run(results, "--to", tmp_path / "back") == 0
+    assert {str(path.relative_to(tmp_path / "back")) for path in (tmp_path / "back").rglob("*.c3d")} == {
+        "S01/turn/a.c3d",
+        "S01/walk/a.c3d",
+    }
