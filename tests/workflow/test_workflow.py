@@ -136,6 +136,7 @@ def test_hostile_names_reach_the_results_and_nothing_else(hostile):
     assert {path.name for path in (folder / "out").iterdir()} == {
         "%2E.%2F%7Brecording%7D",
         "%72eport",
+        "cleaned",
         "report",
         ".snakemake",
     }
@@ -143,6 +144,9 @@ def test_hostile_names_reach_the_results_and_nothing_else(hostile):
     assert set(quality) == {(subject, recording) for subject, recording, _ in HOSTILE}
     assert [quality[subject, name]["status"] == "set aside" for subject, name, _ in HOSTILE] == [False, False, True]
     assert not list(folder.rglob("pwned"))
+    # Each under its own name, and the one that is no recording as it is.
+    cleaned = {str(path.relative_to(folder / "out/cleaned")) for path in (folder / "out/cleaned").rglob("*.c3d")}
+    assert cleaned == {file for _, _, file in HOSTILE}
 
 
 def test_a_bad_file_is_set_aside_with_its_reason_and_the_run_ends_well(hostile):
@@ -165,9 +169,10 @@ def test_a_logged_command_can_be_pasted_anywhere(hostile):
     folder, text = hostile
     path = next(folder.glob("out/%2E*/-n*/07_filled.parquet"))
     before = path.read_bytes()
-    command = next(line for line in text.splitlines() if "finish.py" in line and "/-n" in line).partition(
-        "Shell command: "
-    )[2]
+    # The names of the files have ends of lines.
+    (command,) = re.findall(
+        r"Shell command: ([^\n]*/finish\.py (?:(?!Shell command: ).)*?/-n.*?/finish\.log'?)", text, re.DOTALL
+    )
     path.unlink()
     # Last bits hang on which kernels the linear algebra uses, which a machine may set in the environment.
     environment = {name: value for name, value in os.environ.items() if name == "PATH" or name.startswith("OPENBLAS")}
