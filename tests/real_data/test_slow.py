@@ -25,7 +25,8 @@ def search(recording, mesh):
 @pytest.mark.data
 @pytest.mark.parametrize("name", ["clean/STS1.trc", "clean/HDM_mm_01-02_03_120.c3d"])
 def test_drifts_of_the_stated_height_are_found_and_smaller_ones_are_not(data, name):
-    recording = api.read(data / name)
+    # With the joint centres, which are left alone otherwise: without them the seed draws other markers.
+    recording = api.read(data / name, options=api.Options.read({"ingest": {"computed": []}}))
     mesh, length, rng = api.infer_mesh([recording]), round(recording.rate), np.random.default_rng(3)
     heights = search(recording, mesh)[1]
     known = [m for m, marker in enumerate(recording.markers) if heights[marker] is not None]
