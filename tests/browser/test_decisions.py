@@ -123,7 +123,7 @@ def test_decisions_that_contradict_each_other_are_not_downloaded(browser, walk):
     )
     decide(page, row_of(page, "peak"), "accept peak")
     saving = page.get_by_role("button", name="Download decisions.tsv")
-    assert saving.is_disabled()
+    assert saving.is_disabled() and row_of(page, "peak").locator(".state").inner_text() == "contradicts another"
     assert "contradict each other" in page.locator("#waiting-notes").inner_text()
     page.locator("#added").get_by_role("button", name="Withdraw").first.click()
     assert saving.is_enabled() and page.locator("#waiting-notes").is_hidden()

@@ -45,19 +45,21 @@ function choices(finding) {
   return [option("", "", "none"), ...verbs.map((verb) => option(verb, verb === "protect" ? "" : finding.value, verb)),
     element("optgroup", { label: "method" }, ...methods)];
 }
-function show(finding, number) {
+function show(finding, number, against) {
   const row = rowOf(number), { line, waits } = current(finding), list = row.querySelector("select");
   const wanted = line ? choice(line[VERB], line[VALUE]) : "";
   if (wanted && ![...list.options].some((option) => option.value === wanted)) list.append(element("option", { value: wanted, textContent: wanted }));
   list.value = wanted;
   row.classList.toggle("waits", waits);
   row.querySelector("td.decide").dataset.v = waits ? 2 : line ? 1 : 0;
-  row.querySelector(".state").textContent = waits ? "waiting" : line ? "this run" : "";
+  const clash = line && against.has(identity(line));
+  row.querySelector(".state").textContent = clash ? "contradicts another" : waits ? "waiting" : line ? "this run" : "";
   const note = row.nextElementSibling?.querySelector("input.reason");
   if (note && note !== document.activeElement) { note.value = line?.[NOTE] ?? ""; note.disabled = !line; }
 }
 function listWaiting() {
   const state = readWaiting(key), withdrawn = new Set(state.withdrawn.map(identity));
+  document.getElementById("added").parentElement.hidden = state.added.length === 0;
   document.getElementById("added").replaceChildren(...state.added.map((line) =>
     element("li", {}, words(line) + " ", button("Withdraw", () => withdraw(line)))));
   about.decided.forEach((entry, i) => {
@@ -69,7 +71,8 @@ function listWaiting() {
   });
 }
 function showAll() {
-  about.findings.forEach(show);
+  const against = new Set(contradictions(tableLines(shared.decisions)).flat().map(identity));
+  about.findings.forEach((finding, number) => show(finding, number, against));
   listWaiting();
 }
 function prepare() {

@@ -30,9 +30,14 @@ function detailsOf(row) {
     element("div", { className: "opened" }, element("div", { className: "sheet" }, left, figure), element("p", {}, reasonField(finding), " ", element("span", { className: "soft", textContent: tried(finding) }))));
   return { finding, plot, place, figure, below: element("tr", { className: "drawn" }, cell) };
 }
-async function openFinding(row, { figures = true } = {}) {
+function state(row, open) {
   const see = row.querySelector("button.see");
-  see.setAttribute("aria-expanded", "true");
+  see.textContent = open ? "Hide" : "Show";
+  see.setAttribute("aria-expanded", String(open));
+  see.setAttribute("aria-label", see.textContent + " finding " + numberOf(row));
+}
+async function openFinding(row, { figures = true } = {}) {
+  state(row, true);
   const { finding, plot, place, figure, below } = detailsOf(row);
   row.after(below);
   try {
@@ -49,7 +54,7 @@ async function openFinding(row, { figures = true } = {}) {
   } catch (error) { place.className = "note bad"; place.textContent = error.message; figure.remove(); }
 }
 function closeFinding(row) {
-  row.querySelector("button.see").setAttribute("aria-expanded", "false");
+  state(row, false);
   const below = row.nextElementSibling;
   if (window.Plotly) {
     below.querySelectorAll(".figure").forEach(release);
@@ -61,9 +66,8 @@ function isOpen(row) { return row.querySelector("button.see").getAttribute("aria
 const findingRows = [...document.querySelectorAll("table.findings > tbody > tr")];
 for (const row of findingRows) {
   const see = button("Show", () => (isOpen(row) ? closeFinding(row) : openFinding(row)), { className: "see" });
-  see.setAttribute("aria-expanded", "false");
-  see.setAttribute("aria-label", "Show finding " + numberOf(row));
   row.cells[0].prepend(see);
+  state(row, false);
 }
 // On a narrow screen each line is a card, in which every value has the heading of its column.
 for (const table of document.querySelectorAll("table.stacked")) {
