@@ -46,19 +46,15 @@ def chromium() -> Iterator[Any]:
 @pytest.fixture
 def browser(chromium) -> Iterator[Browser]:
     """The browser as one person uses it, with a storage of its own; it fails where a page had an error."""
-    person = Browser(chromium)
-    yield person
-    person.close()
-    assert person.errors == []
+    with Browser(chromium) as person:
+        yield person
 
 
 @pytest.fixture
 def solid(chromium) -> Iterator[Browser]:
     """The same, drawing in 3-D."""
-    person = Browser(chromium, solid=True)
-    yield person
-    person.close()
-    assert person.errors == []
+    with Browser(chromium, solid=True) as person:
+        yield person
 
 
 @pytest.fixture(scope="session")

@@ -24,18 +24,16 @@ def axe(tmp_path_factory) -> str:
 
 @pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 1400), ("light", 390)])
 def test_pages_have_no_serious_finding(chromium, report, axe, scheme, width):
-    person = Browser(chromium, solid=True, color_scheme=scheme, viewport={"width": width, "height": 900})
-    for name in ("report/index.html", "Anna/Walk%201/page.html", "Bob/Bad/page.html"):
-        page = person.open(report / name, wait="Bad" not in name)
-        if "Walk" in name:
-            settled(page)
-            page.evaluate(
-                "pick('reject'); withdraw(existing[0]); document.querySelectorAll('details').forEach((part) => { part.open = true; })"
-            )
-            page.wait_for_selector(".figure canvas")
-        page.evaluate(axe)
-        found = page.evaluate("axe.run()")["violations"]
-        bad = [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in ("serious", "critical")]
-        assert bad == [], name
-    person.close()
-    assert person.errors == []
+    with Browser(chromium, solid=True, color_scheme=scheme, viewport={"width": width, "height": 900}) as person:
+        for name in ("report/index.html", "Anna/Walk%201/page.html", "Bob/Bad/page.html"):
+            page = person.open(report / name, wait="Bad" not in name)
+            if "Walk" in name:
+                settled(page)
+                page.evaluate(
+                    "pick('reject'); withdraw(existing[0]); document.querySelectorAll('details').forEach((part) => { part.open = true; })"
+                )
+                page.wait_for_selector(".figure canvas")
+            page.evaluate(axe)
+            found = page.evaluate("axe.run()")["violations"]
+            bad = [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in ("serious", "critical")]
+            assert bad == [], name

@@ -28,6 +28,12 @@ def lines(text):
 
 
 @pytest.fixture
+def browser(chromium):
+    with Browser(chromium, plots=False) as person:
+        yield person
+
+
+@pytest.fixture
 def walk(report):
     return report / "Anna/Walk%201/page.html"
 
@@ -245,6 +251,5 @@ def test_contradictions_are_found_as_by_the_program(browser, walk):
 def test_two_people_do_not_see_each_other_s_decisions(browser, chromium, walk):
     page = browser.open(walk)
     decide(page, row_of(page, "peak"), "protect")
-    other = Browser(chromium)
-    assert "No decision waiting" in other.open(walk).locator("#waiting").inner_text()
-    other.close()
+    with Browser(chromium, plots=False) as other:
+        assert "No decision waiting" in other.open(walk).locator("#waiting").inner_text()

@@ -126,15 +126,14 @@ def test_the_button_prints_all_plots_and_leaves_the_page_as_it_was(browser, walk
 
 
 def test_without_javascript_the_tables_are_there_and_no_control_is_dead(chromium, report, walk):
-    plain = Browser(chromium, java_script_enabled=False)
-    for path in (walk, report / "report/index.html", report / "Bob/Bad/page.html"):
-        page = plain.open(path, wait=False)
-        assert "need it" in page.locator("footer").inner_text()
-        for control in ("button", "select", "input"):
-            assert not any(found.is_visible() for found in page.locator(control).all())
-    page = plain.open(walk, "#finding-3", wait=False)
-    assert page.locator("#finding-3").is_visible()
-    plain.close()
+    with Browser(chromium, java_script_enabled=False) as plain:
+        for path in (walk, report / "report/index.html", report / "Bob/Bad/page.html"):
+            page = plain.open(path, wait=False)
+            assert "need it" in page.locator("footer").inner_text()
+            for control in ("button", "select", "input"):
+                assert not any(found.is_visible() for found in page.locator(control).all())
+        page = plain.open(walk, "#finding-3", wait=False)
+        assert page.locator("#finding-3").is_visible()
 
 
 def test_headings_stay_in_sight(browser, walk):
@@ -147,12 +146,10 @@ def test_headings_stay_in_sight(browser, walk):
 
 @pytest.mark.parametrize("width", [360, 700, 1000, 1400])
 def test_nothing_is_wider_than_the_screen(chromium, report, walk, width):
-    narrow = Browser(chromium, viewport={"width": width, "height": 800})
-    for path in (walk, report / "report/index.html", report / "Bob/Bad/page.html"):
-        page = narrow.open(path, wait=path.parent.name != "Bad")
-        page.wait_for_load_state()
-        if path == walk:
-            settled(page)
-        assert page.evaluate("document.documentElement.scrollWidth") <= width
-    narrow.close()
-    assert narrow.errors == []
+    with Browser(chromium, viewport={"width": width, "height": 800}) as narrow:
+        for path in (walk, report / "report/index.html", report / "Bob/Bad/page.html"):
+            page = narrow.open(path, wait=path.parent.name != "Bad")
+            page.wait_for_load_state()
+            if path == walk:
+                settled(page)
+            assert page.evaluate("document.documentElement.scrollWidth") <= width

@@ -24,8 +24,15 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
 """What a browser does that draws nothing in 3-D."""
 
 
+UNPLOTTED = """
+const nothing = () => {};
+window.Plotly = { newPlot(place) { place.on = nothing; }, react: nothing, relayout: nothing, purge: nothing };
+"""
+"""A plotting script that draws nothing, which is loaded sooner."""
+
+
 class Browser:
-    """A browser with a storage of its own.
+    """A browser with a storage of its own, which fails where a page had an error when it is closed as a context.
 
     Parameters
     ----------
@@ -33,16 +40,22 @@ class Browser:
         The browser of playwright.
     solid : bool, optional
         Whether it draws in 3-D, which takes seconds on a machine without a graphics card.
+    plots : bool, optional
+        Whether it draws plots at all.
     **options : Any
         Of the context, such as `color_scheme` and `java_script_enabled`.
     """
 
-    def __init__(self, chromium: Any, *, solid: bool = False, **options: Any) -> None:
+    def __init__(self, chromium: Any, *, solid: bool = False, plots: bool = True, **options: Any) -> None:
         self.chromium = chromium
         self.errors: list[str] = []
         self.context = chromium.new_context(**{"viewport": {"width": 1400, "height": 900}, **options})
         if not solid:
             self.context.add_init_script(FLAT)
+        if not plots:
+            self.context.route(
+                "**/plotly.min.js", lambda route: route.fulfill(body=UNPLOTTED, content_type="text/javascript")
+            )
         self.context.on("weberror", lambda error: self.errors.append(str(error.error)))
         self.context.on("console", self._note)
 
@@ -65,9 +78,12 @@ class Browser:
         assert started.value.suggested_filename == "decisions.tsv"
         return Path(started.value.path()).read_text(encoding="utf-8")
 
-    def close(self) -> None:
-        """Close it, with all of its pages."""
+    def __enter__(self) -> Browser:
+        return self
+
+    def __exit__(self, *error: object) -> None:
         self.context.close()
+        assert error[0] is not None or self.errors == []
 
 
 def decide(page: Any, row: Any, choice: str) -> None:
