@@ -46,7 +46,7 @@ class Results:
             "qc": "08_qc.json", "page": "page.html",
         }  # fmt: skip
         words = [word for flag, name in named.items() for word in (f"--{flag}", str(self.folder / name))]
-        return [*words, "--events", *events, *shlex.split(write_flags(QcOptions(**options)))]
+        return [*words, "--events", *events, "--code=", *shlex.split(write_flags(QcOptions(**options)))]
 
     @property
     def page(self) -> str:
