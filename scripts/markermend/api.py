@@ -673,7 +673,7 @@ def undo(
     --------
     >>> folder = Path("results/S01/walk")  # doctest: +SKIP
     >>> kept = {"originals": folder / "originals.parquet", "certificate": folder / "certificate.json"}  # doctest: +SKIP
-    >>> undo(folder / "cleaned.c3d", "walk.c3d", **kept).whole  # doctest: +SKIP
+    >>> undo("results/cleaned/S01/walk.c3d", "walk.c3d", **kept).whole  # doctest: +SKIP
     True
     """
     stated = certificate if isinstance(certificate, Mapping) else export_undo.read_certificate(Path(certificate))
