@@ -72,7 +72,16 @@ function figureLayout(data, ranges) {
     modebar: { bgcolor: "rgba(0,0,0,0)", color: colour("soft"), activecolor: colour("ink") },
   };
 }
-function canDraw3d() { return ["webgl2", "webgl"].some((kind) => document.createElement("canvas").getContext(kind)); }
+// Asked once, since a browser counts every context that it gives.
+let solid = null;
+function canDraw3d() {
+  solid ??= ["webgl2", "webgl"].some((kind) => {
+    const context = document.createElement("canvas").getContext(kind);
+    context?.getExtension("WEBGL_lose_context")?.loseContext();
+    return context !== null;
+  });
+  return solid;
+}
 // Draw the poses of which the numbers are given; a browser has few 3-D contexts, so that the figure that was drawn first goes.
 async function drawFigure(place, shown, start, marker = -1) {
   const data = poses();
