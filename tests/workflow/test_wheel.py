@@ -99,3 +99,24 @@ def test_ten_lines_clean_a_recording_as_the_workflow_does(environment, project, 
             project.results / f"cleaned/S01/{name}.c3d"
         ).read_bytes()
         assert (tmp_path / f"{name}_changes.tsv").read_bytes() == (there / "changes.tsv").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def validator(tmp_path_factory) -> Path:
+    """The Python of an environment with the validator of RO-Crates, which wants other versions of what the project uses."""
+    folder = tmp_path_factory.mktemp("validator")
+    run(sys.executable, "-m", "venv", folder / "venv")
+    run(folder / "venv/bin/pip", "install", "--quiet", "roc-validator")
+    return folder / "venv/bin/python"
+
+
+def test_the_results_are_a_workflow_run_crate(environment, project, validator):
+    words = ["crate", project.results, "--name", "Gait", "--authors", "Ada Lovelace"]
+    assert "describes 2 recordings" in run(environment / "markermend", *words)
+    terms = "import rocrate, pathlib; print(pathlib.Path(rocrate.__file__).with_name('data') / 'ro-crate.jsonld')"
+    given = [project.results, run(environment / "python", "-c", terms).strip()]
+    validate = [validator, PROJECT / "tests/support/crate_validation.py"]
+    assert run(*validate, *given).strip() == ""
+    path = project.results / "ro-crate-metadata.json"
+    path.write_text(path.read_text().replace('"ComputationalWorkflow"', '"Book"'))
+    assert "The Main Workflow must have types" in run(*validate, *given)

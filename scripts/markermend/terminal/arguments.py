@@ -107,6 +107,7 @@ def make_parser(work: Mapping[str, Work], presets: Collection[str]) -> Parser:
     verify.add_argument("--remake", action="store_true", help="let the next run make anew what differs")
     _about_undoing(add("undo", "get originals back from cleaned files, or parts of them"))
     _about_table(add("table", "write a table of the recordings of a folder, for you to correct and clean"))
+    _about_crate(add("crate", "describe results as an RO-Crate, to publish them with"))
     add("presets", "list the presets")
     _about_papers(add("papers", "repeat the experiments of the papers"))
     return made
@@ -192,6 +193,20 @@ def _about_table(command: argparse.ArgumentParser) -> None:
         "--to", type=Path, default=Path("recordings.tsv"), metavar="TABLE", help="the table (default: recordings.tsv)"
     )
     _about_options(command)
+
+
+def _about_crate(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command that describes results."""
+    _about_results(command)
+    command.add_argument("--name", required=True, metavar="TITLE", help="the title of the data set")
+    command.add_argument(
+        "--license",
+        metavar="ADDRESS",
+        help="the address of its license, such as https://creativecommons.org/licenses/by/4.0/",
+    )
+    command.add_argument(
+        "--authors", nargs="+", default=[], metavar="NAME", help="their names, the one who ran the cleaning first"
+    )
 
 
 def _about_papers(command: argparse.ArgumentParser) -> None:
