@@ -36,7 +36,7 @@ def work(call: Any) -> str:
 
 
 def set_aside(call: Any, note: SetAside) -> None:
-    summary = recording_report.summarize_aside(call.markers, call.page, note)
+    summary = recording_report.summarize_aside(call.markers, call.certificate, call.page, note)
     atomic.write_json(call.qc, summary)
     atomic.write_text(call.page, rendering.page_aside(summary))
 

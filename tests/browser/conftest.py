@@ -74,7 +74,7 @@ def report(contaminated, tmp_path_factory) -> Path:
         qc.main(own.qc())
     bad = results / "Bob" / "Bad"
     summary = recording_report.summarize_aside(
-        bad / "01_markers.parquet", bad / "page.html", SetAside("ingest", "no C3D")
+        bad / "01_markers.parquet", bad / "certificate.json", bad / "page.html", SetAside("ingest", "no C3D")
     )
     atomic.write_json(bad / "08_qc.json", summary)
     atomic.write_text(bad / "page.html", rendering.page_aside(summary))

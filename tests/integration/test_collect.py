@@ -22,7 +22,9 @@ def quality(tmp_path):
         folder = tmp_path / f"results/S{number % 2}/{name}"
         stage_files.set_aside(folder / "01_markers.parquet", "ingest", "no recording")
         note = SetAside("ingest", f"reason {number % 3}")
-        summary = recording_report.summarize_aside(folder / "01_markers.parquet", folder / "page.html", note)
+        summary = recording_report.summarize_aside(
+            folder / "01_markers.parquet", folder / "certificate.json", folder / "page.html", note
+        )
         paths.append(folder / "08_qc.json")
         paths[-1].write_text(json.dumps(summary))
     return paths

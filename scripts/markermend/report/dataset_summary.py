@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from markermend.planning.run_summary import STATUSES
+from markermend.report.exclusion import exclusion_codes
 from markermend.storage import tab_separated
 
 COLUMNS = (
     "recording", "subject", "status", "stage", "reason", "source", "kind", "frames", "rate", "duration_s", "markers",
     "missing_share_before", "missing_share_after", "longest_gap_before_s", "longest_gap_after_s", "changed_samples", "changed_share", "repaired", "blanked",
     "findings_open", "filled", "gaps_open", "largest_change_mm", "expected_error_median_mm", "expected_error_max_mm",
-    "expected_error95_max_mm", "unjudged", "warnings", "attention", "page",
+    "expected_error95_max_mm", "unjudged", "warnings", "attention", "exclusion", "original_sha256", "cleaned_sha256", "page",
 )  # fmt: skip
 """The columns of summary.tsv."""
 
@@ -34,7 +35,10 @@ def table(summaries: Sequence[Mapping[str, Any]]) -> str:
     str
         One row per recording, worst first; counts in place of lists, empty cells for what is unknown.
     """
-    rows = [{column: cell(summary.get(column)) for column in COLUMNS} for summary in ordered(summaries)]
+    rows = [
+        {column: cell(summary.get(column)) for column in COLUMNS} | {"exclusion": " ".join(exclusion_codes(summary))}
+        for summary in ordered(summaries)
+    ]
     return tab_separated.table(COLUMNS, rows)
 
 

@@ -54,6 +54,8 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
     methods = paragraph(seen.stages, summary["kind"], __version__, pooled=bool(seen.learned_from))
     return {
         **summary,
+        **checksums(seen.certificate),
+        "refused_samples": len(seen.certificate["refused"]),
         "motion_lacks": list(seen.mesh.lacks),
         "decisions": len(seen.decided),
         "learned_from": seen.learned_from,
@@ -61,13 +63,31 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
     }
 
 
-def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]:
+def checksums(certificate: Mapping[str, Any]) -> dict[str, str | None]:
+    """State the checksums of a file before and after.
+
+    Parameters
+    ----------
+    certificate : mapping of str to Any
+        Of the recording.
+
+    Returns
+    -------
+    dict of str to str or None
+        The sha256 of the original, None where it was not read, and of the cleaned file.
+    """
+    return {name: certificate[name] for name in ("original_sha256", "cleaned_sha256")}
+
+
+def summarize_aside(markers: Path, certificate: Path, page: Path, note: SetAside) -> dict[str, Any]:
     """Summarize a recording that was set aside.
 
     Parameters
     ----------
     markers : Path
         What ingest wrote, if it got that far.
+    certificate : Path
+        The certificate of the copy of the original.
     page : Path
         Where the page goes; its folders name subject and recording.
     note : SetAside
@@ -82,9 +102,14 @@ def summarize_aside(markers: Path, page: Path, note: SetAside) -> dict[str, Any]
         facts = stage_files.read_facts(markers)
     except (SetAside, OSError):
         facts = {}
+    try:
+        stated = checksums(stage_files.read_json(certificate))
+    except (SetAside, OSError, ValueError, KeyError, TypeError):
+        stated = {}
     recording, subject = name_of(page.absolute().parent), name_of(page.absolute().parent.parent)
     return {
         **report_summary.set_aside({"recording": recording, "subject": subject, **facts}, note.stage, note.reason),
+        **stated,
         **place(page),
     }
 

@@ -67,6 +67,7 @@ def summarize(
         "stage": None,
         "reason": before.facts.get("kind_reason") if before.facts.get("kind") == "static" else None,
         **size(before),
+        "markers_never_seen": int(before.missing.all(axis=0).sum()),
         "missing_share_before": share(before.missing),
         "missing_share_after": share(after.missing),
         **longest_gaps(longest[0], longest[1], before.rate),

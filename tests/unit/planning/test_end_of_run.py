@@ -63,7 +63,9 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     for entry in (("S%201", "run"), ("S%201", "walk")):
         folder = tmp_path / "out" / "/".join(entry)
         note = SetAside("ingest", "empty")
-        summary = recording_report.summarize_aside(folder / "01_markers.parquet", folder / "page.html", note)
+        summary = recording_report.summarize_aside(
+            folder / "01_markers.parquet", folder / "certificate.json", folder / "page.html", note
+        )
         write_json(folder / "08_qc.json", summary)
     close(plan, [job(recording="walk"), SimpleNamespace(subject="S%201"), SimpleNamespace()])
     text = capsys.readouterr().err

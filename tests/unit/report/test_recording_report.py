@@ -5,8 +5,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import qc
 from markermend.core.events import Event
+from markermend.core.recording import SetAside
+from markermend.report import recording_report
 from markermend.storage import atomic, change_file, stage_files
 from support import report_files
 from support.html_pages import Page
@@ -171,3 +175,15 @@ def test_what_the_file_could_not_hold_is_left_and_not_counted_as_changed(contami
     assert summary["findings_open"]["events"] - whole["findings_open"]["events"] == 1
     assert f"{len(frames)} changed samples do not fit the file's number format" in summary["warnings"][-1]
     assert "the number format of the file cannot hold the new samples" in Page(results.page).text
+
+
+@pytest.mark.parametrize("text", ['{"original_sha256": "ab", "cleaned_sha256": "cd"}', "{", None])
+def test_one_that_was_set_aside_has_the_checksums_of_its_copy_if_they_can_be_read(tmp_path, text):
+    if text is not None:
+        (tmp_path / "certificate.json").write_text(text)
+    files = [tmp_path / name for name in ("01_markers.parquet", "certificate.json", "page.html")]
+    summary = recording_report.summarize_aside(*files, SetAside("ingest", "no C3D"))
+    assert summary["reason"] == "no C3D"
+    assert (summary.get("original_sha256"), summary.get("cleaned_sha256")) == (
+        ("ab", "cd") if text and "ab" in text else (None, None)
+    )
