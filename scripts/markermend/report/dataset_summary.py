@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from markermend.planning.run_summary import STATUSES
 from markermend.report.exclusion import exclusion_codes
+from markermend.report.methods_counts import sentence
 from markermend.storage import tab_separated
 
 COLUMNS = (
@@ -152,9 +152,13 @@ def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any
     Returns
     -------
     list[dict[str, Any]]
-        Each text once, with the number of recordings that it holds for, most first.
+        Each text once, with the number of recordings that it holds for, and what was done in them, in a sentence; most first.
     """
     texts = {entry["methods"]["text"]: entry["methods"] for entry in entries if "methods" in entry}
-    counts = Counter(entry["methods"]["text"] for entry in entries if "methods" in entry)
+    own: dict[str, list[Mapping[str, Any]]] = {}
+    for entry in entries:
+        if "methods" in entry:
+            own.setdefault(entry["methods"]["text"], []).append(entry)
+    counts = {text: len(alike) for text, alike in own.items()}
     order = sorted(texts, key=lambda text: (-counts[text], text))
-    return [{**texts[text], "recordings": counts[text]} for text in order]
+    return [{**texts[text], "recordings": counts[text], "counts": sentence(own[text])} for text in order]

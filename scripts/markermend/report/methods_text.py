@@ -6,17 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from markermend.core.artifacts import ARTIFACTS
-
-REFERENCES = {
-    "artifacts": "Skurowski P, Pawlyta M. Detection and classification of artifact distortions in optical motion "
-    "capture sequences. Sensors 2022; 22(11): 4076. https://doi.org/10.3390/s22114076",
-    "mesh": "Skurowski P, Pawlyta M. Gap reconstruction in optical motion capture sequences using neural networks. "
-    "Sensors 2021; 21(18): 6115. https://doi.org/10.3390/s21186115",
-    "averaging": "Tits M, Tilmanne J, Dutoit T. Robust and automatic motion-capture data recovery using soft skeleton "
-    "constraints and model averaging. PLoS ONE 2018; 13(7): e0199744. https://doi.org/10.1371/journal.pone.0199744",
-}
-"""What is cited, by the key that a sentence uses."""
+from markermend.core.artifacts import ARTIFACTS, ArtifactClass
+from markermend.report.references import Citations
 
 PLACES = {
     "labels": "by the continuity of trajectories and the distances between markers",
@@ -64,37 +55,9 @@ Stages = Mapping[str, Mapping[str, Any]]
 """The options of each stage that ran, by its name, as the footers of its files state them."""
 
 
-class Citations:
-    """Numbers of the references in the order in which a text cites them.
-
-    Attributes
-    ----------
-    keys : list of str
-        The keys of REFERENCES that are cited so far.
-    """
-
-    def __init__(self) -> None:
-        self.keys: list[str] = []
-
-    def cite(self, key: str) -> str:
-        """Cite a reference.
-
-        Parameters
-        ----------
-        key : str
-            A key of REFERENCES.
-
-        Returns
-        -------
-        str
-            The number in brackets.
-        """
-        if key not in self.keys:
-            self.keys.append(key)
-        return f"[{self.keys.index(key) + 1}]"
-
-
-def paragraph(stages: Stages, kind: str | None, version: str, *, pooled: bool = False) -> dict[str, Any]:
+def paragraph(
+    stages: Stages, kind: str | None, version: str, *, pooled: bool = False, filled: bool = True, repaired: bool = True
+) -> dict[str, Any]:
     """Write what was done to a recording.
 
     Parameters
@@ -107,6 +70,8 @@ def paragraph(stages: Stages, kind: str | None, version: str, *, pooled: bool = 
         Version of the program.
     pooled : bool
         Whether filling learned from the subject's other recordings, too.
+    filled, repaired : bool
+        Whether any gap was filled, and whether any artifact was repaired or taken away: else the text does not say how.
 
     Returns
     -------
@@ -115,18 +80,20 @@ def paragraph(stages: Stages, kind: str | None, version: str, *, pooled: bool = 
     """
     citations = Citations()
     sentences = [
-        f"Marker trajectories were processed with markermend {version}. Samples that the capture program had marked as "
+        f"Marker trajectories were processed with markermend {version} {citations.cite('software')}. Samples that the capture program had marked as "
         "invalid were treated as missing; unlabelled trajectories, model outputs and analog data were left unchanged."
     ]
     if kind == "static":
         sentences.append("Static recordings were only checked: nothing in them was repaired or filled.")
     else:
-        sentences += [*_mesh(stages, citations), *_artifacts(stages, citations), *_unmeasured(stages)]
-        sentences += [*_filling(stages, citations, pooled), *_decisions(stages)]
-        sentences.append(
-            "Changed samples, and no others, were overwritten in a copy of each file, which was then compared with the "
-            "original byte by byte."
-        )
+        sentences += [*_mesh(stages, citations), *_sought(stages, citations)]
+        sentences += [*(_repairs(stages) if repaired else ()), *_reported(stages), *_unmeasured(stages)]
+        sentences += [*(_filling(stages, citations, pooled) if filled else ()), *_decisions(stages)]
+        if filled or repaired:
+            sentences.append(
+                "Changed samples, and no others, were overwritten in a copy of each file, which was then compared with the "
+                "original byte by byte."
+            )
     return {"text": " ".join(sentences), "references": citations.keys}
 
 
@@ -179,13 +146,18 @@ def _mesh(stages: Stages, citations: Citations) -> Iterator[str]:
         )
 
 
-def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
-    """Which artifacts were detected, where, and how they were repaired."""
-    sought = [
+def _classes_sought(stages: Stages) -> list[ArtifactClass]:
+    """The classes that were looked for to be repaired."""
+    return [
         own
         for own in ARTIFACTS
         if own.stage in stages and not own.unmeasured and not own.reported and own.origin != "adopted"
     ]
+
+
+def _sought(stages: Stages, citations: Citations) -> Iterator[str]:
+    """Which artifacts were detected, and where."""
+    sought = _classes_sought(stages)
     if not sought:
         return
     parts = [
@@ -193,6 +165,12 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
         for place, group in groupby(sought, key=lambda own: _place(own.stage, stages))
     ]
     yield f"Artifacts were detected in the order {'; '.join(parts)} {citations.cite('artifacts')}."
+
+
+def _repairs(stages: Stages) -> Iterator[str]:
+    """How artifacts were repaired."""
+    if not _classes_sought(stages):
+        return
     if published := list(_published_repairs(stages)):
         yield f"They were repaired by one method for each class, as published: {enumeration(published)}."
         if not stages["repair"].get("objections", True):
@@ -203,6 +181,12 @@ def _artifacts(stages: Stages, citations: Citations) -> Iterator[str]:
             "markers nearer to usual; samples without a reliable repair were set to missing where these distances "
             "contradicted them, and were left otherwise."
         )
+
+
+def _reported(stages: Stages) -> Iterator[str]:
+    """Which classes were only reported."""
+    if not _classes_sought(stages):
+        return
     # Published detectors look for the first class alone.
     left = [
         own

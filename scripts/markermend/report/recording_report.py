@@ -15,6 +15,7 @@ from markermend.report import summary as report_summary
 from markermend.report.decision_outcomes import drafts
 from markermend.report.evidence import Evidence
 from markermend.report.finding_lines import decidable, finding_lines
+from markermend.report.methods_counts import DONE, sentence
 from markermend.report.methods_text import paragraph
 from markermend.report.open_findings import reasons_for_blanking
 from markermend.report.plot_data import excerpt
@@ -51,7 +52,15 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         unjudged=list(seen.unjudged),
     )
     summary = report_summary.with_attention(summary, weights)
-    methods = paragraph(seen.stages, summary["kind"], __version__, pooled=bool(seen.learned_from))
+    done = {key: bool(summary[key]["events"]) for key in DONE}
+    methods = paragraph(
+        seen.stages,
+        summary["kind"],
+        __version__,
+        pooled=bool(seen.learned_from),
+        filled=done["filled"],
+        repaired=done["repaired"] or done["blanked"],
+    )
     return {
         **summary,
         **checksums(seen.certificate),
@@ -195,7 +204,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         },
         mesh=seen.mesh,
         certificate=seen.certificate,
-        methods=summary["methods"],
+        methods={**summary["methods"], "counts": sentence([summary])},
         stages=seen.stages,
         found=sample_statistics.per_class(seen.found, seen.before),
         smallest_drifts=seen.smallest_drifts,

@@ -18,7 +18,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markermend import __version__
 from markermend.planning.run_summary import STATUSES
 from markermend.report.dataset_summary import distinct_methods, motion_advice, ordered, totals
-from markermend.report.methods_text import REFERENCES
+from markermend.report.references import REFERENCES
 from markermend.report.shared_warnings import find_shared_warnings
 from markermend.report.template_filters import FILTERS
 

@@ -12,7 +12,7 @@ from markermend.options.config import read_config
 from markermend.options.filling import FillOptions
 from markermend.options.flags import write_flags
 from markermend.options.values import plain
-from markermend.report.methods_text import LIMITS, REFERENCES, WEIGHTS, Citations, enumeration, limits, paragraph
+from markermend.report.methods_text import LIMITS, WEIGHTS, enumeration, limits, paragraph
 from markermend.storage import change_file, stage_files
 from support.fillings import fill_options, restored, rigid_body
 from support.paths import PROJECT
@@ -63,14 +63,14 @@ def test_the_text_follows_the_steps():
         "fill": {"ensemble": {"weights": "pma"}, "max_gap_s": None},
     }
     whole = paragraph(ran, "dynamic", "1.0")
-    assert "in the order steps (in each coordinate separately, as published) [2]." in whole["text"]
+    assert "in the order steps (in each coordinate separately, as published) [3]." in whole["text"]
     assert "isolated peaks" not in whole["text"] and "expected error of at most 20 mm" in whole["text"]
-    assert "Gaps were filled with the weighted mean of several predictors [3]." in whole["text"]
-    assert whole["references"] == ["mesh", "artifacts", "averaging"]
+    assert "Gaps were filled with the weighted mean of several predictors [4]." in whole["text"]
+    assert whole["references"] == ["software", "mesh", "artifacts", "averaging"]
     only_filled = paragraph({"fill": {}}, "dynamic", "1.0")
-    assert "Artifacts" not in only_filled["text"] and only_filled["references"] == ["averaging"]
+    assert "Artifacts" not in only_filled["text"] and only_filled["references"] == ["software", "averaging"]
     static = paragraph(ran, "static", "1.0")
-    assert "only checked" in static["text"] and static["references"] == []
+    assert "only checked" in static["text"] and static["references"] == ["software"]
     assert paragraph(ran, "dynamic", "1.0") == whole
 
 
@@ -100,14 +100,14 @@ def test_the_published_pipeline_says_what_it_is():
     ran = {stage: plain(options[stage]) for stage in (*options["general"].detect, "repair", "fill")}
     text = paragraph(ran, "dynamic", "1.0")["text"]
     assert (
-        "isolated peaks, heavy noise, steps and slow drifts (in each coordinate separately, as published) [1]." in text
+        "isolated peaks, heavy noise, steps and slow drifts (in each coordinate separately, as published) [2]." in text
     )
     assert (
         "They were repaired by one method for each class, as published: isolated peaks by a cubic spline, heavy noise by a "
         "Savitzky-Golay filter, steps by a feed-forward neural network and slow drifts by a feed-forward neural network."
     ) in text
     assert "No repair was refused; where findings" in text
-    assert "several predictors (linear regression, local interpolation, local quadratic, local grnn) [2]." in text
+    assert "several predictors (linear regression, local interpolation, local quadratic, local grnn) [3]." in text
     assert WEIGHTS["pma"] in text
     assert "A linear ramp made each prediction meet the samples at the borders of a gap." in text
     assert "its distance to the steadiest marker lies between the 5 and 95 % quantiles" in text
@@ -129,7 +129,7 @@ def test_several_presets_are_named_once_each():
     ran = {"peaks": {"preset": "default"}, "noise": {"preset": "default"}, "slow": {"preset": "coordinates"}}
     text = paragraph(ran, "dynamic", "1")["text"]
     assert text.count("isolated peaks and heavy noise (in the residual of each marker") == 1
-    assert text.count("; slow drifts (in each coordinate separately) [1].") == 1
+    assert text.count("; slow drifts (in each coordinate separately) [2].") == 1
 
 
 def test_all_classes_in_one_text():
@@ -162,7 +162,11 @@ def test_limits_are_joined_and_absent_ones_left_out():
     assert all("{:g}" in phrase for phrase in LIMITS.values())
 
 
-def test_a_reference_keeps_its_number():
-    citations = Citations()
-    assert [citations.cite(key) for key in ("averaging", "mesh", "averaging")] == ["[1]", "[2]", "[1]"]
-    assert set(citations.keys) <= set(REFERENCES)
+def test_what_was_not_done_is_not_described():
+    ran = {"peaks": {}, "repair": {}, "fill": {}}
+    text = paragraph(ran, "dynamic", "1", filled=False)["text"]
+    assert "They were repaired by class" in text
+    assert "filled" not in text and "predictors" not in text and "overwritten" in text
+    text = paragraph(ran, "dynamic", "1", filled=False, repaired=False)["text"]
+    assert "repaired by class" not in text and "overwritten" not in text
+    assert "Artifacts were detected in the order isolated peaks" in text

@@ -11,7 +11,7 @@ from markermend.evaluation.artifacts2022.readings import SUDDEN
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.classification import CLASSES
 from markermend.evaluation.pages import Page, Section
-from markermend.report.methods_text import REFERENCES
+from markermend.report.references import REFERENCES
 
 LEAD = (
     "A clean and denoised recording is contaminated with artifacts of four classes, each in one coordinate of one marker, "

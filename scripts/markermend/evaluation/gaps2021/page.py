@@ -10,7 +10,7 @@ from markermend.evaluation import charts
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.gaps2021.methods import DEFAULT, INTERPOLATIONS, METHODS, NETWORKS
 from markermend.evaluation.pages import Page, Section
-from markermend.report.methods_text import REFERENCES
+from markermend.report.references import REFERENCES
 
 LEAD = (
     "Two gaps of a mean length are hidden in a clean recording, each in a random marker, and filled by five networks, which learn from the "

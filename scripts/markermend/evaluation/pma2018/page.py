@@ -10,7 +10,7 @@ from markermend.evaluation import charts
 from markermend.evaluation.charts import Axes, Chart
 from markermend.evaluation.pages import Page, Section
 from markermend.evaluation.pma2018.wording import display_name, millimetres
-from markermend.report.methods_text import REFERENCES
+from markermend.report.references import REFERENCES
 
 LEAD = (
     "Concurrent gaps of equal length are hidden at a random frame on random markers, filled by each method, and the error is the mean "
