@@ -25,10 +25,10 @@ if plan.detectors:
             runtime=plan.data.need(30),
         params:
             code=plan.code("detect"),
-            detectors=plan.flags_file(*plan.detectors),
+            stages=plan.flags_file(*plan.detectors),
             failures=plan.failed(*plan.detectors),
         message:
             "Detect artifacts in {wildcards.subject}/{wildcards.recording}"
         shell:
             "{PYTHON:q} {SCRIPTS:q}/detect.py --markers {input.markers:q} --mesh {input.mesh:q}"
-            " --detectors {params.detectors:q} --events {output.events:q} 2> {log:q}"
+            " --stages {params.stages:q} --events {output.events:q} 2> {log:q}"

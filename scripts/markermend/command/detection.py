@@ -6,52 +6,19 @@ command. A detector whose inputs, options and code are those of the last time ke
 
 from __future__ import annotations
 
-import argparse
-import json
-import logging
-import shlex
-import sys
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
-from markermend.command import detector_stage
+from markermend.command import detector_stage, shared_job
 from markermend.command.detector_inputs import DetectorInputs
 from markermend.core.artifacts import DETECTORS
 
-log = logging.getLogger("markermend")
+READS = {"markers": "trajectories as ingested", "mesh": "functional body mesh of the subject"}
+"""The files that it reads, and what they hold."""
 
-
-def parser(description: str) -> argparse.ArgumentParser:
-    """Make the parser of the command's flags.
-
-    Parameters
-    ----------
-    description : str
-        What the command does, reads and writes.
-
-    Returns
-    -------
-    ArgumentParser
-        A parser whose flags are all required.
-    """
-    made = argparse.ArgumentParser(
-        prog="detect.py",
-        description=description,
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    reads, writes = made.add_argument_group("reads"), made.add_argument_group("writes")
-    for name, text in {
-        "markers": "trajectories as ingested",
-        "mesh": "functional body mesh of the subject",
-        "detectors": "the flags of each detector that runs: a JSON file of lists by the names of the detectors",
-    }.items():
-        reads.add_argument(f"--{name}", type=Path, required=True, metavar="FILE", help=text)
-    writes.add_argument(
-        "--events", type=Path, required=True, nargs="+", metavar="FILE", help="what each of them found, in their order"
-    )
-    return made
+WRITES = {"events": "what each of the detectors found, in their order"}
+"""The files that it writes, and what they hold."""
 
 
 def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> None:
@@ -71,19 +38,16 @@ def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> N
     SystemExit
         With the status 1 where an output cannot be written; with 2 where flags cannot be used.
     """
-    logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
-    call = parser(description).parse_args(argv)
-    if argv is None:
-        log.info("%s", shlex.join([sys.executable, *sys.argv]))
-    flags = json.loads(call.detectors.read_text(encoding="utf-8"))
-    files, events = DetectorInputs(), list(map(str, call.events))
-    for number, stage in enumerate(stage for stage in DETECTORS if stage in flags):
-        given = ["--markers", str(call.markers), "--mesh", str(call.mesh), "--earlier", *events[:number]]
+    parser = shared_job.make_parser("detect", description, reads=READS, writes=WRITES, many=WRITES)
+    call = shared_job.begin(parser, argv)
+    files = DetectorInputs()
+    for number, stage in enumerate(stage for stage in DETECTORS if stage in call.stages):
+        given = ["--markers", call.markers, "--mesh", call.mesh, "--earlier", *call.events[:number]]
         module = import_module(stage)
         detector_stage.run(
             module.STAGE,
             module.work,
-            [*given, "--events", events[number], *flags[stage]],
+            [*given, "--events", call.events[number], *call.stages[stage]],
             script=scripts / f"{stage}.py",
             files=files,
         )

@@ -6,15 +6,12 @@ stage whose inputs, options and code are those of the last time keeps its output
 
 from __future__ import annotations
 
-import argparse
-import json
-import logging
-import shlex
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+
+from markermend.command import shared_job
 
 STAGES = ("fill", "export", "qc")
 """The stages in their order."""
@@ -50,37 +47,6 @@ ANY_NUMBER = ("events", "poses", "trc")
 """Those of which there may be none or several."""
 
 
-def parser(description: str) -> argparse.ArgumentParser:
-    """Make the parser of the command's flags.
-
-    Parameters
-    ----------
-    description : str
-        What the command does, reads and writes.
-
-    Returns
-    -------
-    ArgumentParser
-        A parser whose flags are all required.
-    """
-    made = argparse.ArgumentParser(
-        prog="finish.py",
-        description=description,
-        allow_abbrev=False,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    for title, files in {"reads": READS, "writes": WRITES}.items():
-        group = made.add_argument_group(title)
-        for name, text in files.items():
-            nargs = "*" if name in ANY_NUMBER else None
-            group.add_argument(f"--{name}", required=True, nargs=nargs, metavar="FILE", help=text)
-    stages = "the flags of each stage: a JSON file of lists by the names of the stages"
-    made.add_argument("--stages", type=Path, required=True, metavar="FILE", help=stages)
-    made.add_argument("--within", required=True, metavar="FOLDER|none", help="see export.py")
-    made.add_argument("--decisions", required=True, metavar="JSON", help="see fill.py")
-    return made
-
-
 def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> None:
     """Parse the flags, and run the stages.
 
@@ -98,15 +64,14 @@ def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> N
     SystemExit
         With the status 1 where an output cannot be written; with 2 where flags cannot be used.
     """
-    logging.basicConfig(stream=sys.stderr, level=logging.INFO, format="%(levelname)s %(message)s")
-    given = vars(parser(description).parse_args(argv))
-    if argv is None:
-        logging.getLogger("markermend").info("%s", shlex.join([sys.executable, *sys.argv]))
-    flags = json.loads(given["stages"].read_text(encoding="utf-8"))
+    parser = shared_job.make_parser("finish", description, reads=READS, writes=WRITES, many=ANY_NUMBER)
+    parser.add_argument("--within", required=True, metavar="FOLDER|none", help="see export.py")
+    parser.add_argument("--decisions", required=True, metavar="JSON", help="see fill.py")
+    given = vars(shared_job.begin(parser, argv))
     own = {"fill": [f"--decisions={given['decisions']}"], "export": [f"--within={given['within']}"]}
     for stage in STAGES:
         module = import_module(stage)
-        words = [*_files(module.STAGE, given), *flags[stage], *own.get(stage, [])]
+        words = [*_files(module.STAGE, given), *given["stages"][stage], *own.get(stage, [])]
         module.STAGE.run(
             module.work, words, set_aside=getattr(module, "set_aside", None), script=scripts / f"{stage}.py"
         )

@@ -56,7 +56,7 @@ def run(folder, *, config=None, codes=None):
         folder.parent / "mesh.json",
         folder.parent / "detectors.json",
     )
-    files = ["--markers", markers, "--mesh", mesh, "--detectors", detectors]
+    files = ["--markers", markers, "--mesh", mesh, "--stages", detectors]
     detect.main([*map(str, files), "--events", *(str(events(folder, stage)) for stage in STAGES)])
 
 
@@ -146,7 +146,7 @@ def test_flags_that_cannot_be_used_are_an_error_of_the_command_line(folder, caps
         folder / "01_markers.parquet",
         "--mesh",
         folder.parent / "mesh.json",
-        "--detectors",
+        "--stages",
         flags_file,
     ]
     with pytest.raises(SystemExit) as failure:
