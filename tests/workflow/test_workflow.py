@@ -171,7 +171,7 @@ def test_a_logged_command_can_be_pasted_anywhere(hostile):
     before = path.read_bytes()
     # The names of the files have ends of lines.
     (command,) = re.findall(
-        r"Shell command: ([^\n]*/finish\.py (?:(?!Shell command: ).)*?/-n.*?/finish\.log'?)", text, re.DOTALL
+        r"Shell command: ([^\n]*/finish\.py (?:(?!/finish\.log).)*?/-n.*?/finish\.log'?)", text, re.DOTALL
     )
     path.unlink()
     # Last bits hang on which kernels the linear algebra uses, which a machine may set in the environment.

@@ -23,10 +23,8 @@ class FrozenOptions(DetectorOptions):
 
     Change it when markers that really rest are reported (higher)."""
 
-    threshold_sigmas: Annotated[NotNegative, Laboratory] = 4
-    """Predicted motion of the marker in standard deviations of the prediction, at least.
-
-    Change it when there are too many false findings (higher), or artifacts are missed (lower)."""
+    threshold_sigmas: NotNegative = 4
+    """Predicted motion of the marker in standard deviations of the prediction, at least."""
 
     neighbours: Annotated[int, AtLeast(3)] = 3
     """Nearest neighbours, which must move in the meantime."""
