@@ -57,4 +57,9 @@ def unsaid(status: int, text: str, different: Sequence[str]) -> list[str]:
         return []
     subjects = {name for pattern in NAMED for name in re.findall(pattern, text, re.MULTILINE)}
     subjects |= {"report"} if subjects else set()
-    return [f"{line}, and the run said nothing" for line in different if line.partition("/")[0] not in subjects]
+    return [f"{line}, and the run said nothing" for line in different if subject_of(line) not in subjects]
+
+
+def subject_of(name: str) -> str:
+    """The subject that a result is about; `report` for the report."""
+    return name.removeprefix("cleaned/").partition("/")[0]

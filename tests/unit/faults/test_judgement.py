@@ -6,7 +6,7 @@ import pytest
 
 from faults.judgement import differences, unsaid
 
-FILES = ("S01/walk/cleaned.c3d", "S01/walk/logs/fill.json", "report/index.html")
+FILES = ("cleaned/S01/walk.c3d", "S01/walk/logs/fill.json", "report/index.html")
 CHANGING = (
     "S01/walk/logs/fill.log",
     "S01/walk/logs/fill.tsv",
@@ -39,14 +39,14 @@ def test_each_result_that_differs_is_named(folders, name):
 
 
 def test_what_is_missing_and_what_is_left_over_counts_in_finished_results(folders):
-    (folders[0] / FILES[0]).rename(folders[0] / "S01/walk/.cleaned.c3d.host.7")
+    (folders[0] / FILES[0]).rename(folders[0] / "cleaned/S01/.walk.c3d.host.7")
     assert differences(*folders, unfinished=True) == []
-    assert differences(*folders) == ["S01/walk/.cleaned.c3d.host.7 is left over", f"{FILES[0]} is missing"]
+    assert differences(*folders) == ["cleaned/S01/.walk.c3d.host.7 is left over", f"{FILES[0]} is missing"]
 
 
 def test_a_folder_that_is_gone_is_missing(folders):
     shutil.rmtree(folders[0])
-    assert differences(*folders) == [f"{name} is missing" for name in FILES]
+    assert differences(*folders) == sorted(f"{name} is missing" for name in FILES)
 
 
 @pytest.mark.parametrize(
@@ -60,4 +60,4 @@ def test_a_folder_that_is_gone_is_missing(folders):
     ],
 )
 def test_a_run_that_says_all_is_well_keeps_to_itself_what_is_not(status, text, expected):
-    assert len(unsaid(status, text, ["S01/walk/cleaned.c3d differs", "report/index.html is missing"])) == expected
+    assert len(unsaid(status, text, ["cleaned/S01/walk.c3d differs", "report/index.html is missing"])) == expected
