@@ -235,8 +235,10 @@ class Plan:
 
     @cached_property
     def _taken(self) -> frozenset[str]:
-        """Where all cleaned files go."""
-        return frozenset(self.data.places.values())
+        """Where no copy may go: where cleaned files go, and where copies of several would meet."""
+        places = self.data.places.values()
+        stems = Counter(place.rpartition(".")[0] for place in places)
+        return frozenset([*places, *(f"{stem}.trc" for stem, count in stems.items() if count > 1)])
 
     def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
         """Write the options of a stage as flags.

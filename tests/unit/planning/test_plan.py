@@ -92,6 +92,19 @@ def test_cleaned_files_go_to_a_tree_under_their_own_names_with_a_copy_as_trc_on_
     assert [wanted.trc(job(*own)) for own in folders] == copies
 
 
+def test_copies_of_two_recordings_never_meet(config, tmp_path):
+    (tmp_path / "S01").mkdir()
+    for name in ("walk.c3d", "walk.csv"):
+        (tmp_path / "S01" / name).touch()
+    plan = make_plan(
+        {**config, "recordings": str(tmp_path), "results": str(tmp_path / "../out"), "export": {"also_trc": True}},
+        PROJECT,
+        deployed=False,
+    )
+    copies = [path for own in plan.data.entries for path in plan.trc(job(*own))]
+    assert [path.rpartition("/")[2] for path in copies] == ["walk.c3d.trc", "walk.csv.trc"]
+
+
 @pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "poses", "fill", "export", "qc", "report"])
 def test_every_stage_gets_its_options_as_flags(plan, stage):
     names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]
