@@ -145,13 +145,14 @@ def outcome(quality: Path) -> str:
         found = json.loads(quality.read_text(encoding="utf-8"))
         if found["status"] == "set aside":
             return f"set aside: {_visible(found['reason'])}"
-        parts = [
-            found["status"],
-            f"{_samples(found['changed_samples'])} altered",
-            f"{_samples(found['filled']['samples'])} filled",
+        counts = [
+            (found["changed_samples"], "sample", "altered"),
+            (found["filled"]["samples"], "sample", "filled"),
+            (found["findings_open"]["events"], "finding", "left"),
+            (found["gaps_open"]["events"], "gap", "left"),
         ]
-        left = [(found["findings_open"]["events"], "findings"), (found["gaps_open"]["events"], "gaps")]
-        return ", ".join([*parts, *(f"{count} {what} left" for count, what in left if count)])
+        parts = [f"{count} {what if count == 1 else what + 's'} {how}" for count, what, how in counts if count]
+        return ", ".join([found["status"], *parts])
     except (OSError, ValueError, KeyError, TypeError):
         return "not judged"
 
@@ -159,11 +160,6 @@ def outcome(quality: Path) -> str:
 def _visible(text: str) -> str:
     """A text of a recording, in which no character controls the terminal."""
     return "".join(character if character.isprintable() else "?" for character in text)
-
-
-def _samples(count: int | None) -> str:
-    """A number of samples."""
-    return f"{count or 0} sample" if count == 1 else f"{count or 0} samples"
 
 
 def duration(seconds: float) -> str:

@@ -80,7 +80,7 @@ def _watch(
         for line in _lines(events):
             finished = progress.tell(json.loads(line))
             if finished:
-                console.print(finished, markup=False, highlight=False)
+                console.print(finished, markup=False, highlight=False, soft_wrap=True)
             if progress.total:
                 status.update(progress.line())
         if ended:

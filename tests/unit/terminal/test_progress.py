@@ -61,6 +61,17 @@ def test_a_recording_has_its_line_when_it_is_judged(tmp_path):
     assert run.line().startswith("1 of 2 recordings")
 
 
+def test_what_is_none_is_not_counted_and_what_is_one_is_no_plural(tmp_path):
+    nothing = write_quality(
+        tmp_path, "a", status="unchanged", changed_samples=0, filled={"samples": 0}, gaps_open={"events": 0}
+    )
+    assert outcome(nothing) == "unchanged"
+    one = write_quality(
+        tmp_path, "b", changed_samples=1, filled={"samples": 0}, findings_open={"events": 1}, gaps_open={"events": 1}
+    )
+    assert outcome(one) == "cleaned, 1 sample altered, 1 finding left, 1 gap left"
+
+
 def test_what_is_worked_on_is_named(tmp_path):
     run = Progress(tmp_path)
     run.tell({"event": "run_info", "stats": STATS})

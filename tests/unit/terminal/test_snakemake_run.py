@@ -44,6 +44,12 @@ def test_a_line_for_each_recording_and_the_summary_are_shown(run):
     assert shown == "S/a: not judged\n1 recordings: 1 cleaned\nReport: there\n"
 
 
+def test_a_line_longer_than_the_terminal_is_not_broken(run):
+    recording = "a recording with a name as long as " * 3
+    begun = {**BEGUN, "wildcards": {"subject": "S", "recording": recording}}
+    assert run([STATS, begun, FINISHED])[1].startswith(f"S/{recording}: not judged\n")
+
+
 def test_what_snakemake_prints_is_in_the_log(run, tmp_path):
     run([], printed="what it says")
     assert (tmp_path / "report/logs/run.log").read_text() == "what it says\n"
