@@ -116,6 +116,7 @@ def make_parser(work: Mapping[str, Work], presets: Collection[str]) -> Parser:
 def _about_recordings(command: argparse.ArgumentParser) -> None:
     """Add the arguments of a command that looks at recordings."""
     command.add_argument("recordings", metavar="FOLDER", help="a folder of recordings, or a table of them")
+    command.add_argument("--decisions", metavar="TABLE", help="what you decided: see the pages of the report")
     _about_run(command)
 
 

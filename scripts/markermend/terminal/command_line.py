@@ -25,8 +25,9 @@ from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY
 from markermend.storage.atomic import NotWritten
 from markermend.storage.installation import workflow_folder
-from markermend.terminal import estimate, snakemake_run, table, undo
+from markermend.terminal import estimate, snakemake_arguments, snakemake_run, table, undo
 from markermend.terminal.arguments import Work, make_parser, suggestion
+from markermend.terminal.snakemake_arguments import names_profile
 
 CAREFUL = "careful"
 """The preset with which nothing is altered."""
@@ -66,11 +67,13 @@ def _clean(call: argparse.Namespace, given: list[str]) -> int:
     if not Path(call.recordings).expanduser().exists():
         return _refuse(f"There is no {call.recordings}: name a folder of recordings, or a table of them")
     files = [str(workflow_folder() / f"config/presets/{call.preset}.yaml")] if call.preset else []
-    arguments = _arguments(call, [f"recordings={_absolute(call.recordings)}"], [*files, *call.options], given)
+    decisions = [f"decisions={_absolute(call.decisions)}"] if call.decisions else []
+    config = [f"recordings={_absolute(call.recordings)}", *decisions]
+    arguments = _arguments(call, config, [*files, *call.options], given)
     if problem := run_workflow.config_file_problem(arguments):
         return _refuse(problem)
     try:
-        print(*_announce(call, [*files, *call.options], profile="--profile" in given), sep="\n", file=sys.stderr)
+        print(*_announce(call, [*files, *call.options], profile=names_profile(given)), sep="\n", file=sys.stderr)
     except BadDataSet as error:
         return _refuse(str(error))
     # A plan is shown as Snakemake prints it.
@@ -92,9 +95,11 @@ def _announce(call: argparse.Namespace, files: Sequence[str], *, profile: bool) 
     """What a run will take, in a line, and names that people wrote and no marker has."""
     options = read_option_files(files)
     general: GeneralOptions = replace(options["general"], recordings=call.recordings)
+    if call.decisions:
+        general = replace(general, decisions=call.decisions)
     schemas = workflow_folder() / "workflow/schemas"
     found, _ = find_recordings(general, os.path.abspath(call.results), schemas=schemas)
-    decisions, _ = find_decisions(options, list(found.values()))
+    decisions, _ = find_decisions({**options, "general": general}, list(found.values()))
     cores = None if profile and not call.cores else _cores(call.cores)
     line = estimate.line(list(found.values()), call.results, cores=cores)
     return [line, *unknown_names(general.protect, decisions, found)]
@@ -116,10 +121,7 @@ def _arguments(
     call: argparse.Namespace, config: Sequence[str], files: Sequence[str], given: Sequence[str]
 ) -> list[str]:
     """Arguments of Snakemake, with those that were given for it."""
-    cores = call.cores or (None if "--profile" in given else "all")
-    named = ["--configfile", *files] if files else []
-    results = f"results={_absolute(call.results)}"
-    return [*(["--cores", cores] if cores else []), *named, "--config", *config, results, *given]
+    return snakemake_arguments.merge([*config, f"results={_absolute(call.results)}"], files, given, cores=call.cores)
 
 
 def _absolute(path: str | Path) -> str:

@@ -46,6 +46,17 @@ def test_a_folder_is_cleaned_with_a_preset_and_own_options_over_it(runs, folder,
     ]
 
 
+def test_decisions_are_named_and_their_markers_looked_at(runs, folder, tmp_path, capsys):
+    table = tmp_path / "decisions.tsv"
+    table.write_text("recording\tmarker\tfirst_frame\tlast_frame\tdecision\nwalk\tM9\t\t\tprotect\n")
+    assert command_line.main(["clean", str(folder), "--decisions", str(table), "--", "--config", "detect=[peaks]"]) == 0
+    config = runs[0][0][runs[0][0].index("--config") + 1 :]
+    assert config == [f"recordings={folder}", f"decisions={table}", f"results={os.getcwd()}/results", "detect=[peaks]"]
+    assert "M9" in capsys.readouterr().err
+    assert command_line.main(["clean", str(folder), "--decisions", str(tmp_path / "none.tsv")]) == 1
+    assert "none.tsv" in capsys.readouterr().err
+
+
 def test_names_that_look_like_numbers_are_names(runs, folder, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     folder.rename("2024")
