@@ -7,13 +7,20 @@ RESULTS ?= results
 # For networks (config/README.md), which tests and papers train: 750 of 1,700 MB. Nothing else installs it; `TORCH=` never does.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo papers test test-papers test-cluster faults wheel lint config lock clean
+.PHONY: demo docs papers test test-papers test-cluster faults wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
 	$(BIN)/snakemake --cores $(CORES) --config recordings=demo/recordings results=demo/results
 	@echo
 	@echo "$(CURDIR)/demo/results/report/index.html"
+
+# The documentation as a site that works offline; every link in it is checked.
+docs: .venv/ready
+	rm -rf docs/_build docs/generated
+	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --keep-going docs docs/_build/html
+	$(BIN)/python docs/links.py docs/_build/html
+	@echo "$(CURDIR)/docs/_build/html/index.html"
 
 # The experiments of the papers (config/evaluate): SIZE=quick takes minutes; RECORDINGS=FOLDER in place of a synthetic person.
 papers: .venv/networks

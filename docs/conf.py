@@ -1,0 +1,117 @@
+"""Reads docs/*.md, the pages of the project that they include, and the docstrings of `markermend.api`; Sphinx makes docs/_build/html of them.
+
+Pages that lie elsewhere in the project, such as README.md, are included and not repeated. Their links are relative to where they lie;
+here they lead to the pages of this site, else to a copy of the file. Each option is a target: {setting}`fill.max_gap_s` leads to its row.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from sphinx.application import Sphinx
+
+PROJECT = Path(__file__).parents[1]
+sys.path.insert(0, str(PROJECT / "scripts"))
+
+from markermend import __version__  # noqa: E402
+from markermend.planning import option_tables  # noqa: E402
+
+project, author, copyright = "markermend", "markermend developers", "markermend developers"
+release = version = __version__
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc"]
+exclude_patterns = ["_build"]
+nitpicky = True
+suppress_warnings = ["myst.header"]  # a part of a page may begin at any level
+
+myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist"]
+myst_heading_anchors = 4
+
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+
+html_theme = "furo"
+html_title = "markermend"
+html_copy_source = html_show_sourcelink = html_show_sphinx = False
+
+PAGES = {
+    "README.md": "index.md",
+    "config/README.md": "settings.md",
+    "config/README.md#recordings": "own_data.md#a-folder-or-a-table-of-recordings",
+    "config/README.md#decisions": "decisions.md",
+    "benchmarks/README.md": "benchmarks.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "DECISIONS.md": "design.md",
+    "CHANGELOG.md": "changelog.md",
+}
+"""The page of this site that shows a page of the project."""
+
+LINK = re.compile(
+    r"(?P<code>(?P<ticks>`+).*?(?P=ticks))|\[(?P<words>[^\]]+)\]\((?!\w+:|#)(?P<file>[^)#\s]+)(?P<anchor>#[^)\s]*)?\)",
+    re.S,
+)
+HEADING = re.compile(r"^#{2,3} (?:`([\w.]+)`: )?")
+ROW = re.compile(r"^\| `([\w.]+)` \|")
+
+
+def included(app: Sphinx, path: Path, docname: str, content: list[str]) -> None:
+    """Make a page of the project part of this site."""
+    page = (Path(app.srcdir) / path).resolve().relative_to(PROJECT)
+    text = LINK.sub(lambda link: relocated(link, page), content[0])
+    content[0] = with_targets(text) if page.as_posix() == "config/README.md" else text
+
+
+def read(app: Sphinx, docname: str, content: list[str]) -> None:
+    """Let links of this site's own pages be those of the project."""
+    page = Path("docs", f"{docname}.md")
+    if (PROJECT / page).exists():  # what autosummary makes is no Markdown
+        content[0] = LINK.sub(lambda link: relocated(link, page), content[0])
+
+
+def relocated(link: re.Match[str], page: Path) -> str:
+    """A link of a page, relative to it, as it is on this site: to a page, to a copy of a file, or, for a folder, none."""
+    if link["code"]:
+        return link[0]
+    words, anchor = link["words"], link["anchor"] or ""
+    target = posixpath.normpath(posixpath.join(page.parent.as_posix(), link["file"]))
+    if target + anchor in PAGES:
+        return f"[{words}](/{PAGES[target + anchor]})"
+    if target.startswith("docs/") and target.endswith(".md"):
+        return f"[{words}](/{target.removeprefix('docs/')}{anchor})"
+    if not (PROJECT / target).exists():
+        raise FileNotFoundError(f"{page} links to {target}, which is not there")
+    return f"[{words}](path:/../{target})" if (PROJECT / target).is_file() else words
+
+
+def with_targets(page: str) -> str:
+    """The tables of options with the full name of each option as the target of links."""
+    before, begin, tables = page.partition(option_tables.BEGIN)
+    section, lines = "", []
+    for line in tables.split("\n"):
+        heading, row = HEADING.match(line), ROW.match(line)
+        if heading:
+            section = f"{heading[1]}." if heading[1] else ""
+        lines.append(ROW.sub(f'| `{row[1]}`{{id="{section}{row[1]}"}} |', line) if row else line)
+    return before + begin + "\n".join(lines)
+
+
+def note_settings(app: Sphinx, doctree: nodes.document) -> None:
+    """Make the options of the settings page known to {setting}`...`."""
+    if app.env.docname == "settings":
+        for node in doctree.findall(nodes.literal):
+            for name in node["names"]:
+                app.env.domains.standard_domain.note_object("setting", name, node["ids"][0], location=node)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Connect what stands above to Sphinx."""
+    app.add_object_type("setting", "setting")
+    app.connect("include-read", included)
+    app.connect("source-read", read)
+    app.connect("doctree-read", note_settings)
+    return {"parallel_read_safe": True}
