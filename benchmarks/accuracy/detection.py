@@ -113,7 +113,7 @@ def glitches(path: Path, recording: Recording) -> np.ndarray:
     out = np.zeros(recording.missing.shape, bool)
     with GLITCHES.open(encoding="utf-8", newline="") as stream:
         for row in csv.DictReader(stream, delimiter="\t"):
-            if row["recording"] == path.stem:
+            if row["recording"] == path.stem and row["marker"] in recording.markers:  # others are computed points
                 start = int(row["first_frame"]) - recording.first_frame - BORDER
                 stop = int(row["last_frame"]) - recording.first_frame + 1 + BORDER
                 out[max(0, start) : stop, recording.markers.index(row["marker"])] = True

@@ -23,7 +23,7 @@ class IngestOptions:
     Change it when your capture program names unlabelled trajectories in another way."""
 
     computed: Annotated[tuple[Annotated[str, RegularExpression], ...], Laboratory] = (
-        "([LR][ _]?)?[HKASEW]JC([ _]?[LR])?",
+        "([LR][ _]?)?[HKASEW]JC([ _]?[LR])?([ _].*)?",
         ".*joint[ _]?cent(re|er)s?",
         ".*_(score|sara)",
         "cent(re|er)[ _]?of[ _]?(mass|gravity).*",
