@@ -13,15 +13,18 @@ from typing import Any
 import numpy as np
 
 from markermend.command.stage import Stage
+from markermend.core import decisions
 from markermend.core.recording import Recording, Restored, SetAside
+from markermend.core.remarks import with_remarks
 from markermend.core.written import is_reported, written_changes
 from markermend.export import undo, write_back
 from markermend.export.change_table import change_table
 from markermend.export.opensim_trc import write_opensim_trc
+from markermend.options.general import DecisionOptions
 from markermend.options.reporting import ExportOptions
 from markermend.storage import atomic, change_file, stage_files
 
-STAGE = Stage("export", __doc__, ExportOptions)
+STAGE = Stage("export", __doc__, ExportOptions, DecisionOptions)
 STAGE.reads_original("the original file")
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("filled", "trajectories after repair and filling")
@@ -38,7 +41,7 @@ def work(call: Any) -> str:
     measured, restored = stage_files.read_recording(call.markers), stage_files.read_recording(call.filled)
     assert isinstance(restored, Restored)
     certificate = write_back.write_cleaned(call.source, call.cleaned, measured, restored)
-    record = change_file.read(call.record)
+    record = with_remarks(change_file.read(call.record), decisions.read(call.decisions, restored.first_frame))
     written = written_changes(measured, restored, record, certificate["refused"])
     rows = [*written.applied, *written.refused, *filter(is_reported, record)]
     atomic.write_text(call.changes, change_table(rows, restored))

@@ -10,11 +10,12 @@ from typing import Any
 
 from markermend.command.stage import Stage
 from markermend.core.recording import SetAside
+from markermend.options.general import DecisionOptions
 from markermend.options.reporting import QcOptions
 from markermend.report import evidence, recording_report, rendering
 from markermend.storage import atomic
 
-STAGE = Stage("qc", __doc__, QcOptions)
+STAGE = Stage("qc", __doc__, QcOptions, DecisionOptions)
 STAGE.reads("markers", "trajectories as ingested")
 STAGE.reads("mesh", "meshes of the subject")
 STAGE.reads("events", "findings of the detectors, in their order", many=True, optional=True)

@@ -29,6 +29,7 @@ from markermend.core.events import Event
 from markermend.core.mesh import Mesh
 from markermend.core.poses import Poses
 from markermend.core.recording import ORIGINS, Recording, Restored
+from markermend.core.remarks import with_remarks
 from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 from markermend.core.written import is_reported, written_changes
 from markermend.detection.frames import detect_frames
@@ -551,7 +552,8 @@ def _fill(
     measured, findings = repaired.measured, repaired.findings
     filled = fill(repaired.treated, mesh, options, decisions=decisions, poses=poses)
     unjudged = _unjudged(measured, mesh_of(measured, mesh), findings, options)
-    return Cleaned(measured, filled.recording, mesh, findings, filled.changes, unjudged, repaired.warnings)
+    changes = with_remarks(filled.changes, read_decisions(decisions, measured, options))
+    return Cleaned(measured, filled.recording, mesh, findings, changes, unjudged, repaired.warnings)
 
 
 def _unjudged(recording: Recording, mesh: Mesh, findings: Mapping[str, Any], options: Options) -> dict[str, str]:

@@ -18,8 +18,8 @@ from support import report_files
 from support.browser import ARGUMENTS, Browser
 
 STATED = (
-    ("Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna"),
-    ("gone", "A*", 5, 9, "reject", "peak", "", ""),
+    ("Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna", "A.L.", "2026-03-31"),
+    ("gone", "A*", 5, 9, "reject", "peak", "", "", "", ""),
 )
 """Lines of the table of decisions: one that the run followed, and one on a recording that is not there."""
 
@@ -64,7 +64,7 @@ def report(contaminated, tmp_path_factory) -> Path:
     before = report_files.named(replace(contaminated.recording, first_frame=705), "Walk 1", "Anna", unlabelled=["*0"])
     keep = (contaminated.gaps[2][0], contaminated.events["peaks"][0].marker)
     after = report_files.restore(before, contaminated.clean.positions, contaminated.events, error=4.0, keep=keep)
-    entry = {"marker": "LFIN", "decision": "protect", "note": "taped"}
+    entry = {"marker": "LFIN", "decision": "protect", "note": "taped", "by": "A.L.", "date": "2026-03-31"}
     made = [report_files.write(results, before, after, contaminated.events, decisions=[entry])]
     calm = report_files.named(contaminated.clean, "Calm", "Anna")
     made.append(

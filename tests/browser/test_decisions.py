@@ -5,6 +5,7 @@ import io
 import itertools
 import json
 import shutil
+from datetime import date
 
 import pytest
 
@@ -17,6 +18,12 @@ from support.browser import REFUSED, Browser, decide
 from support.html_pages import HOSTILE
 
 ENTRIES = [Entry("Anna", "Walk 1", "/a.c3d"), Entry("Anna", "Calm", "/b.c3d"), Entry("Bob", "Bad", "/c.c3d")]
+STATED = (
+    ("Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna", "A.L.", "2026-03-31"),
+    ("gone", "A*", "5", "9", "reject", "peak", "", "", "", ""),
+)
+"""The lines of the last run."""
+
 ANY = ("local_ridge", "spline", "blank", "ensemble")
 
 
@@ -60,14 +67,11 @@ def test_each_decision_waits_and_is_downloaded_as_the_table_that_a_run_reads(bro
         row = row_of(page, kind)
         decide(page, row, choice)
         assert row.locator(".state").inner_text() == "waiting"
-        expected.append(["Walk 1", *cells(row), verb, value, "", "Anna"])
+        expected.append(["Walk 1", *cells(row), verb, value, "", "Anna", "", str(date.today())])
     assert "5 decisions waiting in 1 recording" in page.locator("#waiting").inner_text()
     text = browser.download(page)
     assert [row for row in lines(text) if row in expected] == expected
-    assert lines(text)[:2] == [
-        ["Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna"],
-        ["gone", "A*", "5", "9", "reject", "peak", "", ""],
-    ]
+    assert lines(text)[:2] == [list(map(str, line)) for line in STATED]
 
     index = browser.open(report / "report/index.html")
     assert browser.download(index) == text
@@ -93,6 +97,62 @@ def test_decisions_are_kept_from_one_day_to_the_next_and_can_be_changed_and_with
     assert "No decision waiting" in page.locator("#waiting").inner_text()
 
 
+def test_name_and_day_are_written_beside_each_decision_that_is_made_here(browser, report, walk):
+    page = browser.open(walk)
+    row = row_of(page, "peak")
+    decide(page, row, "reject peak")
+    assert lines(browser.download(page))[-1][8:] == ["", str(date.today())]
+    name = '=王 "A"\tL\u202fö '
+    page.get_by_label("Your name or initials").fill(name)
+    page.get_by_label("Your name or initials").blur()
+    said = f'waiting, =王 "A" L ö, {date.today()}'
+    assert row.locator(".state").inner_text() == said
+    decide(page, row_of(page, "step"), "protect")
+    text = browser.download(page)
+    assert [line[8] for line in lines(text)] == ["A.L.", "", '\'=王 "A" L ö', '\'=王 "A" L ö']
+    assert lines(text)[0] == list(STATED[0])
+
+    calm = browser.open(report / "Anna/Calm/page.html")
+    assert calm.get_by_label("Your name or initials").input_value() == '=王 "A" L ö'
+    calm.get_by_label("Your name or initials").fill("B.K.")
+    calm.get_by_label("Your name or initials").blur()
+    page.bring_to_front()
+    assert page.get_by_label("Your name or initials").input_value() == "B.K."
+    assert row.locator(".state").inner_text() == said
+
+
+def test_a_decision_of_the_run_that_is_made_again_stays_as_it_was_signed(browser, walk):
+    page = browser.open(walk)
+    page.evaluate(
+        "existing.push([...lineOf(about.findings[0], 'protect', '', 'taped').slice(0, BY), 'A.L.', '2026-03-31'])"
+    )
+    page.get_by_label("Your name or initials").fill("B.K.")
+    page.get_by_label("Your name or initials").blur()
+    row = page.locator("#finding-0")
+    decide(page, row, "")
+    assert row.locator(".state").inner_text() == "waiting"
+    page.evaluate("decide(about.findings[0], 'protect', '', ' taped')")
+    assert row.locator(".state").inner_text() == "this run, A.L., 2026-03-31"
+    assert "No decision waiting" in page.locator("#waiting").inner_text()
+    page.evaluate("decide(about.findings[0], 'protect', '', 'loose')")
+    assert row.locator(".state").inner_text() == f"waiting, B.K., {date.today()}"
+
+
+def test_the_page_lists_by_whom_and_when_each_decision_was_made(browser, walk):
+    page = browser.open(walk)
+    cells = page.locator("#decided tbody tr td")
+    assert [cells.nth(place).inner_text() for place in range(4)] == ["LFIN", "protect (taped)", "A.L.", "2026-03-31"]
+
+
+def test_what_an_earlier_version_kept_is_understood(browser, walk):
+    page = browser.open(walk)
+    line = ["Walk 1", "LANK", "705", "706", "reject", "peak", "", "Anna"]
+    page.evaluate("line => localStorage.setItem(key, JSON.stringify({added: [line], withdrawn: []}))", line)
+    page.reload()
+    page.wait_for_selector("#waiting button")
+    assert lines(browser.download(page))[-1] == [*line, "", ""]
+
+
 def test_a_note_goes_into_the_table_on_one_line(browser, walk):
     page = browser.open(walk)
     row = page.locator("#finding-0")
@@ -114,7 +174,7 @@ def test_a_decision_of_the_run_can_be_withdrawn_and_kept_again(browser, walk):
 
 def test_what_the_run_has_followed_waits_no_longer(browser, report, walk):
     page = browser.open(walk)
-    followed = ["Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna"]
+    followed = list(STATED[0])
     state = json.dumps({"added": [followed], "withdrawn": [["other", *followed[1:]]]})
     page.evaluate("state => localStorage.setItem(keyOf('Walk 1', 'Anna'), state)", state)
     page = browser.open(report / "report/index.html")
@@ -125,7 +185,7 @@ def test_decisions_that_contradict_each_other_are_not_downloaded(browser, walk):
     page = browser.open(walk)
     page.evaluate(
         "line => { writeWaiting(key, {added: [line], withdrawn: []}); }",
-        ["Walk 1", "*", "", "", "reject", "peak", "", "Anna"],
+        ["Walk 1", "*", "", "", "reject", "peak", "", "Anna", "", ""],
     )
     decide(page, row_of(page, "peak"), "accept peak")
     saving = page.get_by_role("button", name="Download decisions.tsv")
@@ -223,7 +283,7 @@ def test_contradictions_are_found_as_by_the_program(browser, walk):
              ("method", "spline"), ("method", "leave"), ("missing", ""), ("class", "peak"), ("class", "swap:LTOE"), ("class", "noise")]  # fmt: skip
     places = [("LANK", "", ""), ("L*", "5", "9"), ("?ANK", "9", "12"), ("LA*K", "13", "14"), ("RANK", "5", "9")]
     table = [
-        ["r", marker, first, last, verb, value, "", ""]
+        ["r", marker, first, last, verb, value, "", "", "", ""]
         for (marker, first, last), (verb, value) in itertools.product(places, verbs)
     ]
     table = [

@@ -18,9 +18,11 @@ from markermend.core.mesh import Mesh, Segment
 from markermend.core.originals import find_originals
 from markermend.core.reasons import Cause, Reason
 from markermend.core.recording import FILLED, MEASURED, MISSING, ORIGINS, Recording, changed, gaps
+from markermend.core.remarks import without_remarks
 from markermend.export.change_table import change_table
 from markermend.options.flags import write_flags
 from markermend.options.reporting import QcOptions
+from markermend.options.values import text
 from markermend.planning.decision_table import NONE
 from markermend.planning.partial_report import REPORT_FILES
 from markermend.storage import atomic, change_file, mesh_file, originals_file, stage_files
@@ -36,6 +38,7 @@ class Results:
     """The folder of one recording with everything that qc reads."""
 
     folder: Path
+    decisions: Sequence[Mapping[str, Any]] = ()
 
     def qc(self, **options: Any) -> list[str]:
         """The flags of qc."""
@@ -46,7 +49,8 @@ class Results:
             "qc": "08_qc.json", "page": "page.html",
         }  # fmt: skip
         words = [word for flag, name in named.items() for word in (f"--{flag}", str(self.folder / name))]
-        return [*words, "--events", *events, "--code=", *shlex.split(write_flags(QcOptions(**options)))]
+        given = ["--code=", f"--decisions={text(list(self.decisions))}"]
+        return [*words, "--events", *events, *given, *shlex.split(write_flags(QcOptions(**options)))]
 
     @property
     def page(self) -> str:
@@ -131,7 +135,7 @@ def write(
         stage_files.write_events(folder / BY_STAGE[stage].events_file, events, facts)
     for file, stage, options in (
         ("06_repaired", "repair", {"max_error_mm": 20.0}),
-        ("07_filled", "fill", {"max_gap_s": 2.0, "decisions": list(decisions)}),
+        ("07_filled", "fill", {"max_gap_s": 2.0, "decisions": without_remarks(decisions)}),
     ):
         stage_files.write_recording(folder / f"{file}.parquet", after, {"stage": stage, "options": options})
     order = tuple(sorted(before.markers))
@@ -157,4 +161,4 @@ def write(
         "changed_bytes": 12 * count, "other_bytes_equal": True, "refused": [],
     }  # fmt: skip
     atomic.write_json(folder / "certificate.json", certificate)
-    return Results(folder)
+    return Results(folder, decisions)

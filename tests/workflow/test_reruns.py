@@ -224,11 +224,30 @@ def test_a_decision_reruns_its_recording_alone_and_is_followed(finished):
         assert changes(finished, "S02/b") == untouched
         page = (finished.results / "S01/a/page.html").read_text()
         assert "a person decided: reject peak (hop)" in page and '<table id="decided">' in page
+        sign(finished, line)
         with edited(finished.folder / "config/decisions.tsv", "b\tM1\t41\t50\treject\tgap\n"):
             assert finished.plan().jobs == plan.jobs
         assert NOTHING in finished.plan().text
     finished.run()
     assert changes(finished, "S01/a") == found
+
+
+def sign(finished: Project, line: str) -> None:
+    """Give a line that was followed another note, and the name of a person: it is stated, and nothing is computed again."""
+    folder, table = finished.results / "S01/a", finished.folder / "config/decisions.tsv"
+    cleaned = (finished.results / "cleaned/S01/a.c3d").read_bytes()
+    signed = line.replace("hop", "taped") + "\t\t李 L.\t2026-03-31"
+    table.write_text(table.read_text().replace(line, signed))
+    assert finished.plan().jobs == dict.fromkeys(("finish", "report", "all"), 1)
+    finished.run()
+    assert "fill: the outputs are kept" in (folder / "logs/finish.log").read_text()
+    assert (finished.results / "cleaned/S01/a.c3d").read_bytes() == cleaned
+    assert (
+        "reject peak (taped; 李 L., 2026-03-31)"
+        in (folder / "changes.tsv").read_text() + (folder / "page.html").read_text()
+    )
+    assert "a person decided: reject peak (taped; 李 L., 2026-03-31)" in (folder / "page.html").read_text()
+    assert "judged by hand by 李 L. (2026-03-31)." in (finished.results / "report/index.html").read_text()
 
 
 def test_a_decision_on_a_recording_that_is_not_there_is_kept_in_the_report(finished):

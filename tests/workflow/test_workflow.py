@@ -41,8 +41,8 @@ def test_a_command_has_the_options_of_its_section(name):
         "ingest": {"recording", "subject", "kind", "rate", "unit", "sha256", "within"},
         "repair": {"decisions"},
         "fill": {"decisions", "code"},
-        "export": {"within", "code"},
-        "qc": {"code"},
+        "export": {"decisions", "within", "code"},
+        "qc": {"decisions", "code"},
     }
     assert required - files - own == given.get(name, set())
 

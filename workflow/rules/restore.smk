@@ -28,7 +28,7 @@ rule repair:
     params:
         code=plan.code("repair"),
         options=plan.stage_options("repair"),
-        decisions=plan.data.decisions_flag,
+        decisions=plan.data.bare_decisions_flag,
         failures=plan.failed("repair"),
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"

@@ -6,12 +6,15 @@ stage whose inputs, options and code are those of the last time keeps its output
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from markermend.command import shared_job
+from markermend.core.remarks import without_remarks
+from markermend.options.values import text
 
 STAGES = ("fill", "export", "qc")
 """The stages in their order."""
@@ -66,9 +69,14 @@ def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> N
     """
     parser = shared_job.make_parser("finish", description, reads=READS, writes=WRITES, many=ANY_NUMBER)
     parser.add_argument("--within", required=True, metavar="FOLDER|none", help="see export.py")
-    parser.add_argument("--decisions", required=True, metavar="JSON", help="see fill.py")
+    parser.add_argument("--decisions", required=True, metavar="JSON", help="see export.py")
     given = vars(shared_job.begin(parser, argv))
-    own = {"fill": [f"--decisions={given['decisions']}"], "export": [f"--within={given['within']}"]}
+    decided = [f"--decisions={given['decisions']}"]
+    own = {
+        "fill": [f"--decisions={text(without_remarks(json.loads(given['decisions'])))}"],
+        "export": [f"--within={given['within']}", *decided],
+        "qc": decided,
+    }
     for stage in STAGES:
         module = import_module(stage)
         words = [*_files(module.STAGE, given), *given["stages"][stage], *own.get(stage, [])]

@@ -40,6 +40,10 @@ class Decision:
         A class (`swap:PARTNER` for an exchange of labels that was not found) or a method.
     note : str
         The person's reason.
+    by : str
+        The person's name or initials.
+    date : str
+        The day of the decision, as in 2026-03-31.
     person : bool
         False where an option of the config says so and not a person.
     """
@@ -50,13 +54,21 @@ class Decision:
     verb: str
     value: str = ""
     note: str = ""
+    by: str = ""
+    date: str = ""
     person: bool = True
 
     @property
     def text(self) -> str:
-        """The decision in the words of the table."""
-        text = f"{self.verb} {self.value}".rstrip()
-        return f"{text} ({self.note})" if self.note else text
+        """The decision in the words of the table, without what is remarked on it."""
+        return f"{self.verb} {self.value}".rstrip()
+
+    @property
+    def words(self) -> str:
+        """The decision with what is remarked on it: why, by whom and when."""
+        signature = ", ".join(part for part in (self.by, self.date) if part)
+        remarks = [remark for remark in (self.note, signature) if remark]
+        return f"{self.text} ({'; '.join(remarks)})" if remarks else self.text
 
     @property
     def reason(self) -> Reason:
@@ -129,8 +141,7 @@ def read(entries: Iterable[Mapping[str, Any]], first_frame: int) -> list[Decisio
             entry["first_frame"] - first_frame if "first_frame" in entry else -EVER,
             entry["last_frame"] - first_frame + 1 if "last_frame" in entry else EVER,
             entry["decision"],
-            entry.get("value", ""),
-            entry.get("note", ""),
+            *(entry.get(name, "") for name in ("value", "note", "by", "date")),
         )
         for entry in entries
     ]

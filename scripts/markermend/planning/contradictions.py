@@ -48,7 +48,7 @@ def find_contradictions(lines: Sequence[Line]) -> Iterator[str]:
     numbered = [(line.number, line.decision) for line in lines]
     for (one, a), (other, b) in combinations(numbered, 2):
         if a.start < b.stop and b.start < a.stop and exclude_each_other(a, b) and patterns_overlap(a.marker, b.marker):
-            yield f"lines {one} and {other} contradict each other: {a.marker} {a.text}, {b.marker} {b.text}"
+            yield f"lines {one} and {other} contradict each other: {a.marker} {a.words}, {b.marker} {b.words}"
 
 
 def exclude_each_other(one: Decision, other: Decision) -> bool:

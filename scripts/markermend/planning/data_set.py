@@ -13,6 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
+from markermend.core.remarks import without_remarks
 from markermend.options.general import GeneralOptions
 from markermend.options.values import text
 from markermend.planning import cleaned_tree, discovery
@@ -135,8 +136,15 @@ class DataSet:
 
     def decisions_flag(self, wildcards: Wildcards) -> str:
         """The decisions on the recording alone, as a flag; see `DataSet.entry`."""
-        decided = self.decisions.get((wildcards.subject, wildcards.recording), [])
-        return f"--decisions={text(decided)}"
+        return f"--decisions={text(self._decided(wildcards))}"
+
+    def bare_decisions_flag(self, wildcards: Wildcards) -> str:
+        """The same without remarks, of which another repeats nothing that is computed; see `DataSet.entry`."""
+        return f"--decisions={text(without_remarks(self._decided(wildcards)))}"
+
+    def _decided(self, wildcards: Wildcards) -> list[dict[str, Any]]:
+        """The decisions on the recording."""
+        return self.decisions.get((wildcards.subject, wildcards.recording), [])
 
     @cached_property
     def decision_table_hash(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
+from datetime import date
 from difflib import get_close_matches
 from typing import Any
 
@@ -66,8 +67,11 @@ def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[st
     yield from read_frames(row, required=row["decision"] == "class").items()
     if value := _value_of(row, methods):
         yield "value", value
-    if "note" in row:
-        yield "note", " ".join(row["note"].split())
+    for column in ("note", "by"):
+        if column in row:
+            yield column, " ".join(row[column].split())
+    if "date" in row:
+        yield "date", _day(row["date"])
 
 
 def read_frames(row: Mapping[str, str], *, required: bool) -> dict[str, int]:
@@ -155,6 +159,16 @@ def _whole(column: str, text: str) -> int:
         return int(text)
     except ValueError:
         raise Problem(column, f"{text!r} is not a frame number") from None
+
+
+def _day(text: str) -> str:
+    """Read a day. Raises Problem."""
+    try:
+        return date.fromisoformat(text).isoformat()
+    except ValueError:
+        raise Problem(
+            "date", f"{text!r} is no day as in 2026-03-31 (in a spreadsheet: the format YYYY-MM-DD)"
+        ) from None
 
 
 def _unknown(word: str, known: Collection[str]) -> str:

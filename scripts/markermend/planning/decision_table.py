@@ -15,7 +15,7 @@ from markermend.planning.recordings import BadDataSet, Entry
 from markermend.planning.tables import read_table
 from markermend.storage import tab_separated
 
-COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject")
+COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject", "by", "date")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
 
 LARGEST = 100_000

@@ -1,6 +1,6 @@
 """A finished run described as a Workflow Run RO-Crate: ro-crate-metadata.json, for a repository or the supplement of a paper.
 
-Reads: report/provenance.json, report/summary.tsv, and of each recording certificate.json.
+Reads: report/provenance.json, report/summary.tsv, report/logs/decisions.tsv, and of each recording certificate.json.
 Writes: ro-crate-metadata.json in the folder of results, which is then the crate, and report/workflow/ with the workflow.
 """
 
@@ -18,7 +18,9 @@ from rocrate.model.entity import Entity
 from rocrate.model.person import Person
 from rocrate.rocrate import ROCrate
 
+from markermend.planning.decision_table import COLUMNS
 from markermend.planning.result_files import CERTIFICATE, ResultFiles
+from markermend.planning.tables import read_table
 from markermend.storage.atomic import sha256, write_json, write_text
 from markermend.storage.folder_names import RESERVED_SUBJECTS, decode
 from markermend.storage.installation import workflow_folder
@@ -118,7 +120,7 @@ def write(results: Path, statement: Statement) -> int:
     license = statement.license or "#no-license"
     text = statement.license or NO_LICENSE
     root["license"] = crate.add(ContextEntity(crate, license, {"@type": "CreativeWork", "name": text}))
-    authors = [crate.add(Person(crate, f"#author/{quote(name)}", {"name": name})) for name in statement.authors]
+    authors = [_person(crate, name) for name in statement.authors]
     if authors:
         root["author"] = _one_or_all(authors)
     root["conformsTo"] = [
@@ -128,6 +130,7 @@ def write(results: Path, statement: Statement) -> int:
     workflow = _workflow(crate, results, run)
     files = [entity for folder in folders for entity in _of_recording(crate, results, folder)]
     files += [_file(crate, results, path, text) for path, text in _of_data_set(results).items()]
+    files += _decisions(crate, results)
     root["mentions"] = _action(crate, workflow, run, folders, files)
     if authors:
         root["mentions"]["agent"] = authors[0]
@@ -219,6 +222,22 @@ def _of_data_set(results: Path) -> dict[Path, str]:
         / "summary.tsv": "A row for each recording: checksums, what was changed, what was left, and the verdict",
         Path(files.provenance): "The versions, options and times of the run",
     }
+
+
+def _decisions(crate: ROCrate, results: Path) -> Iterator[Entity]:
+    """The table of decisions, where persons decided anything: it is by those whom it names."""
+    path = Path(ResultFiles(str(results)).decision_table)
+    rows = read_table(str(path), what="decisions", columns=COLUMNS, required=COLUMNS[:2]) if path.is_file() else []
+    if rows:
+        table = _file(crate, results, path, "What persons decided on findings and gaps")
+        if names := sorted({row["by"] for _, row in rows if "by" in row}):
+            table["author"] = _one_or_all([_person(crate, name) for name in names])
+        yield table
+
+
+def _person(crate: ROCrate, name: str) -> Entity:
+    """A person by name, who is one however often the crate names them."""
+    return crate.add(Person(crate, f"#person/{quote(name, safe='')}", {"name": name}))
 
 
 def _one_or_all(entities: list[Entity]) -> Entity | list[Entity]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import Any
 
@@ -22,7 +22,9 @@ class DecisionOutcome:
     place : str
         Marker and frames as in the table of decisions.
     text : str
-        The decision in the words of the table.
+        The decision in the words of the table, and why.
+    by, date : str
+        By whom it was made, and on which day; empty where nobody says so.
     settled : int
         How many findings and gaps it settled.
     warning : str or None
@@ -31,6 +33,8 @@ class DecisionOutcome:
 
     place: str
     text: str
+    by: str
+    date: str
     settled: int
     warning: str | None
 
@@ -61,13 +65,39 @@ def outcomes(
 def _outcome(decision: Decision, result: Recording, changes: Sequence[Change]) -> DecisionOutcome:
     """The outcome of one decision."""
     settled = sum(
-        decision.text in change.decisions
+        decision.words in change.decisions
         and decision.on({change.marker, change.partner or change.marker}, change.start, change.stop)
         for change in changes
     )
     place = _place(decision, result.first_frame)
     wrong = None if settled else _nothing(decision, result)
-    return DecisionOutcome(place, decision.text, settled, wrong and f"decision {decision.text!r} on {place}: {wrong}")
+    warning = wrong and f"decision {decision.text!r} on {place}: {wrong}"
+    text = replace(decision, by="", date="").words
+    return DecisionOutcome(place, text, decision.by, decision.date, settled, warning)
+
+
+def judged(decided: Iterable[DecisionOutcome], findings: Iterable[Change]) -> dict[str, Any]:
+    """Say how much persons judged, and who.
+
+    Parameters
+    ----------
+    decided : iterable of DecisionOutcome
+        The outcomes of the decisions.
+    findings : iterable of Change
+        What was changed and what was left, a joint finding as one.
+
+    Returns
+    -------
+    dict of str to Any
+        `events`, the number of findings and gaps on which any decision bears; the names `by` whom, and the `dates` on which, those decisions
+        were made that settled any.
+    """
+    settling = [outcome for outcome in decided if outcome.settled]
+    return {
+        "events": sum(bool(finding.decisions) for finding in findings),
+        "by": sorted({outcome.by for outcome in settling} - {""}),
+        "dates": sorted({outcome.date for outcome in settling} - {""}),
+    }
 
 
 def _nothing(decision: Decision, result: Recording) -> str | None:
@@ -114,5 +144,5 @@ def drafts(findings: Sequence[Change], recording: Recording) -> str:
     for finding in findings:
         first, last = finding.start + recording.first_frame, finding.stop + recording.first_frame - 1
         value = GAP if finding.is_gap else ""
-        rows.append([name, finding.marker, first, last, "", value, "", subject])
+        rows.append([name, finding.marker, first, last, "", value, "", subject, "", ""])
     return tab_separated.lines(rows)

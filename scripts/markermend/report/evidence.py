@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,10 +11,12 @@ from typing import Any, Protocol
 import numpy as np
 
 from markermend.core.changes import Change, Outcome
+from markermend.core.decisions import read as read_decisions
 from markermend.core.events import Event
 from markermend.core.labels import follow
 from markermend.core.mesh import Mesh
 from markermend.core.recording import BadRecording, Recording, Restored, SetAside
+from markermend.core.remarks import with_remarks
 from markermend.core.unjudged import neighbours_judge, unjudged_markers, unjudged_warnings
 from markermend.core.written import written_changes
 from markermend.report.decision_outcomes import DecisionOutcome, outcomes
@@ -39,6 +41,8 @@ class QcCall(Protocol):
         What repair and filling did to each stretch.
     certificate : Path
         What export states about the cleaned file.
+    decisions : sequence of mapping
+        What persons decided about the recording, as JSON values.
     """
 
     markers: Path
@@ -48,6 +52,7 @@ class QcCall(Protocol):
     events: Sequence[Path]
     changes: Path
     certificate: Path
+    decisions: Sequence[Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -70,6 +75,8 @@ class Evidence:
         What export states about the cleaned file.
     stages : dict[str, dict[str, Any]]
         The options of every stage.
+    decisions : sequence of mapping
+        What persons decided about the recording, as JSON values.
     noted : tuple of str
         What the detectors warn of.
     smallest_drifts : SmallestDrifts or None
@@ -85,13 +92,14 @@ class Evidence:
     left: list[Change]
     certificate: dict[str, Any]
     stages: dict[str, dict[str, Any]]
+    decisions: Sequence[Mapping[str, Any]] = ()
     noted: tuple[str, ...] = ()
     smallest_drifts: SmallestDrifts | None = None
 
     @property
     def decided(self) -> list[DecisionOutcome]:
         """The outcomes of a person's decisions."""
-        return outcomes(self.stages.get("fill", {}).get("decisions", ()), self.after, self.record)
+        return outcomes(self.decisions, self.after, self.record)
 
     @property
     def learned_from(self) -> list[str]:
@@ -160,7 +168,7 @@ def read_evidence(call: QcCall) -> Evidence:
     found = {
         facts["stage"]: stage_files.read_events(path) for facts, path in zip(facts_found, call.events, strict=True)
     }
-    record = change_file.read(call.changes)
+    record = with_remarks(change_file.read(call.changes), read_decisions(call.decisions, before.first_frame))
     found = _as_repaired(found, record)
     written = written_changes(before, after, record, certificate["refused"])
     after, record = written.recording, (*record, *written.refused)
@@ -175,6 +183,7 @@ def read_evidence(call: QcCall) -> Evidence:
         changes=changes,
         left=left_open(after, found, changes, record),
         certificate=certificate,
+        decisions=call.decisions,
         noted=tuple(warning for facts in facts_found for warning in facts.get("warnings", ())),
         stages={facts["stage"]: facts["options"] for facts in steps if "stage" in facts},
         smallest_drifts=next((SmallestDrifts.of(facts) for facts in facts_found if facts["stage"] == "slow"), None),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from markermend.report.methods_text import enumeration
@@ -26,7 +26,7 @@ def sentence(summaries: Sequence[Mapping[str, Any]]) -> str:
     Returns
     -------
     str
-        A sentence.
+        A sentence; another where persons who gave their names judged any finding.
     """
     totals = {key: {name: sum(own[key][name] for own in summaries) for name in ("events", "samples")} for key in DONE}
     samples = sum(own["frames"] * own["markers"] for own in summaries)
@@ -37,7 +37,19 @@ def sentence(summaries: Sequence[Mapping[str, Any]]) -> str:
         if totals[key]["events"]
     ]
     done = enumeration(parts) if parts else "nothing was changed"
-    return f"In {recordings} of {_count(samples, 'sample')} {done}."
+    return " ".join(
+        [f"In {recordings} of {_count(samples, 'sample')} {done}.", *_judged([own["judged"] for own in summaries])]
+    )
+
+
+def _judged(each: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """How many findings were judged by whom, and when."""
+    events = sum(own["events"] for own in each)
+    by, dates = (sorted({name for own in each for name in own[key]}) for key in ("by", "dates"))
+    if events and by:
+        days = f" ({' to '.join(dict.fromkeys((dates[0], dates[-1])))})" if dates else ""
+        what = "1 finding or gap was" if events == 1 else f"{events:,} findings and gaps were"
+        yield f"{what} judged by hand by {enumeration(by)}{days}".rstrip(".") + "."
 
 
 def _count(number: int, noun: str) -> str:

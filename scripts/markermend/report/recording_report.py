@@ -12,7 +12,7 @@ from markermend.core.recording import SetAside
 from markermend.options.reporting import AttentionOptions, QcOptions
 from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
-from markermend.report.decision_outcomes import drafts
+from markermend.report.decision_outcomes import drafts, judged
 from markermend.report.evidence import Evidence
 from markermend.report.finding_lines import decidable, finding_lines
 from markermend.report.methods_counts import DONE, sentence
@@ -67,6 +67,7 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         "refused_samples": len(seen.certificate["refused"]),
         "motion_lacks": list(seen.mesh.lacks),
         "decisions": len(seen.decided),
+        "judged": judged(seen.decided, (*seen.changes, *seen.left)),
         "learned_from": seen.learned_from,
         "methods": methods,
     }
@@ -198,7 +199,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
         ),
         decidable={
             **decidable((*changed, *left), seen.before.first_frame, seen.stages),
-            "decided": list(seen.stages.get("fill", {}).get("decisions", ())),
+            "decided": list(seen.decisions),
             "recording": summary["recording"],
             "subject": summary["subject"],
         },

@@ -69,7 +69,7 @@ def worked(monkeypatch):
     return seen
 
 
-def run(folder, *, config=None, codes=None):
+def run(folder, *, config=None, codes=None, decisions=()):
     """Run the command."""
     sections, top = read_config({"detect": [], **(config or {})}), folder.parents[2]
     given = {stage: [f"--code={(codes or {}).get(stage, '')}", *flags(sections[stage])] for stage in FINISHING}
@@ -91,7 +91,7 @@ def run(folder, *, config=None, codes=None):
         "stages": top / "stages.json",
     }
     files = [word for name, path in own.items() for word in (f"--{name}", str(path))]
-    finish.main([*files, "--events", "--poses", "--trc", "--within", "none", "--decisions", "[]"])
+    finish.main([*files, "--events", "--poses", "--trc", "--within", "none", "--decisions", json.dumps(decisions)])
 
 
 def content(folder):
@@ -120,6 +120,17 @@ def test_a_stage_works_again_only_on_something_else(folder, worked):
     run(folder, config={"qc": {"plots": 7}}, codes={"export": "edited"})
     # What was written has the same bytes.
     assert worked == [*FINISHING, "qc", "export"]
+
+
+def test_another_remark_on_a_decision_fills_nothing_again(folder, worked):
+    protect = {"marker": "M1", "decision": "protect", "note": "hop"}
+    run(folder, decisions=[protect])
+    before = content(folder)
+    run(folder, decisions=[{**protect, "by": "A.L.", "date": "2026-03-31"}])
+    assert worked == [*FINISHING, "export", "qc"]
+    after = content(folder)
+    assert all(after[name] == before[name] for name in (*WRITTEN["fill"], "../../cleaned/day 1/walk.c3d"))
+    assert b"A.L." in after["page.html"]
 
 
 def test_what_is_gone_or_damaged_is_made_anew(folder, worked):

@@ -26,7 +26,7 @@ def test_without_decisions_nothing_follows():
 
 def test_how_and_whether_are_two_decisions():
     decided = [Decision("LANK", 0, 12, "accept", note="sure"), Decision("LANK", 15, 30, "method", "spline")]
-    assert rule(decided, ["slow"], *STRETCH) == Ruling(None, True, "spline", ("accept (sure)", "method spline"))
+    assert rule(decided, ["slow"], *STRETCH) == Ruling(None, True, "spline", ("accept", "method spline"))
     assert rule(decided, [GAP], *STRETCH, methods={"linear"}) == Ruling()
 
 

@@ -95,6 +95,16 @@ def test_decisions_reach_their_recording_alone(tmp_path, plan, config):
     assert name == "--decisions" and [line["marker"] for line in json.loads(value)] == ["M1"]
 
 
+def test_other_remarks_on_decisions_do_not_reach_what_is_computed(tmp_path, plan, config):
+    path = tmp_path / "decisions.tsv"
+    flags = []
+    for remarks in ("hop\tA.L.\t2026-03-31", "taped\tB.K.\t"):
+        path.write_text(f"recording\tmarker\tdecision\tnote\tby\tdate\nrun\tM1\tprotect\t{remarks}\n")
+        data = make_plan({**config, "decisions": str(path)}, PROJECT, deployed=False).data
+        flags.append([data.decisions_flag(job(recording="run")), data.bare_decisions_flag(job(recording="run"))])
+    assert flags[0][0] != flags[1][0] and flags[0][1] == flags[1][1]
+
+
 def test_what_is_missing_by_default_is_said_and_what_is_named_must_be_there(tmp_path, config, monkeypatch):
     monkeypatch.chdir(tmp_path)
     data, warnings = find_data_set(read_config(config), str(tmp_path / "out"), schemas=PROJECT / "workflow/schemas")

@@ -17,7 +17,7 @@ ENTRIES = [
     Entry("Bob B", "jump", "/d.c3d"),
 ]
 METHODS = ("spline", "local_ridge", "kalman")
-HEADER = "recording\tmarker\tfirst_frame\tlast_frame\tdecision\tvalue\tnote\tsubject\n"
+HEADER = "recording\tmarker\tfirst_frame\tlast_frame\tdecision\tvalue\tnote\tsubject\tby\tdate\n"
 
 
 def loaded(tmp_path, *lines, header=HEADER):
@@ -51,6 +51,18 @@ def test_each_recording_gets_its_lines_and_nothing_of_the_others(tmp_path):
 def test_order_and_repetition_of_lines_mean_nothing(tmp_path):
     lines = ["run|LANK|705|720|accept", "run|LANK|1|7|reject", "run|A|||protect"]
     assert loaded(tmp_path, *lines) == loaded(tmp_path, *lines[::-1], lines[0])
+
+
+def test_a_line_says_by_whom_and_when_it_was_decided(tmp_path):
+    decided, _ = loaded(tmp_path, "run|LANK|||protect||||  '=A  \u738b |2026-03-31", "run|LTOE|||protect")
+    signed = {"marker": "LANK", "decision": "protect", "by": "=A \u738b", "date": "2026-03-31"}
+    assert decided["S01", "run"] == [signed, {"marker": "LTOE", "decision": "protect"}]
+
+
+def test_a_table_without_the_columns_of_names_is_read_as_ever(tmp_path):
+    older = HEADER.removesuffix("\tby\tdate\n") + "\n"
+    line = "run|LANK|705|720|accept||hop|S01"
+    assert loaded(tmp_path, line, header=older) == loaded(tmp_path, line)
 
 
 def test_a_table_without_lines_decides_nothing(tmp_path):
@@ -92,6 +104,7 @@ def test_places_can_be_copied_from_the_table_of_changes():
         ("run|L*|7|9|class|swap:RANK", "line 2, column value: 'swap:RANK': a swap is between two markers"),
         ("run|LANK|7|9|class|swap:LANK", "line 2, column value: 'swap:LANK': the other marker is the same"),
         ("run|LANK|||class|peak", "line 2, column first_frame: is empty: an artifact has a first"),
+        ("run|LANK|7|9|accept||||A.L.|31.03.2026", "line 2, column date: '31.03.2026' is no day as in 2026-03-31"),
         ("run|LANK|7|9|method|splines", "line 2, column value: 'splines' is none of leave, spline,"),
         ("run|LANK|7|9|method", "line 2, column value: '' is none of leave"),
         ("walk|LANK|7|9|accept", "line 2, column subject: is empty, and 'walk' is a recording of S01, S02"),
@@ -197,6 +210,6 @@ def test_the_report_gets_every_line_by_its_meaning(tmp_path):
     path.write_text(
         "marker,recording,decision,value,first_frame,last_frame,note\n\n=A,gone,reject,peaks,07,9, two  words \n"
     )
-    assert standard_form(str(path), METHODS) == NONE + "gone\t'=A\t7\t9\treject\tpeak\ttwo words\t\n"
+    assert standard_form(str(path), METHODS) == NONE + "gone\t'=A\t7\t9\treject\tpeak\ttwo words\t\t\t\n"
     path.write_text("recording,marker,decision\n")
     assert standard_form(str(path), METHODS) == NONE

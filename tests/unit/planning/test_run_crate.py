@@ -82,6 +82,22 @@ def test_people_and_license_are_those_that_were_stated(results):
     assert entities["#run"]["agent"] == root["author"][0]
 
 
+def test_decisions_are_by_those_whom_the_table_names(results):
+    path = results / "report/logs/decisions.tsv"
+    path.parent.mkdir()
+    path.write_text("recording\tmarker\tdecision\tby\n")
+    write(results, Statement("Gait"))
+    assert "report/logs/decisions.tsv" not in described(results)
+    path.write_text(
+        path.read_text() + "walk\tLANK\tprotect\t'=Ada/L\nwalk\tLTOE\tprotect\tGrace Hopper\nwalk\tRTOE\tprotect\t\n"
+    )
+    write(results, Statement("Gait", authors=("Grace Hopper",)))
+    entities = described(results)
+    named = entities["report/logs/decisions.tsv"]["author"]
+    assert [entities[one["@id"]]["name"] for one in named] == ["=Ada/L", "Grace Hopper"]
+    assert entities["./"]["author"] == named[1]
+
+
 def test_the_workflow_is_in_the_crate(results):
     write(results, Statement("Gait"))
     entities = described(results)

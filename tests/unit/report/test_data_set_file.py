@@ -27,7 +27,7 @@ def test_the_script_sets_recordings_in_order_and_decisions():
 
 def test_lines_have_a_cell_for_every_column(tmp_path):
     (tmp_path / "d.tsv").write_text("marker\trecording\tdecision\n'=LANK\twalk\tprotect\n")
-    assert read_decisions(tmp_path / "d.tsv") == [["walk", "=LANK", "", "", "protect", "", "", ""]]
+    assert read_decisions(tmp_path / "d.tsv") == [["walk", "=LANK", "", "", "protect", "", "", "", "", ""]]
     (tmp_path / "d.tsv").write_text("marker\n")
     with pytest.raises(BadDataSet, match="no column recording"):
         read_decisions(tmp_path / "d.tsv")

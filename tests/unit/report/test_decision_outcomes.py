@@ -95,7 +95,7 @@ def test_a_draft_is_read_back_whatever_the_names(tmp_path):
 
 FOUND = {"peaks": [Event("A", 30, 32, 2.0), Event("B", 40, 42, 3.0)]}
 
-ACCEPT = {"marker": "A", "decision": "accept", "note": HOSTILE}
+ACCEPT = {"marker": "A", "decision": "accept", "note": HOSTILE, "by": "=王 <b>", "date": "2026-03-31"}
 
 REJECT = {"marker": "B", "decision": "reject", "first_frame": 741, "last_frame": 742}
 
@@ -108,7 +108,7 @@ def restored():
     positions = np.random.default_rng(1).normal(0, 100, (60, 3, 3)).cumsum(axis=0)
     before = report_files.named(Recording(("A", "B", "C"), positions, 100.0, 701), "walk", "Bob")
     after = report_files.restore(before, positions + 1, FOUND, error=1.0, keep=("B",))
-    repairs = [replace(change, decisions=(f"accept ({HOSTILE})",)) for change in after.repairs]
+    repairs = [replace(change, decisions=("accept",)) for change in after.repairs]
     reason = Reason(Cause.DECIDED, "a person decided: reject")
     left = [replace(change, reason=reason, decisions=("reject",)) for change in after.repairs_left]
     return before, replace(after, changes=(*repairs, *left))
@@ -124,7 +124,9 @@ def made(restored, tmp_path_factory):
 
 def test_the_page_says_what_was_decided_and_is_not_hurt_by_a_note(made):
     page = Page(made.page)
-    assert f"a person decided: accept ({HOSTILE})" in page.text
+    assert f"a person decided: accept ({HOSTILE}; =王 <b>, 2026-03-31)" in page.text
+    assert made.summary["judged"] == {"events": 2, "by": ["=王 <b>"], "dates": ["2026-03-31"]}
+    assert "2 findings and gaps were judged by hand by =王 <b> (2026-03-31)." in page.text
     assert "a person decided: reject" in page.text
     assert "Decisions</h2>" in made.page and "B, frames 741 to 742" in page.text
     assert {tag for tag, attributes in page.tags if "onerror" in attributes} == set()

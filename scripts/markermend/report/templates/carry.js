@@ -3,7 +3,7 @@ const CARRIED = "#waiting=";
 let carrying = false;
 function carried() {
   const states = [...allWaiting()].filter(([, state]) => state.at);
-  return location.protocol === "file:" && states.length ? CARRIED + encodeURIComponent(JSON.stringify(states)) : "";
+  return location.protocol === "file:" && (states.length || person) ? CARRIED + encodeURIComponent(JSON.stringify({ person, states })) : "";
 }
 function leave(address) {
   carrying = true;
@@ -12,7 +12,9 @@ function leave(address) {
 function takeCarried() {
   if (!location.hash.startsWith(CARRIED)) return;
   try {
-    for (const [key, state] of JSON.parse(decodeURIComponent(location.hash.slice(CARRIED.length)))) {
+    const brought = JSON.parse(decodeURIComponent(location.hash.slice(CARRIED.length)));
+    if (brought.person) introduce(String(brought.person));
+    for (const [key, state] of brought.states) {
       const { added, withdrawn, at } = understood(JSON.stringify(state));
       if (key.startsWith(PREFIX) && at > readWaiting(key).at) writeWaiting(key, { added, withdrawn, at });
     }

@@ -5,7 +5,7 @@ const rowOf = (number) => document.getElementById("finding-" + number);
 let existing = [];
 function choice(verb, value) { return [verb, value].filter(Boolean).join(" "); }
 function lineOf(finding, verb, value, note) {
-  return [about.recording, finding.marker, String(finding.first_frame), String(finding.last_frame), verb, value, note.trim().replace(/\s+/g, " "), about.subject];
+  return signed([about.recording, finding.marker, String(finding.first_frame), String(finding.last_frame), verb, value, oneLine(note), about.subject]);
 }
 function isOn(line, finding) {
   return line[MARKER] === finding.marker && Number(line[FIRST]) === finding.first_frame && Number(line[LAST]) === finding.last_frame &&
@@ -24,7 +24,7 @@ function decide(finding, verb, value, note) {
   const added = state.added.filter((line) => !isOn(line, finding));
   const own = existing.filter((line) => isOn(line, finding));
   const line = verb ? lineOf(finding, verb, value, note) : null;
-  const kept = line && own.find((other) => identity(other) === identity(line));
+  const kept = line && own.find((other) => sameButSigned(other, line));
   const withdrawn = state.withdrawn.filter((other) => !isOn(other, finding)).concat(own.filter((other) => other !== kept));
   writeWaiting(key, { added: line && !kept ? [...added, line] : added, withdrawn });
   document.dispatchEvent(new Event("decisions"));
@@ -53,7 +53,8 @@ function show(finding, number, against) {
   row.classList.toggle("waits", waits);
   row.querySelector("td.decide").dataset.v = waits ? 2 : line ? 1 : 0;
   const clash = line && against.has(identity(line));
-  row.querySelector(".state").textContent = clash ? "contradicts another" : waits ? "waiting" : line ? "this run" : "";
+  const told = clash ? "contradicts another" : waits ? "waiting" : line ? "this run" : "";
+  row.querySelector(".state").textContent = told + (line?.[BY] ? ", " + signature(line) : "");
   const note = row.nextElementSibling?.querySelector("input.reason");
   if (note && note !== document.activeElement) { note.value = line?.[NOTE] ?? ""; note.disabled = !line; }
 }
@@ -64,7 +65,7 @@ function listWaiting() {
     element("li", {}, words(line) + " ", button("Withdraw", () => withdraw(line)))));
   about.decided.forEach((entry, i) => {
     const cell = document.getElementById("decided-" + i);
-    const line = existing.find((other) => ["marker", "first_frame", "last_frame", "decision", "value"].every((name, j) => other[j + 1] === String(entry[name] ?? "")));
+    const line = existing.find((other) => shared.columns.every((name, j) => [RECORDING, SUBJECT].includes(j) || other[j] === String(entry[name] ?? "")));
     const gone = line && withdrawn.has(identity(line));
     cell.closest("tr").classList.toggle("gone", Boolean(gone));
     cell.replaceChildren(...(line ? [button(gone ? "Keep" : "Withdraw", () => withdraw(line))] : []));

@@ -1,13 +1,18 @@
 // Decisions are lines of the table that the config names as `decisions`: lists of cells, in the order of its columns. Those that a person
 // makes on these pages wait in the browser, by data set and recording, until a run has followed them.
-const MARKER = 1, FIRST = 2, LAST = 3, VERB = 4, VALUE = 5, NOTE = 6, SUBJECT = 7, RECORDING = 0;
+const RECORDING = 0, MARKER = 1, FIRST = 2, LAST = 3, VERB = 4, VALUE = 5, NOTE = 6, SUBJECT = 7, BY = 8, DATE = 9;
 const PREFIX = "markermend decisions " + results + " ";
 
 function identity(line) { return JSON.stringify(line); }
+// All but by whom and when.
+function sameButSigned(one, other) { return identity(one.slice(0, BY)) === identity(other.slice(0, BY)); }
+function signature(line) { return [line[BY], line[DATE]].filter(Boolean).join(", "); }
 function words(line) {
+  const remarks = [line[NOTE], signature(line)].filter(Boolean).join("; ");
   return line[MARKER] + (line[FIRST] === "" ? "" : ", frames " + line[FIRST] + "–" + line[LAST]) + ": " +
-    [line[VERB], line[VALUE]].filter(Boolean).join(" ") + (line[NOTE] ? " (" + line[NOTE] + ")" : "");
+    [line[VERB], line[VALUE]].filter(Boolean).join(" ") + (remarks ? " (" + remarks + ")" : "");
 }
+function oneLine(text) { return text.trim().replace(/\s+/g, " "); }
 
 // What waits: for each recording the lines that were added, and those of the run that were withdrawn.
 const memory = new Map();
@@ -25,8 +30,11 @@ function keyOf(recording, subject) { return PREFIX + JSON.stringify([subject, re
 function understood(text) {
   try {
     const state = JSON.parse(text);
-    const lines = (list) => Array.isArray(list) && list.every((line) => Array.isArray(line) && line.length === 8 && line.every((cell) => typeof cell === "string"));
-    if (lines(state.added) && lines(state.withdrawn)) return { added: state.added, withdrawn: state.withdrawn, at: Number(state.at) || 0 };
+    const isLine = (line) => Array.isArray(line) && [BY, DATE + 1].includes(line.length) && line.every((cell) => typeof cell === "string");
+    const areLines = (list) => Array.isArray(list) && list.every(isLine);
+    // Earlier versions wrote neither names nor dates.
+    const whole = (line) => [...line, "", ""].slice(0, DATE + 1);
+    if (areLines(state.added) && areLines(state.withdrawn)) return { added: state.added.map(whole), withdrawn: state.withdrawn.map(whole), at: Number(state.at) || 0 };
   } catch { /* what somebody else wrote */ }
   return { added: [], withdrawn: [], at: 0 };
 }
@@ -40,6 +48,22 @@ function allWaiting() {
   const keys = new Set(memory.keys());
   for (let i = 0; i < (store?.length ?? 0); i++) if (store.key(i).startsWith(PREFIX)) keys.add(store.key(i));
   return new Map([...keys].sort().map((key) => [key, readWaiting(key)]));
+}
+// Who decides here, and the day, which are written beside each decision. Those that wait without a name get it when it is given.
+const NAME = "markermend name";
+let person = store?.getItem(NAME) ?? "";
+function today() {
+  const now = new Date();
+  return [now.getFullYear(), now.getMonth() + 1, now.getDate()].map((part) => String(part).padStart(2, "0")).join("-");
+}
+function signed(line) { return [...line.slice(0, BY), person, today()]; }
+function introduce(text) {
+  person = oneLine(text);
+  try { store?.setItem(NAME, person); } catch { keeps = false; }
+  for (const [key, state] of allWaiting()) {
+    const added = state.added.map((line) => line.map((cell, i) => (i === BY && !cell ? person : cell)));
+    if (added.some((line, i) => line[BY] !== state.added[i][BY])) writeWaiting(key, { ...state, added });
+  }
 }
 // What the last run has followed waits no longer.
 function settle(existing) {

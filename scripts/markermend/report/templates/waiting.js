@@ -32,6 +32,15 @@ function discard() {
   for (const key of allWaiting().keys()) writeWaiting(key, { added: [], withdrawn: [] });
   document.dispatchEvent(new Event("decisions"));
 }
+const own = document.getElementById("person");
+own.value = person;
+own.addEventListener("change", () => {
+  introduce(own.value);
+  document.dispatchEvent(new Event("decisions"));
+});
 document.addEventListener("decisions", () => { unsaved = countWaiting().decisions > 0; offer(); });
-window.addEventListener("storage", () => document.dispatchEvent(new Event("decisions")));
+window.addEventListener("storage", () => {
+  own.value = person = store?.getItem(NAME) ?? person;
+  document.dispatchEvent(new Event("decisions"));
+});
 window.addEventListener("beforeunload", (event) => { if (unsaved && !keeps && !carrying) event.preventDefault(); });
