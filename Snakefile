@@ -12,7 +12,16 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-configfile: f"{workflow.basedir}/config/config.yaml"
+include: "workflow/rules/project.smk"
+
+
+configfile: str(PROJECT / "config/config.yaml")
+
+
+# A folder that is named to be worked in has a config of its own: snakemake --directory .test
+if workflow.overwrite_workdir and Path("config/config.yaml").exists():
+
+    configfile: "config/config.yaml"
 
 
 include: "workflow/rules/common.smk"
@@ -91,3 +100,10 @@ onsuccess:
 onerror:
     if cleans():
         in_one_line(lambda: end_of_run.write_facts(plan, finished=False))
+
+
+if not workflow.modifier.is_main_snakefile():
+    # In a module of another workflow, such as snakedeploy writes, Snakemake calls no hooks but those of that workflow. Where it has hooks of its own,
+    # they call these (`onstart: markermend.onstart()`).
+    for hook in ("onstart", "onsuccess", "onerror"):
+        setattr(workflow, f"_{hook}", lambda log, call=globals()[hook]: call())

@@ -66,6 +66,20 @@ def test_conda_environments_have_what_the_stages_import(script):
         assert needed <= {package.split("=")[0] for package in dependencies[:-1] + dependencies[-1]["pip"]}
 
 
+def test_every_rule_that_runs_a_script_names_the_environment_that_is_held_to_it():
+    rules = "".join(path.read_text(encoding="utf-8") for path in sorted((PROJECT / "workflow/rules").glob("*.smk")))
+    bodies = re.split(r"^ *rule (?=\w+:$)", rules, flags=re.MULTILINE)[1:]
+    named = {
+        re.search(r"{MARKERMEND}/(\w+)\.py", body)[1]: re.findall(r'"\.\./\.\./envs/(\w+)\.yaml"', body)
+        for body in bodies
+        if "shell:" in body
+    }
+    assert {script: sorted(own) for script, own in named.items() if own != ["base"]} == {
+        script: sorted(own) for script, own in ENVIRONMENTS.items()
+    }
+    assert all(named.values()) and len(named) == sum("shell:" in body for body in bodies)
+
+
 def code_files(script):
     """The script and the project's modules that it imports, directly or not."""
     finder = ModuleFinder(path=[str(script.parent)])

@@ -54,7 +54,7 @@ rule artifacts2022_networks:
     message:
         "Train the published network on {wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_networks.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_networks.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --seed {params.seed} --options {params.options:q} --networks {output.networks:q} 2> {log:q}"
 
 
@@ -82,7 +82,7 @@ rule artifacts2022_runs:
         "Contaminate and classify {wildcards.recording}: {wildcards.preset}, {wildcards.amplitude_mm} mm,"
         " {wildcards.share_percent} %, runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_runs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_runs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --networks {input.networks:q}"
         " --preset {wildcards.preset} --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent}"
         " --batch {wildcards.batch} --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
@@ -111,7 +111,7 @@ rule artifacts2022_readings:
         "Find sudden changes under each reading in {wildcards.recording}: {wildcards.amplitude_mm} mm, {wildcards.share_percent} %,"
         " runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_readings.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_readings.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
         " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
@@ -139,7 +139,7 @@ rule artifacts2022_slow:
         "Vary the thresholds of slow changes in {wildcards.recording}: {wildcards.amplitude_mm} mm, {wildcards.share_percent} %,"
         " runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_slow.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_slow.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
         " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
@@ -167,7 +167,7 @@ rule artifacts2022_repairs:
     message:
         "Contaminate and repair {wildcards.recording}: {wildcards.kind}, {wildcards.share_percent} %, runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_repairs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_repairs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --networks {input.networks:q}"
         " --kind {wildcards.kind}"
         " --amplitude-mm {wildcards.amplitude_mm} --share-percent {wildcards.share_percent} --batch {wildcards.batch}"
@@ -197,7 +197,7 @@ rule artifacts2022_operators:
     message:
         "Compare persons with the algorithm in {wildcards.recording}: {wildcards.preset}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_operators.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/artifacts2022_operators.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --preset {wildcards.preset}"
         " --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
@@ -231,5 +231,5 @@ rule artifacts2022_tables:
     message:
         "Put the runs of artifacts2022 into tables"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/artifacts2022_tables.py {params.runs:q} --published {input.published:q}"
+        "{MARKERMEND}/artifacts2022_tables.py {params.runs:q} --published {input.published:q}"
         " --tables {params.tables:q} 2> {log:q}"

@@ -5,14 +5,13 @@ Writes: nothing.
 """
 
 import gc
+import shlex
 import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-PROJECT = Path(workflow.basedir)
-SCRIPTS = str(PROJECT / "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path.insert(0, str(PROJECT / "scripts"))
 
 # A plan consists of millions of objects that stay: looking through them for garbage every now and then took a fifth of the time.
 gc.set_threshold(100_000, 50, 1000)
@@ -26,7 +25,9 @@ from markermend.storage.atomic import check_writable
 # Commands are logged to be pasted into any shell: absolute paths, and the Python that runs Snakemake. The threads of a
 # rule reach them through OMP_NUM_THREADS and its kin, which Snakemake sets.
 DEPLOYED = bool(workflow.deployment_settings.deployment_method)
-PYTHON = "python" if DEPLOYED else sys.executable
+MARKERMEND = shlex.join(["python" if DEPLOYED else sys.executable, str(PROJECT / "scripts")])
+# Snakemake forms commands with the variables of the main workflow, also those of a module.
+workflow.modifier_stack[0].globals.update(MARKERMEND=MARKERMEND)
 
 try:
     plan = make_plan(config, PROJECT, deployed=DEPLOYED, checks_names=workflow.is_main_process)

@@ -30,5 +30,5 @@ if plan.detectors:
         message:
             "Detect artifacts in {wildcards.subject}/{wildcards.recording}"
         shell:
-            "{PYTHON:q} {SCRIPTS:q}/detect.py --markers {input.markers:q} --mesh {input.mesh:q}"
+            "{MARKERMEND}/detect.py --markers {input.markers:q} --mesh {input.mesh:q}"
             " --stages {params.stages:q} --events {output.events:q} 2> {log:q}"

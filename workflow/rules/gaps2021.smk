@@ -38,7 +38,7 @@ rule gaps2021_runs:
     message:
         "Fill gaps of {wildcards.recording}: {wildcards.methods}, runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/gaps2021_runs.py --subject {input.subject:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/gaps2021_runs.py --subject {input.subject:q} --recording {wildcards.recording:q}"
         " --methods {wildcards.methods} --batch {wildcards.batch} --seed {params.seed} --options {params.options:q}"
         " --runs {output.runs:q} 2> {log:q}"
 
@@ -64,7 +64,7 @@ rule gaps2021_descriptors:
     message:
         "Describe {wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/gaps2021_descriptors.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/gaps2021_descriptors.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --options {params.options:q} --descriptors {output.descriptors:q} 2> {log:q}"
 
 
@@ -100,7 +100,7 @@ rule gaps2021_tables:
     message:
         "Put the runs of gaps2021 into tables"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/gaps2021_tables.py --runs @{params.runs:q} --descriptors @{params.described:q}"
+        "{MARKERMEND}/gaps2021_tables.py --runs @{params.runs:q} --descriptors @{params.described:q}"
         " --published {input.published:q} --options {params.options:q} --errors-table {output.errors:q}"
         " --descriptors-table {output.descriptors:q} --parameters-table {output.parameters:q}"
         " --criteria-table {output.criteria:q} --mean-correlations-table {output.mean_correlations:q}"

@@ -28,7 +28,7 @@ rule ingest:
     message:
         "Ingest {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/ingest.py --source {params.source:q} --within {params.within:q} --markers {output.markers:q}"
+        "{MARKERMEND}/ingest.py --source {params.source:q} --within {params.within:q} --markers {output.markers:q}"
         " {params.recording:q} {params.options} 2> {log:q}"
 
 
@@ -56,5 +56,5 @@ rule mesh:
     message:
         "Infer the body mesh of {wildcards.subject}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/mesh.py --markers @{params.list:q} --mesh-files {input.files:q}"
+        "{MARKERMEND}/mesh.py --markers @{params.list:q} --mesh-files {input.files:q}"
         " --mesh {output.mesh:q} {params.options} 2> {log:q}"

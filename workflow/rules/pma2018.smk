@@ -52,7 +52,7 @@ rule pma2018_runs:
     message:
         "Hide and fill gaps in {wildcards.recording}: {wildcards.procedure}, {wildcards.condition}, runs {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/pma2018_runs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
+        "{MARKERMEND}/pma2018_runs.py --prepared {input.prepared:q} --recording {wildcards.recording:q}"
         " --procedure {wildcards.procedure} --preset {input.preset:q} --condition {wildcards.condition}"
         " --batch {wildcards.batch} --seed {params.seed} --options {params.options:q} --runs {output.runs:q} 2> {log:q}"
 
@@ -85,7 +85,7 @@ rule pma2018_tables:
     message:
         "Put the runs of pma2018 into tables"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/pma2018_tables.py --runs @{params.runs:q} --published {input.published:q}"
+        "{MARKERMEND}/pma2018_tables.py --runs @{params.runs:q} --published {input.published:q}"
         " --options {params.options:q} --lengths {output.lengths:q} --durations {output.durations:q}"
         " --gap-counts {output.gap_counts:q} --means {output.means:q} --constraints {output.constraints:q}"
         " --claims {output.claims:q} 2> {log:q}"

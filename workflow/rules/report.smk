@@ -27,7 +27,7 @@ rule collect:
     message:
         "Collect the figures of batch {wildcards.batch}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/collect.py --qc @{params.list:q} --batch {output.batch:q} 2> {log:q}"
+        "{MARKERMEND}/collect.py --qc @{params.list:q} --batch {output.batch:q} 2> {log:q}"
 
 
 rule report:
@@ -58,5 +58,5 @@ rule report:
     message:
         "Write the report"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/report.py --qc @{params.list:q} --unfinished --index {output.index:q} --summary {output.summary:q}"
+        "{MARKERMEND}/report.py --qc @{params.list:q} --unfinished --index {output.index:q} --summary {output.summary:q}"
         " --script {output.script:q} --data-set {output.data:q} --decisions {params.decisions:q} {params.options} 2> {log:q}"

@@ -33,7 +33,7 @@ rule repair:
     message:
         "Repair {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/repair.py --markers {input.markers:q} --mesh {input.mesh:q}"
+        "{MARKERMEND}/repair.py --markers {input.markers:q} --mesh {input.mesh:q}"
         " --events {input.events:q} --repaired {output.repaired:q} --changes {output.changes:q}"
         " {params.options} {params.decisions:q} 2> {log:q}"
 
@@ -62,7 +62,7 @@ rule poses:
     message:
         "Sample the poses of {wildcards.subject}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/poses.py --repaired @{params.list:q} --mesh {input.mesh:q}"
+        "{MARKERMEND}/poses.py --repaired @{params.list:q} --mesh {input.mesh:q}"
         " --poses {output.poses:q} {params.options} 2> {log:q}"
 
 
@@ -107,7 +107,7 @@ rule finish:
     message:
         "Finish {wildcards.subject}/{wildcards.recording}"
     shell:
-        "{PYTHON:q} {SCRIPTS:q}/finish.py --source {params.source:q} --within {params.within:q} --markers {input.markers:q} --mesh {input.mesh:q}"
+        "{MARKERMEND}/finish.py --source {params.source:q} --within {params.within:q} --markers {input.markers:q} --mesh {input.mesh:q}"
         " --events {input.events:q} --repaired {input.repaired:q} --repairs {input.repairs:q} --poses {input.poses:q} --filled {output.filled:q}"
         " --changes {output.changes:q} --cleaned {params.cleaned:q} --trc {params.trc:q} --table {output.table:q} --originals {output.originals:q}"
         " --certificate {output.certificate:q} --qc {output.qc:q} --page {output.page:q} --stages {params.stages:q} {params.decisions:q} 2> {log:q}"

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from markermend.storage import output_checksums
+from markermend.storage.installation import package_version
 
 PACKAGES = ("numpy", "scipy", "pyarrow", "torch")
 """Packages of which another version may give other bytes; torch need not be installed."""
@@ -30,7 +31,7 @@ def dependencies_hash(made_from: Mapping[str, Any]) -> str:
     str
         Its sha256, and that of the versions.
     """
-    versions = {name: _version(name) for name in PACKAGES}
+    versions = {name: package_version(name) for name in PACKAGES}
     text = json.dumps({**made_from, "packages": versions}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -61,13 +62,3 @@ def are_current(stage: str, outputs: Sequence[Path], folder: Path, dependencies:
         return record.outputs == output_checksums.of(outputs, folder)
     except OSError:
         return False
-
-
-def _version(package: str) -> str | None:
-    """Version of a package; None where it is not installed."""
-    from importlib import metadata  # 0.03 s to import, which only a stage that keeps its outputs needs
-
-    try:
-        return metadata.version(package)
-    except metadata.PackageNotFoundError:
-        return None

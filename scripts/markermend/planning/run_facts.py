@@ -6,12 +6,12 @@ import platform
 import subprocess
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from markermend import __version__
 from markermend.planning.code_hashes import code
+from markermend.storage.installation import package_version
 
 PACKAGES = ("numpy", "scipy", "pyarrow", "jinja2", "plotly", "snakemake")
 """The third-party packages that results may depend on."""
@@ -44,7 +44,7 @@ def run_facts(project: Path, *, config: Mapping[str, Any], recordings: int, star
         "code": {file.stem: code(file) for file in sorted((project / "scripts").glob("*.py"))},
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "packages": {name: metadata.version(name) for name in PACKAGES},
+        "packages": {name: package_version(name) for name in PACKAGES},
         "config": dict(config),
         "recordings": recordings,
         "started": started.isoformat(timespec="seconds"),

@@ -1,7 +1,9 @@
-"""Where the workflow lies."""
+"""What is installed."""
+
+from importlib import metadata
 
 import markermend
-from markermend.storage.installation import workflow_folder
+from markermend.storage.installation import package_version, workflow_folder
 from support.paths import PROJECT
 
 
@@ -13,3 +15,8 @@ def test_an_installed_workflow_wins(tmp_path, monkeypatch):
     (tmp_path / "markermend/installed_workflow").mkdir(parents=True)
     monkeypatch.setattr(markermend, "__file__", str(tmp_path / "markermend/__init__.py"))
     assert workflow_folder() == tmp_path.resolve() / "markermend/installed_workflow"
+
+
+def test_a_package_has_its_version_and_one_that_is_not_installed_has_none():
+    assert package_version("numpy") == metadata.version("numpy")
+    assert package_version("a package that nobody has") is None
