@@ -1,13 +1,13 @@
 # make demo: from nothing to a report on made-up recordings. Needs Python 3.11 or later and make.
 PYTHON ?= python3
-BIN := .venv/bin
+BIN := $(if $(filter Windows_NT,$(OS)),.venv/Scripts,.venv/bin)
 CORES ?= all
 SIZE ?= full
 RESULTS ?= results
 # For networks (config/README.md), which tests and papers train: 750 of 1,700 MB. Nothing else installs it; `TORCH=` never does.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo docs papers test test-papers test-cluster faults wheel lint config lock clean
+.PHONY: demo docs papers test test-library test-set test-papers test-cluster faults wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -31,6 +31,15 @@ papers: .venv/networks
 
 test: lint .venv/networks
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network and not cluster"
+
+# The library without the workflow, as on macOS and Windows.
+LIBRARY := core detection export filling formats mesh numerics options prediction repair simulation storage test_api.py test_portability.py
+test-library: .venv/networks
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -q -n 2 --dist loadfile -m "not slow and not network" $(LIBRARY:%=tests/unit/%)
+
+# The whole workflow on two small recordings, as the workflow catalog does it: half a minute.
+test-set: .venv/ready
+	$(BIN)/snakemake --directory .test --cores 2
 
 # The experiments of the papers at quick size, on a synthetic person: some minutes.
 test-papers: .venv/networks

@@ -60,7 +60,7 @@ def write_recordings(folder: Path, count: int, subjects: int) -> None:
 def whole(folder: Path, *more: str) -> tuple[float, float]:
     """Seconds of a core and MB of a run that ends by itself."""
     command = [sys.executable, "-c", WATCH, sys.executable, "-m", "snakemake", *more, *arguments(folder)]
-    with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile("w+") as output:
+    with tempfile.TemporaryFile() as errors, tempfile.TemporaryFile("w+", encoding="utf-8") as output:
         subprocess.run(command, stdout=output, stderr=errors, check=True)
         output.seek(0)
         seconds, megabytes = map(float, output.read().splitlines()[-1].split())

@@ -52,7 +52,7 @@ class Cost:
     def of(cls, command: Sequence[str | Path] | str, folder: Path) -> Cost:
         """Run a command (one of a shell if it is a string) in a folder."""
         shell = isinstance(command, str)
-        with open(os.devnull, "w") as nowhere:
+        with open(os.devnull, "w", encoding="utf-8") as nowhere:
             process = subprocess.Popen(
                 command, cwd=folder, shell=shell, env=ENVIRONMENT, stdout=nowhere, stderr=nowhere
             )

@@ -27,7 +27,7 @@ def write_original(path: Path, *, seed: int) -> None:
     if path.suffix == ".c3d":
         write_new(path, Content(labels=MARKERS, positions=positions, rate=RATE))
     else:
-        path.write_text("\n".join(_csv(positions)) + "\n")
+        path.write_text("\n".join(_csv(positions)) + "\n", encoding="utf-8")
 
 
 def contaminated(seed: int) -> np.ndarray:

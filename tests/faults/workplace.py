@@ -45,7 +45,7 @@ class Run:
             if prepare is not None:
                 prepare()
 
-        with open(printed, "w") as file:
+        with open(printed, "w", encoding="utf-8") as file:
             self.process = subprocess.Popen(
                 words, cwd=folder, stdout=file, stderr=file, start_new_session=True, preexec_fn=prepare_process
             )

@@ -60,7 +60,7 @@ def work(folder, first, cases):
     originals = [path.read_bytes() for path in sorted(Path(folder).glob("*.c3d")) if path.stat().st_size > 2000]
     for original in sorted(Path(folder).glob("*.c3d"))[:1]:
         read_section(original)
-    used = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    used = int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[0]) * os.sysconf("SC_PAGE_SIZE")
     resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "damaged.c3d"

@@ -82,7 +82,7 @@ class Cluster:
         (self.folder / "munge.key").chmod(0o600)
         host = socket.gethostname().partition(".")[0]
         text = CONFIGURATION.format(folder=self.folder, host=host, nodes=NODES, ports=_free_ports(1 + len(NODES)))
-        (self.folder / "slurm.conf").write_text(text)
+        (self.folder / "slurm.conf").write_text(text, encoding="utf-8")
         try:
             files = {f"{name}-file": f"munge.{name}" for name in ("key", "pid", "log", "seed")}
             flags = {"socket": "munge.socket", **files}
@@ -105,13 +105,16 @@ class Cluster:
 
     def call(self, *command: str) -> str:
         """What a client prints; nothing where it fails."""
-        return subprocess.run(command, env=self.environment, capture_output=True, text=True).stdout
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, encoding="utf-8").stdout
 
     def wait_until(self, happened: Callable[[], object], seconds: float = 600) -> None:
         """Wait until something happened."""
         end = time.monotonic() + seconds
         while not happened():
-            assert time.monotonic() < end, (self.call("squeue"), (self.folder / "slurmctld.log").read_text()[-2000:])
+            assert time.monotonic() < end, (
+                self.call("squeue"),
+                (self.folder / "slurmctld.log").read_text(encoding="utf-8")[-2000:],
+            )
             time.sleep(0.2)
 
     def job_of(self, process: int) -> tuple[str, str]:

@@ -181,7 +181,7 @@ def path_of_others(folder):
 def test_a_mesh_of_the_user_wins(recording, tmp_path):
     path = tmp_path / "mesh.json"
     block = {"name": "block", "markers": list(recording.markers), "parent": None, "parent_marker": None}
-    path.write_text(json.dumps({"segments": [block]}))
+    path.write_text(json.dumps({"segments": [block]}), encoding="utf-8")
     assert [segment.name for segment in api.infer_mesh([recording], mesh_files=[path]).segments] == ["block"]
 
 
@@ -200,7 +200,7 @@ def test_files_are_written_next_to_the_copy(path, cleaned, tmp_path):
         cleaned, path, names["cleaned.c3d"], changes=names["changes.tsv"], originals=names["originals.parquet"]
     )
     assert certificate["changed_samples"] == 11 and all(file.exists() for file in names.values())
-    assert names["changes.tsv"].read_text().count("\n") == 3
+    assert names["changes.tsv"].read_text(encoding="utf-8").count("\n") == 3
 
 
 def test_the_example_of_the_readme_runs(path, tmp_path, monkeypatch, capsys):

@@ -84,7 +84,7 @@ def test_a_job_that_was_cancelled_or_out_of_time_or_on_a_node_that_was_lost_is_d
         return list(dict.fromkeys((tmp_path / f"{script}.jobs").read_text().split()))
 
     with (
-        open(tmp_path / "log", "w") as log,
+        open(tmp_path / "log", "w", encoding="utf-8") as log,
         subprocess.Popen(command, cwd=project.folder, env=environment, stdout=log, stderr=log) as running,
     ):
         try:

@@ -20,12 +20,15 @@ RESERVED_SUBJECTS = frozenset({CLEANED, "report", "papers"})
 RESERVED_RECORDINGS = frozenset({"mesh.json", "poses.parquet", "logs", "failures.tsv"})
 """Names beside the recordings' folders of a subject that are ours."""
 
+DEVICES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))})
+"""Names that stand for devices on Windows, whatever follows after a dot: results may be copied there."""
+
 
 def encode(name: str, reserved: Collection[str] = ()) -> str:
     """Turn a name into a folder name.
 
-    Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, the
-    first character of a reserved name (in any case), and the last one of a name that ends in many repeats (which
+    Letters, digits and combining marks of any script, `_`, `-` and `.` stay; any other character, a leading dot, a dot at the end (which
+    Windows drops), the first character of a reserved name (in any case), and the last one of a name that ends in many repeats (which
     Snakemake takes for an endless recursion) become `%XX`, one per byte of UTF-8.
 
     Parameters
@@ -48,9 +51,9 @@ def encode(name: str, reserved: Collection[str] = ()) -> str:
     if not name:
         raise ValueError("a name must not be empty")
     parts = [character if _ordinary(character) else _percent(character) for character in name]
-    if name[0] == "." or name.casefold() in reserved:
+    if name[0] == "." or name.casefold() in reserved or name.casefold().partition(".")[0] in DEVICES:
         parts[0] = _percent(name[0])
-    if len(name) > 1 and re.search(r"(.+?)\1{9}$", name):
+    if name[-1] == "." or (len(name) > 1 and re.search(r"(.+?)\1{9}$", name)):
         parts[-1] = _percent(name[-1])
     encoded = "".join(parts)
     if len(encoded.encode()) <= LONGEST:

@@ -127,10 +127,10 @@ def test_the_stage_takes_the_users_mesh_and_says_what_is_wrong_with_it(body, run
     names, positions = body
     own = tmp_path / "own.json"
     segment = {"name": "everything", "markers": names, "parent": None, "parent_marker": None}
-    own.write_text(json.dumps({"segments": [segment]}))
+    own.write_text(json.dumps({"segments": [segment]}), encoding="utf-8")
     found = mesh_file.read(run({"a": recording(names, positions, name="a")}, own), "a")
     assert [s.name for s in found.segments] == ["everything"]
-    own.write_text(json.dumps({"segments": [{**segment, "parent": 7}]}))
+    own.write_text(json.dumps({"segments": [{**segment, "parent": 7}]}), encoding="utf-8")
     with pytest.raises(SetAside, match=r"own\.json: segment 'everything': parent 7"):
         stage_files.read_json(run({"a": recording(names, positions, name="a")}, own))
 

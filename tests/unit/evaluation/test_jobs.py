@@ -32,7 +32,7 @@ def test_every_combination_has_a_file_that_the_pattern_of_the_rule_matches():
 def test_the_list_names_every_file(tmp_path):
     own = jobs(str(tmp_path / "paper"))
     own.write_list()
-    assert Path(own.list_file()).read_text().splitlines() == own.files()
+    assert Path(own.list_file()).read_text(encoding="utf-8").splitlines() == own.files()
     assert Path(own.list_file()).parent == tmp_path / "paper/logs"
 
 

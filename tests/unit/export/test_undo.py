@@ -245,8 +245,8 @@ def test_what_is_kept_may_be_missing_damaged_or_of_an_earlier_version(tmp_path):
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"source": "walk.c3d"}'])
 def test_a_certificate_that_cannot_be_used_is_named(tmp_path, text):
     path = tmp_path / "certificate.json"
-    path.write_text(text)
+    path.write_text(text, encoding="utf-8")
     with pytest.raises(NotUndone, match=r"certificate.json is missing or damaged"):
         undoing.read_certificate(path)
-    path.write_text(json.dumps({"source": "a", "original_sha256": None, "cleaned_sha256": "0"}))
+    path.write_text(json.dumps({"source": "a", "original_sha256": None, "cleaned_sha256": "0"}), encoding="utf-8")
     assert undoing.read_certificate(path)["source"] == "a"

@@ -96,7 +96,7 @@ def test_it_is_used_where_there_are_too_few_frames_to_infer(body, own):
 def test_an_inferred_mesh_can_be_supplied_again(body, tmp_path):
     inferred = infer_mesh([recording(*body)], options=OPTIONS)
     path = tmp_path / "mesh.json"
-    path.write_text(json.dumps({"meshes": [inferred.as_json()]}))
+    path.write_text(json.dumps({"meshes": [inferred.as_json()]}), encoding="utf-8")
     (own,) = read(path)
     assert infer_mesh([recording(*body)], supplied=own, options=OPTIONS) == inferred
 
@@ -124,7 +124,7 @@ def test_an_inferred_mesh_can_be_supplied_again(body, tmp_path):
 )
 def test_a_malformed_mesh_is_refused_with_the_place(segments, reason, tmp_path):
     path = tmp_path / "own.json"
-    path.write_text(json.dumps({"segments": segments}))
+    path.write_text(json.dumps({"segments": segments}), encoding="utf-8")
     with pytest.raises(BadRecording, match=r"^mesh file own\.json: ") as error:
         read(path)
     assert reason in str(error.value)

@@ -71,7 +71,7 @@ def test_an_original_is_read_again_where_a_stage_that_reads_it_has_failed_since(
     read, wrong = plan.data.source_hash(job()), "0" * 64
     plan.data.checksums.save()
     record = Path(plan.files.sources)
-    record.write_text(record.read_text().replace(read, wrong))
+    record.write_text(record.read_text(encoding="utf-8").replace(read, wrong), encoding="utf-8")
     assert make_plan(config, PROJECT, deployed=False).data.source_hash(job()) == wrong
     failures = tmp_path / "out/S%201/walk/failures.tsv"
     failures.parent.mkdir(parents=True)

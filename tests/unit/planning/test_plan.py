@@ -68,7 +68,7 @@ def test_the_flags_of_stages_that_share_a_job_lie_in_a_file_that_has_another_nam
 
     plan.write_lists()
     for stages in (plan.detectors, FINISHING):
-        assert json.loads(Path(plan.flags_file(*stages)).read_text()) == plan.flags(*stages)
+        assert json.loads(Path(plan.flags_file(*stages)).read_text(encoding="utf-8")) == plan.flags(*stages)
     code, *options = plan.flags("slow")["slow"]
     assert code == f"--code={plan.code('slow')}"
     assert options == shlex.split(plan.stage_options("slow")(job()))

@@ -179,7 +179,7 @@ def test_a_folder_without_recordings_says_what_was_looked_for(tmp_path):
 def test_bytes_that_are_no_text_are_shown(tmp_path):
     (tmp_path / "S01").mkdir()
     try:
-        open(bytes(tmp_path / "S01") + b"/w\xe4lk.c3d", "w").close()
+        open(bytes(tmp_path / "S01") + b"/w\xe4lk.c3d", "w", encoding="utf-8").close()
     except OSError:
         pytest.skip("this file system takes only UTF-8 names")
     assert set(found(tmp_path)) == {("S01", r"w\xe4lk")}

@@ -12,15 +12,16 @@ import pytest
 from markermend.storage import atomic
 from markermend.storage.atomic import NotWritten
 from support.paths import PROJECT
+from support.platforms import posix
 
 
 def test_a_file_that_fails_to_be_written_stays_as_it_was(tmp_path):
     path = tmp_path / "a" / "b.txt"
     atomic.write_text(path, "old")
     with pytest.raises(ValueError), atomic.replacing(path) as temporary:
-        temporary.write_text("new")
+        temporary.write_text("new", encoding="utf-8")
         raise ValueError
-    assert path.read_text() == "old"
+    assert path.read_text(encoding="utf-8") == "old"
     assert os.listdir(path.parent) == ["b.txt"]
 
 
@@ -70,6 +71,7 @@ def test_a_file_that_the_block_reads_keeps_its_own_error(tmp_path):
     assert str(failure.value.filename) == str(tmp_path / "gone")
 
 
+@posix
 def test_what_a_killed_process_left_is_removed_and_what_a_running_one_writes_is_not(tmp_path):
     writing = """
 import pathlib, sys, time

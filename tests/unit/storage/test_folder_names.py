@@ -8,7 +8,10 @@ from hypothesis import strategies as st
 from markermend.storage.folder_names import LONGEST, RESERVED_RECORDINGS, RESERVED_SUBJECTS, decode, encode, printable
 
 
-@pytest.mark.parametrize("name", ["walk01", "S-01_b.2", "Łukasz", "歩行", "naïve", "nai\u0308ve", "a..b", "-dash"])
+@pytest.mark.parametrize(
+    "name",
+    ["walk01", "S-01_b.2", "Łukasz", "歩行", "naïve", "nai\u0308ve", "a..b", "-dash", "auxiliary", "com", "walk.con"],
+)
 def test_ordinary_names_stay(name):
     assert encode(name) == name
 
@@ -16,7 +19,11 @@ def test_ordinary_names_stay(name):
 @pytest.mark.parametrize(
     ("name", "folder"),
     [
-        ("..", "%2E."),
+        ("..", "%2E%2E"),
+        ("S01.", "S01%2E"),
+        ("aux", "%61ux"),
+        ("Con.1", "%43on.1"),
+        ("lpt9", "%6Cpt9"),
         (".hidden", "%2Ehidden"),
         ("day1/S01", "day1%2FS01"),
         ("a b", "a%20b"),

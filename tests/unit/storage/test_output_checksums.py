@@ -11,7 +11,7 @@ from markermend.storage.output_checksums import OutputRecord
 def folder(tmp_path):
     for stage, names in {"fill": ["07_filled.parquet", "07_changes.parquet"], "qc": ["08_qc.json"]}.items():
         for name in names:
-            (tmp_path / name).write_text(name)
+            (tmp_path / name).write_text(name, encoding="utf-8")
         output_checksums.write(stage, [tmp_path / name for name in names], command=[stage], dependencies="d" + stage)
     return tmp_path
 
@@ -34,7 +34,7 @@ def test_a_file_is_found_by_its_name_and_need_not_be_there(folder):
 
 @pytest.mark.parametrize("content", ["", "{", "[]", '{"outputs": 7}', '{"path": "walk.c3d"}'])
 def test_what_is_no_record_is_passed_over(folder, content):
-    (folder / "logs/fill.json").write_text(content)
+    (folder / "logs/fill.json").write_text(content, encoding="utf-8")
     assert output_checksums.read(folder, "fill") is None
     assert [record.stage for record in output_checksums.records(folder)] == ["qc"]
     assert output_checksums.unreadable(folder) == (["fill"] if content in ("", "{") else [])

@@ -118,5 +118,7 @@ def test_rows_are_written_without_pandas():
         "parquet_tables.table_of([{'a': 'x', 'b': [1.0]}, {'a': None, 'b': None}], schema); print('pandas' in sys.modules)"
     )
     environment = {"PYTHONPATH": str(PROJECT / "scripts")}
-    run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True, encoding="utf-8"
+    )
     assert run.stdout.strip() == "False"

@@ -15,7 +15,7 @@ def records(tmp_path):
     folder = tmp_path / ".snakemake/metadata"
     for name in ("L3Jlc3Vs", "@L3Jlc3Vs/dHM="):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(json.dumps(RECORD))
+        (folder / name).write_text(json.dumps(RECORD), encoding="utf-8")
     return folder
 
 
@@ -33,13 +33,13 @@ def test_a_record_that_cannot_be_read_is_replaced_by_one_of_other_parameters(tmp
     assert snakemake_records.unreadable(tmp_path) == [path]
     snakemake_records.renew(tmp_path)
     assert snakemake_records.unreadable(tmp_path) == []
-    record = json.loads(path.read_text())
+    record = json.loads(path.read_text(encoding="utf-8"))
     assert record["record_format_version"] == 6 and record["params"] != RECORD["params"]
 
 
 def test_where_none_can_be_read_all_are_removed(tmp_path, records):
     for name in ("L3Jlc3Vs", "@L3Jlc3Vs/dHM="):
-        (records / name).write_text("")
+        (records / name).write_text("", encoding="utf-8")
     snakemake_records.renew(tmp_path)
     assert [path for path in records.rglob("*") if path.is_file()] == []
 

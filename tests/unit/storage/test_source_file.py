@@ -8,22 +8,25 @@ import pytest
 from markermend.core.recording import BadRecording, SourceChanged
 from markermend.storage import source_file
 from markermend.storage.source_checksums import ABSENT, SourceChecksums
+from support.platforms import posix
 
 
 @pytest.fixture
 def study(tmp_path):
     (tmp_path / "study").mkdir()
-    (tmp_path / "study/walk.c3d").write_text("walk")
-    (tmp_path / "secret").write_text("secret")
+    (tmp_path / "study/walk.c3d").write_text("walk", encoding="utf-8")
+    (tmp_path / "secret").write_text("secret", encoding="utf-8")
     return tmp_path / "study"
 
 
+@posix
 def test_a_file_and_a_link_within_the_folder_may_be_read(study):
     (study / "link.c3d").symlink_to("walk.c3d")
     for name in ("walk.c3d", "link.c3d"):
         source_file.check(study / name, within=study)
 
 
+@posix
 def test_a_link_out_of_the_folder_is_refused_unless_links_may_lead_anywhere(study):
     (study / "link.c3d").symlink_to("../secret")
     with pytest.raises(BadRecording, match=r"link\.c3d is a link that leads out of the folder of recordings"):
@@ -31,6 +34,7 @@ def test_a_link_out_of_the_folder_is_refused_unless_links_may_lead_anywhere(stud
     source_file.check(study / "link.c3d")
 
 
+@posix
 def test_a_folder_of_which_the_name_begins_alike_is_another_one(study, tmp_path):
     (tmp_path / "study2").mkdir()
     (tmp_path / "study2/run.c3d").touch()
@@ -39,6 +43,7 @@ def test_a_folder_of_which_the_name_begins_alike_is_another_one(study, tmp_path)
     assert not source_file.leads_out("/etc/passwd", "/")
 
 
+@posix
 @pytest.mark.parametrize("kind", ["folder", "pipe", "device", "socket"])
 def test_what_is_no_file_is_named_without_being_opened(study, kind, monkeypatch):
     path = study / "odd.c3d"

@@ -88,10 +88,10 @@ def test_a_note_is_recognised_by_every_reader(tmp_path, name, read):
 def test_a_failed_write_leaves_the_old_file_and_no_scrap(tmp_path):
     atomic.write_text(tmp_path / "a.txt", "old")
     with pytest.raises(RuntimeError), atomic.replacing(tmp_path / "a.txt") as temporary:
-        temporary.write_text("half")
+        temporary.write_text("half", encoding="utf-8")
         raise RuntimeError
     assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
-    assert (tmp_path / "a.txt").read_text() == "old"
+    assert (tmp_path / "a.txt").read_text(encoding="utf-8") == "old"
 
 
 def test_no_stage_imports_pandas_to_store(tmp_path):

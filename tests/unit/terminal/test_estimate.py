@@ -55,7 +55,7 @@ def test_of_many_recordings_some_stand_for_all(entries, tmp_path, monkeypatch):
 
 
 def test_the_figures_are_those_that_were_measured():
-    with open(Path(PROJECT) / "benchmarks/results/runtime.tsv", newline="") as file:
+    with open(Path(PROJECT) / "benchmarks/results/runtime.tsv", encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file, delimiter="\t") if row["stage"] == "all"]
     measured = {row["recording"]: float(row["cpu_s"]) for row in rows}
     for name, samples in SAMPLES.items():

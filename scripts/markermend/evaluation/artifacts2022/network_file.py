@@ -61,7 +61,7 @@ def read_networks(path: Path, options: ReplicatedNetworkOptions) -> TrainedRegre
         The networks.
     """
     by_marker = {}
-    for own in json.loads(path.read_text()):
+    for own in json.loads(path.read_text(encoding="utf-8")):
         scaling = Scaling(own["max_power"], *(np.array(own["scaling"][name]) for name in ARRAYS))
         network = TrainedNetwork(scaling, np.array(own["parameters"]), tuple(own["sizes"]))
         by_marker[own["marker"]] = (np.array(own["inputs"], int), Regression(network, np.nan))

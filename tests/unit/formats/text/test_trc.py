@@ -90,7 +90,7 @@ def test_new_trc(tmp_path: Path, unit: str) -> None:
     values = positions()
     recording = Recording(MARKERS, values, 120.0, first_frame=705)
     trc.write_new(tmp_path / "new.trc", recording=recording, unit=unit)
-    content = (tmp_path / "new.trc").read_text()
+    content = (tmp_path / "new.trc").read_text(encoding="utf-8")
     lines = content.split("\n")
     assert lines[2] == f"120\t120\t30\t4\t{unit}\t120\t705\t30"
     assert lines[5] == "" and lines[-1] == "" and "nan" not in content
@@ -104,6 +104,6 @@ def test_new_trc(tmp_path: Path, unit: str) -> None:
 def test_new_trc_of_nothing_has_a_header(tmp_path: Path, frames: int, markers: int) -> None:
     recording = Recording(MARKERS[:markers], np.empty((frames, markers, 3)), 100.0)
     trc.write_new(tmp_path / "new.trc", recording=recording)
-    lines = (tmp_path / "new.trc").read_text().split("\n")
+    lines = (tmp_path / "new.trc").read_text(encoding="utf-8").split("\n")
     assert lines[2].split("\t")[2:4] == [str(frames), str(markers)]
     assert len(lines) == 6 + frames + 1

@@ -218,7 +218,9 @@ def stage(folder, names):
     files += ["--mesh", folder / "mesh.json", "--poses", "--code", "", "--filled", folder / "07.parquet"]
     files += ["--changes", folder / "07_changes.parquet"]
     command = [sys.executable, "-c", FILL, *map(str, files), *options, "--decisions=[]"]
-    done = subprocess.run(command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        command, cwd=PROJECT / "scripts", capture_output=True, text=True, check=True, encoding="utf-8"
+    )
     return change_file.read(folder / "07_changes.parquet"), done.stdout.split()[-1] == "True"
 
 
@@ -230,7 +232,7 @@ def test_the_stage_fills_with_networks_and_imports_torch_only_then(person, tmp_p
     change_file.write(tmp_path / "06_changes.parquet", [], {"stage": "repair"})
     ranked = {name: [names[other] for other in near] for name, near in zip(names, neighbours(person), strict=True)}
     body = {"recordings": ["walk"], "markers": names, "segments": [], "predictors": ranked, "neighbours": ranked}
-    (tmp_path / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}))
+    (tmp_path / "mesh.json").write_text(json.dumps({"meshes": [{**body, "warnings": []}]}), encoding="utf-8")
     assert mesh_file.read(tmp_path / "mesh.json", "walk").markers == names
     usual, torch = stage(tmp_path, FillOptions().members)
     assert [change.outcome for change in usual] == ["filled"] * 2 and not torch
