@@ -648,9 +648,9 @@ def undo(
     Parameters
     ----------
     cleaned : path-like
-        The cleaned file, as it was written.
+        The cleaned file, as it was written or with some findings taken back, which stay so.
     path : path-like
-        Where the copy goes; a file that is there is never overwritten.
+        Where the copy goes; a file that is there is never overwritten but by one in which more is taken back.
     originals : path-like
         The file originals.parquet that was written with it.
     certificate : mapping or path-like

@@ -45,7 +45,7 @@ def test_the_files_bring_back_what_was_measured(cleaned, tmp_path):
     found = find_originals(measured, result, applied)
     assert "" not in found.classes
     none = np.zeros(0, int)
-    stored = OriginalBytes(none, none, none, (), np.zeros(0, bool))
+    stored = OriginalBytes(none, none, none, (), (), np.zeros(0, bool))
     originals_file.write(tmp_path / "originals.parquet", found, stored, {})
     read = stage_files.read_recording(tmp_path / "07_filled.parquet")
     originals = originals_file.read(tmp_path / "originals.parquet")

@@ -152,7 +152,7 @@ def write(
     applied = applied_changes(before, after, after.changes)
     atomic.write_text(folder / "changes.tsv", change_table(applied, after))
     nothing = np.zeros(0, int)
-    stored = OriginalBytes(nothing, nothing, nothing, (), np.zeros(0, bool))
+    stored = OriginalBytes(nothing, nothing, nothing, (), (), np.zeros(0, bool))
     found = find_originals(before, after, applied)
     originals_file.write(folder / "originals.parquet", found, stored, {"stage": "export"})
     count = int(changed(before, after).sum())

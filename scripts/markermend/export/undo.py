@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -117,13 +117,14 @@ def undo(
     Without markers and frames, all are: the copy is the original, bit for bit, and is held against its checksum. Otherwise these
     findings and gaps are, and all other samples stay cleaned: those that share a sample of one of these markers with these frames.
     What can be taken back together only is: both markers of an exchange, and all markers of a finding about several.
+    What was taken back before, in the cleaned file or in a copy that stands in the place of this one, stays so.
 
     Parameters
     ----------
     cleaned : Path
-        The cleaned file, as it was written.
+        The cleaned file, as it was written or with some of its changes taken back.
     target : Path
-        Where the copy goes; a file that is there may only be equal to it.
+        Where the copy goes; a file that is there may only be equal to it, or a copy in which some changes were taken back.
     originals : Path
         What was kept of the recording, originals.parquet.
     certificate : mapping of str to Any
@@ -143,27 +144,32 @@ def undo(
     NothingNamed
         Where markers and frames name nothing that was changed.
     NotUndone
-        Where the cleaned file was altered since, what was kept is missing or damaged, or another file stands in the place of the copy.
+        Where the cleaned file was altered otherwise, what was kept is missing or damaged, or another file stands in the place of the copy.
     NotWritten
         Where the copy cannot be written.
     """
     if certificate["original_sha256"] is None:
         raise NotUndone(f"{cleaned}: the original could not be read, so there is nothing to restore")
-    _check(cleaned, certificate["cleaned_sha256"])
     kept, stored = _kept(originals)
+    content, original = _written(cleaned, stored, certificate["cleaned_sha256"])
+    there = _taken_back(target, stored, certificate)
+    original = original if there is None else original | there
     selected = select_findings(kept, markers=markers, frames=frames)
     if (markers or frames) and not selected.any():
         raise NothingNamed(f"{cleaned}: none of its changes is of these markers and frames, see changes.tsv")
-    restored = Restoration(int(selected.sum()), _stretches(kept, selected), int((~selected).sum()))
+    back = selected | stored.holds_originals(original, len(selected))
+    restored = Restoration(int(selected.sum()), _stretches(kept, selected), int((~back).sum()))
     with atomic.replacing(target, source=cleaned) as temporary:
         with open(temporary, "wb") as file:
-            file.writelines(stored.put_back(_content(cleaned), selected, kept.frame))
+            file.writelines(stored.put_back(content, back, kept.frame, original))
         found = atomic.sha256(temporary)
         if restored.whole and found != certificate["original_sha256"]:
             raise NotUndone(
                 f"{originals} is damaged: the original would not come back bit for bit, nothing was written"
             )
-        if target.exists() and atomic.sha256(target) != found:
+        if found == certificate["original_sha256"]:
+            restored = replace(restored, left=0)
+        if there is None and target.exists() and atomic.sha256(target) != found:
             raise NotUndone(f"{target} is another file already: name another folder")
     return restored
 
@@ -195,17 +201,37 @@ def read_certificate(path: Path) -> dict[str, Any]:
     return stated
 
 
-def _check(cleaned: Path, expected: str) -> None:
-    """Refuse a cleaned file that is not as it was written."""
+def _written(cleaned: Path, stored: OriginalBytes, expected: str) -> tuple[np.ndarray, np.ndarray]:
+    """The cleaned file as it was written, and the stretches of it that have the original bytes; refused where it was altered otherwise."""
     try:
         found = atomic.sha256(cleaned)
     except OSError as error:
         raise NotUndone(f"{cleaned} cannot be read ({error.strerror}): clean the recording again") from error
-    if found != expected:
+    if found == expected:
+        return _content(cleaned), np.zeros(len(stored.start), bool)
+    written = _partly_taken_back(cleaned, stored, expected)
+    if written is None:
         raise NotUndone(
             f"{cleaned} was altered after it was written, so that its changes cannot be taken back: put the file back as it was, or "
             "clean the recording again"
         )
+    return written
+
+
+def _partly_taken_back(copy: Path, stored: OriginalBytes, expected: str) -> tuple[np.ndarray, np.ndarray] | None:
+    """The cleaned file and the stretches that have the original bytes, of a copy in which changes were taken back; None of another file."""
+    state = stored.as_written(_content(copy))
+    if state is None or hashlib.sha256(state[0]).hexdigest() != expected:
+        return None
+    return np.frombuffer(state[0], np.uint8), state[1]
+
+
+def _taken_back(target: Path, stored: OriginalBytes, certificate: Mapping[str, Any]) -> np.ndarray | None:
+    """The stretches with the original bytes of a copy that stands in the place of the next, in which some changes were taken back and not all."""
+    if not target.exists() or atomic.sha256(target) in (certificate["original_sha256"], certificate["cleaned_sha256"]):
+        return None
+    state = _partly_taken_back(target, stored, certificate["cleaned_sha256"])
+    return None if state is None else state[1]
 
 
 def _kept(path: Path) -> tuple[Originals, OriginalBytes]:
@@ -215,9 +241,9 @@ def _kept(path: Path) -> tuple[Originals, OriginalBytes]:
     except SetAside:
         nothing = np.zeros(0, int)
         originals = Originals((), nothing, nothing, np.zeros((0, 3)), nothing, (), nothing)
-        return originals, OriginalBytes(nothing, nothing, nothing, (), np.zeros(0, bool))
+        return originals, OriginalBytes(nothing, nothing, nothing, (), (), np.zeros(0, bool))
     except originals_file.WithoutBytes as error:
-        raise NotUndone(f"{path} is of an earlier version, without the bytes: clean the recording again") from error
+        raise NotUndone(f"{path} is of an earlier version, without all bytes: clean the recording again") from error
     except (OSError, BadRecording, KeyError) as error:
         raise NotUndone(f"{path} is missing or damaged: clean the recording again") from error
 

@@ -37,27 +37,31 @@ def find_original_bytes(
     """
     column = np.asarray(columns, int)[marker]
     if format == "c3d":
-        return _of_points(original, column, frame)
+        return _of_points(original, cleaned, column, frame)
     found = sorted(_of_cells(original, cleaned, format, column, frame))
-    sample, start, stop, content, padding = zip(*found, strict=True) if found else ((), (), (), (), ())
-    return OriginalBytes(
-        np.array(sample, int), np.array(start, int), np.array(stop, int), tuple(content), np.array(padding, bool)
-    )
+    sample, start, stop, content, written, padding = zip(*found, strict=True) if found else ((),) * 6
+    places = [np.array(numbers, int) for numbers in (sample, start, stop)]
+    return OriginalBytes(places[0], places[1], places[2], tuple(content), tuple(written), np.array(padding, bool))
 
 
-def _of_points(original: Path, column: np.ndarray, frame: np.ndarray) -> OriginalBytes:
+def _of_points(original: Path, cleaned: Path, column: np.ndarray, frame: np.ndarray) -> OriginalBytes:
     """The four numbers of each sample of a C3D file, which lie at the same place in both files."""
     count = len(frame)
     layout = locate(read_section(original), original.stat().st_size, original.name)
     width = 16 if layout.real else 8
     start = layout.start + frame * layout.stride + column * width
-    stored = np.memmap(original, np.uint8, "r")[start[:, None] + np.arange(width)].tobytes()
-    content = tuple(stored[at : at + width] for at in range(0, len(stored), width))
-    return OriginalBytes(np.arange(count), start, start + width, content, np.zeros(count, bool))
+    content, written = (_stored(path, start, width) for path in (original, cleaned))
+    return OriginalBytes(np.arange(count), start, start + width, content, written, np.zeros(count, bool))
 
 
-Stretch = tuple[int, int, int, bytes, bool]
-"""Sample, start, stop, content and whether it is padding: see `OriginalBytes`."""
+def _stored(path: Path, start: np.ndarray, width: int) -> tuple[bytes, ...]:
+    """The bytes of a file at some places."""
+    stored = np.memmap(path, np.uint8, "r")[start[:, None] + np.arange(width)].tobytes()
+    return tuple(stored[at : at + width] for at in range(0, len(stored), width))
+
+
+Stretch = tuple[int, int, int, bytes, bytes, bool]
+"""Sample, start, stop, both contents, and whether it is padding: see `OriginalBytes`."""
 
 
 def _of_cells(original: Path, cleaned: Path, format: str, column: np.ndarray, frame: np.ndarray) -> Iterator[Stretch]:
@@ -76,7 +80,7 @@ def _of_cells(original: Path, cleaned: Path, format: str, column: np.ndarray, fr
         for cell, sample in cells:
             was = olds[cell] if cell < len(olds) else b""
             if cell < len(news) and news[cell] != was:
-                yield sample, cell_starts[cell], cell_starts[cell] + len(news[cell]), was, False
+                yield sample, cell_starts[cell], cell_starts[cell] + len(news[cell]), was, news[cell], False
         for added in range(len(olds), len(news)):
             sample = next((sample for cell, sample in cells if cell >= added), cells[-1][1])
-            yield sample, cell_starts[added] - len(layout.delimiter), cell_starts[added], b"", True
+            yield sample, cell_starts[added] - len(layout.delimiter), cell_starts[added], b"", layout.delimiter, True

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +15,16 @@ from markermend.storage.original_bytes import OriginalBytes
 from markermend.storage.parquet_tables import array, column, read_table, vector, write_table
 from markermend.storage.stage_files import read_facts
 
-STRETCH = pa.struct([("start", pa.int64()), ("stop", pa.int64()), ("content", pa.binary()), ("padding", pa.bool_())])
-"""A stretch of bytes of the cleaned file, and what the original has there: see `OriginalBytes`."""
+STRETCH = pa.struct(
+    [
+        ("start", pa.int64()),
+        ("stop", pa.int64()),
+        ("content", pa.binary()),
+        ("written", pa.binary()),
+        ("padding", pa.bool_()),
+    ]
+)
+"""A stretch of bytes of the cleaned file, and what the original and the cleaned file have there: see `OriginalBytes`."""
 
 SCHEMA = pa.schema(
     [
@@ -38,7 +46,7 @@ the original."""
 
 
 class WithoutBytes(Exception):
-    """A file of an earlier version, which has the original values and not the bytes."""
+    """A file of an earlier version, which has the original values and not all of the bytes."""
 
 
 def write(path: Path, originals: Originals, stored: OriginalBytes, facts: Mapping[str, Any]) -> None:
@@ -121,24 +129,27 @@ def read_bytes(path: Path) -> OriginalBytes:
         Where an earlier version wrote the file.
     """
     table = read_table(path)
-    if "bytes" not in table.column_names:
+    if "bytes" not in table.column_names or table["bytes"].type != SCHEMA.field("bytes").type:
         raise WithoutBytes
     lists = table["bytes"].combine_chunks()
     sample = np.repeat(np.arange(len(lists)), np.diff(vector(lists.offsets)))
-    start, stop, content, padding = lists.values.flatten()
-    return OriginalBytes(
-        sample, vector(start), vector(stop), tuple(content.to_pylist()), np.array(padding.to_pylist(), bool)
-    )
+    start, stop, content, written, padding = lists.values.flatten()
+    was, is_now = (tuple(each.to_pylist()) for each in (content, written))
+    return OriginalBytes(sample, vector(start), vector(stop), was, is_now, np.array(padding.to_pylist(), bool))
 
 
 def _stretches(stored: OriginalBytes, samples: int) -> pa.Array:
     """The stretches of bytes as one list for each sample."""
-    ends = np.cumsum([0, *map(len, stored.content)], dtype=np.int32)
-    buffers = [None, pa.py_buffer(ends), pa.py_buffer(b"".join(stored.content))]
-    content = pa.Array.from_buffers(pa.binary(), len(stored.content), buffers)
+    content, written = _texts(stored.content), _texts(stored.written)
     start, stop = (column(values, np.int64) for values in (stored.start, stored.stop))
     bits = pa.py_buffer(np.packbits(stored.padding, bitorder="little"))
     padding = pa.Array.from_buffers(pa.bool_(), len(content), [None, bits])
-    stretches = pa.Array.from_buffers(STRETCH, len(content), [None], children=[start, stop, content, padding])
+    stretches = pa.Array.from_buffers(STRETCH, len(content), [None], children=[start, stop, content, written, padding])
     offsets = np.searchsorted(stored.sample, np.arange(samples + 1)).astype(np.int32)
     return pa.Array.from_buffers(pa.list_(STRETCH), samples, [None, pa.py_buffer(offsets)], children=[stretches])
+
+
+def _texts(texts: Sequence[bytes]) -> pa.Array:
+    """Texts as a column."""
+    ends = np.cumsum([0, *map(len, texts)], dtype=np.int32)
+    return pa.Array.from_buffers(pa.binary(), len(texts), [None, pa.py_buffer(ends), pa.py_buffer(b"".join(texts))])

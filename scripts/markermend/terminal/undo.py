@@ -21,6 +21,11 @@ from markermend.storage.folder_names import CLEANED, decode
 STRETCHES = 4
 """Stretches that are named in the line of a recording."""
 
+TRC_STAYS = (
+    "The TRC that was written beside a cleaned file stays as it is among the results: there is no original of it."
+)
+"""What is said where recordings were also written as TRC."""
+
 
 def run(
     results: Path,
@@ -58,23 +63,28 @@ def run(
     problems = [f"There is no recording {name} in {results}{_suggestion(name, folders)}" for name in unknown]
     if not folders:
         problems = [f"{results} holds no results: name the folder of results of a run"]
-    unnamed, restored = [], 0
+    unnamed, restored, besides = [], 0, False
     for folder in chosen if not problems else ():
         try:
-            print(_restore(folder, to, markers, frames))
+            stated = read_certificate(folder / CERTIFICATE)
+            print(_restore(folder, stated, to, markers, frames))
             restored += 1
+            besides |= "trc" in stated
         except NothingNamed as nothing:
             unnamed.append(str(nothing))
         except (NotUndone, NotWritten) as error:
             problems.append(str(error))
+    if besides:
+        print(TRC_STAYS)
     problems += [] if restored else unnamed
     print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
     return int(bool(problems))
 
 
-def _restore(folder: Path, to: Path, markers: Sequence[str], frames: tuple[int, int] | None) -> str:
+def _restore(
+    folder: Path, stated: Mapping[str, Any], to: Path, markers: Sequence[str], frames: tuple[int, int] | None
+) -> str:
     """Restore a recording, and say so in a line."""
-    stated = read_certificate(folder / CERTIFICATE)
     folder = folder.resolve()
     place = _place(folder, stated)
     cleaned, target = folder.parent.parent / CLEANED / place, to / place

@@ -17,6 +17,7 @@ def find(folder, before, after, marker, frame, *, format="csv", columns=(0, 1)):
         frame=np.array(frame),
         columns=columns,
     )
+    assert found.written == tuple(after[start:stop] for start, stop in zip(found.start, found.stop, strict=True))
     stretches = zip(found.sample, found.start, found.stop, found.content, found.padding, strict=True)
     return [(int(sample), after[start:stop], content, bool(added)) for sample, start, stop, content, added in stretches]
 
@@ -52,7 +53,7 @@ def test_of_c3d_files_the_four_stored_numbers(tmp_path):
     assert found.start.tolist() == [layout.start + 2 * 48, layout.start + 4 * 48 + 32]
     assert (found.stop - found.start).tolist() == [16, 16]
     content = path.read_bytes()
-    assert found.content == tuple(content[start : start + 16] for start in found.start)
+    assert found.content == found.written == tuple(content[start : start + 16] for start in found.start)
 
 
 def test_where_nothing_changed_there_is_nothing(tmp_path):

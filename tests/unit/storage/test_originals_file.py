@@ -17,6 +17,7 @@ STORED = OriginalBytes(
     np.array([10, 90, 95]),
     np.array([14, 95, 96]),
     (b"1.50", b"", b"\x00\xff"),
+    (b"1.60", b"\x00", b","),
     np.array([False, False, True]),
 )
 
@@ -36,9 +37,9 @@ def test_bytes_are_read_as_they_were_by_their_samples(tmp_path):
     again = originals_file.read_bytes(tmp_path / "originals.parquet")
     for name in ("sample", "start", "stop", "padding"):
         assert np.array_equal(getattr(again, name), getattr(STORED, name))
-    assert again.content == STORED.content
+    assert (again.content, again.written) == (STORED.content, STORED.written)
     first = pq.ParquetFile(tmp_path / "originals.parquet").read().to_pylist()[0]
-    assert first["bytes"] == [{"start": 10, "stop": 14, "content": b"1.50", "padding": False}]
+    assert first["bytes"] == [{"start": 10, "stop": 14, "content": b"1.50", "written": b"1.60", "padding": False}]
 
 
 def test_people_find_both_numberings_and_names(tmp_path):
@@ -54,7 +55,7 @@ def test_people_find_both_numberings_and_names(tmp_path):
 def test_nothing_changed_is_a_file_with_the_same_columns(tmp_path):
     none = np.zeros(0, int)
     nothing = Originals(("A",), none, none, np.zeros((0, 3)), np.zeros(0, np.uint8), (), none)
-    stored = OriginalBytes(none, none, none, (), np.zeros(0, bool))
+    stored = OriginalBytes(none, none, none, (), (), np.zeros(0, bool))
     originals_file.write(tmp_path / "originals.parquet", nothing, stored, {})
     assert pq.read_schema(tmp_path / "originals.parquet").remove_metadata() == originals_file.SCHEMA
     assert originals_file.read(tmp_path / "originals.parquet").positions.shape == (0, 3)

@@ -2,18 +2,20 @@
 
 import json
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from markermend import api
+from markermend.core.changes import Change, Outcome
 from markermend.export.write_back import write_certificate
-from markermend.terminal import command_line
+from markermend.terminal import command_line, undo
 from support import c3d_files
 
 
-def add(results, subject, recording, *, name="walk.c3d", peak=True):
-    """Results of a recording with a peak of marker M1 in frames 11 to 13; gives the bytes of its original."""
+def add(results, subject, recording, *, name="walk.c3d", peak=True, other=False):
+    """Results of a recording with a peak of marker M1 in frames 11 to 13, and another of M2 in frames 21 to 23; gives the bytes of its original."""
     folder = results / subject / recording
     folder.mkdir(parents=True)
     positions = np.cumsum(np.random.default_rng(3).normal(0, 2, (40, 4, 3)), axis=0) + 500
@@ -24,6 +26,11 @@ def add(results, subject, recording, *, name="walk.c3d", peak=True):
     if peak:
         done.recording.positions[10:13, 1] += 7.0
         done.recording.origin[10:13, 1] = 1
+    if other:
+        done.recording.positions[20:23, 2] += 7.0
+        done.recording.origin[20:23, 2] = 1
+        places = (("M1", 10, 13), ("M2", 20, 23))
+        done = replace(done, changes=tuple(Change(*place, ("peak",), Outcome.REPAIRED) for place in places))
     cleaned_name = f"{recording}.c3d" if name == "walk.c3d" else name
     cleaned = results / "cleaned" / subject.replace("%20", " ") / cleaned_name
     cleaned.parent.mkdir(parents=True, exist_ok=True)
@@ -138,3 +145,24 @@ def test_two_recordings_of_one_file_name_go_where_their_cleaned_files_are(result
         "S01/turn/a.c3d",
         "S01/walk/a.c3d",
     }
+
+
+def test_finding_by_finding_goes_on_in_the_same_folder(results, tmp_path, capsys):
+    content = add(results, "S01", "walk", other=True)
+    assert run(results, "--to", tmp_path / "back", "--markers", "M1") == 0
+    assert capsys.readouterr().out.startswith("S01/walk: 3 samples restored (M1 11 to 13), 3 stay cleaned: ")
+    assert run(results, "--to", tmp_path / "back", "--markers", "M2", "--frames", "22", "22") == 0
+    assert capsys.readouterr().out.startswith("S01/walk: the original, bit for bit: ")
+    assert (tmp_path / "back/S01/walk.c3d").read_bytes() == content
+
+
+def test_a_trc_that_was_written_besides_is_left_and_one_line_says_so(results, tmp_path, capsys):
+    for recording in ("walk", "turn"):
+        add(results, "S01", recording)
+        path = results / "S01" / recording / "certificate.json"
+        path.write_text(json.dumps({**json.loads(path.read_text()), "trc": {"unit": "mm"}}))
+        (results / f"cleaned/S01/{recording}.trc").write_text("cleaned")
+    assert run(results, "--to", tmp_path / "back") == 0
+    assert capsys.readouterr().out.splitlines()[2:] == [undo.TRC_STAYS]
+    assert sorted(path.name for path in (tmp_path / "back/S01").iterdir()) == ["turn.c3d", "walk.c3d"]
+    assert (results / "cleaned/S01/walk.trc").read_text() == "cleaned"
