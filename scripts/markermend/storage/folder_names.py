@@ -20,7 +20,9 @@ RESERVED_SUBJECTS = frozenset({CLEANED, "report", "papers"})
 RESERVED_RECORDINGS = frozenset({"mesh.json", "poses.parquet", "logs", "failures.tsv"})
 """Names beside the recordings' folders of a subject that are ours."""
 
-DEVICES = frozenset({"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))})
+DEVICES = frozenset(
+    {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in range(10))}
+)
 """Names that stand for devices on Windows, whatever follows after a dot: results may be copied there."""
 
 
