@@ -1,13 +1,27 @@
-"""Puts the workflow into the wheel: Snakefile, rules, scripts, config, environments and profiles, as they lie here."""
+"""Builds the package: its description, and the workflow in the wheel (Snakefile, rules, scripts, config, environments and profiles, as they lie here)."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 FOLDER = "markermend/installed_workflow"
+
+RELATIVE = re.compile(r"\[([^\]]+)\]\((?!\w+:|#)[^)]+\)")
+"""A link to another file of the project."""
+
+
+class DescriptionHook(MetadataHookInterface):
+    """Gives the package the README as its description."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Put the text in, with the names of other files where it links to them: they do not lie beside a description."""
+        text = Path(self.root, "README.md").read_text(encoding="utf-8")
+        metadata["readme"] = {"content-type": "text/markdown", "text": RELATIVE.sub(r"\1", text)}
 
 
 class WorkflowHook(BuildHookInterface[Any]):

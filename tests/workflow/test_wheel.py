@@ -70,6 +70,14 @@ def test_the_wheel_holds_the_package_and_the_workflow(wheel):
     assert not [name for name in names if "__pycache__" in name or name.startswith(f"{HERE}/scripts/markermend")]
 
 
+def test_its_description_is_the_readme_without_links_that_lead_nowhere(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = [name for name in archive.namelist() if name.endswith(".dist-info/METADATA")]
+        text = archive.read(name).decode()
+    assert "Content-Type: text/markdown" in text and "## How to cite" in text
+    assert not re.findall(r"\]\((?!https://|#)", text)
+
+
 def test_the_installed_workflow_gives_the_bytes_of_the_checkout(environment, project, tmp_path):
     words = ["clean", project.recordings, "--results", tmp_path / "out", "--cores", "2"]
     text = run(environment / "markermend", *words, cwd=tmp_path)
