@@ -1,5 +1,6 @@
-"""Remarks on decisions: why, by whom and when. What is computed does without them, so that another remark repeats none of it; what people read has
-them again.
+"""Remarks on decisions: why, by whom and when.
+
+What is computed does without them, so that another remark repeats none of it; what people read has them again.
 """
 
 from __future__ import annotations

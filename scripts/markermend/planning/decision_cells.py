@@ -18,6 +18,9 @@ STAGES = Counter(artifact.stage for artifact in ARTIFACTS)
 NAMES = {**{artifact.stage: artifact.name for artifact in ARTIFACTS if STAGES[artifact.stage] == 1}, "filled": GAP}
 """Classes by the names of the detectors that find no other, and what changes.tsv calls a gap that was filled."""
 
+STATED = tuple(name for name, own in BY_NAME.items() if name != "swap" and own.origin != "adopted")
+"""The classes that a person can state; as a swap also `swap:OTHER`, between two markers."""
+
 METHOD_NAMES = {"swap": "exchange"}
 """Methods that changes.tsv calls otherwise than the config."""
 
@@ -145,9 +148,8 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
             raise Problem(
                 "value", f"{value!r}: a swap is between two markers, write one as the marker and swap:OTHER here"
             )
-        stated = [name for name, own in BY_NAME.items() if name != "swap" and own.origin != "adopted"]
-        if kind not in (*stated, "swap") or (partner and kind != "swap"):
-            raise Problem("value", _unknown(value, [*stated, "swap:OTHER"]))
+        if kind not in (*STATED, "swap") or (partner and kind != "swap"):
+            raise Problem("value", _unknown(value, [*STATED, "swap:OTHER"]))
         if partner == row["marker"]:
             raise Problem("value", f"{value!r}: the other marker is the same")
     return value

@@ -12,6 +12,8 @@ from markermend.core.artifacts import BY_NAME
 from markermend.core.changes import DECLARED_MISSING, GAP, Change
 from markermend.core.decisions import LEAVE
 from markermend.core.recording import Recording, Restored
+from markermend.planning.decision_cells import STATED
+from markermend.report.open_findings import markers_of
 
 BLANK = "blank"
 """The method that takes samples away, to be filled as a gap; it can be used on any artifact but labels."""
@@ -120,7 +122,10 @@ def _position(recording: Recording, marker: str, row: int | None) -> tuple[float
 
 
 def decidable(
-    lines: Iterable[FindingLine], first_frame: int, stages: Mapping[str, Mapping[str, Any]]
+    lines: Iterable[FindingLine],
+    recording: Recording,
+    record: Sequence[Change],
+    stages: Mapping[str, Mapping[str, Any]],
 ) -> dict[str, Any]:
     """State what a person may decide about each finding, for the page to offer it.
 
@@ -128,22 +133,29 @@ def decidable(
     ----------
     lines : iterable of FindingLine
         The findings, by their numbers.
-    first_frame : int
-        The capture program's number of row 0.
+    recording : Recording
+        The recording that they are in.
+    record : sequence of Change
+        What repair and filling did to each stretch.
     stages : mapping of str to mapping
         The options of the stages, which name the usual methods.
 
     Returns
     -------
     dict of str to Any
-        JSON values: `findings`, for each its `marker`, `first_frame`, `last_frame`, `classes`, the `value` with which the table accepts or
+        JSON values: the `markers` and the first and last of all `frames` of the recording; the `classes` that a person can state; `findings`, for
+        each its `marker`, all `markers` as the table names them, `first_frame`, `last_frame`, `classes`, the `value` with which the table accepts or
         rejects it (None where it cannot), and the `errors` (68 %, mm) of methods that were tried; `methods`, the usual methods by class.
     """
-    found = [line.change for line in lines]
+    found, first_frame = [line.change for line in lines], recording.first_frame
     return {
+        "markers": list(recording.markers),
+        "frames": [first_frame, first_frame + recording.frames - 1],
+        "classes": list(STATED),
         "findings": [
             {
                 "marker": change.marker,
+                "markers": _pattern(markers_of(change, record), recording),
                 "first_frame": change.start + first_frame,
                 "last_frame": change.stop + first_frame - 1,
                 "classes": list(change.classes),
@@ -156,6 +168,11 @@ def decidable(
             name: _methods(name, stages) for name in sorted({name for change in found for name in change.classes})
         },
     }
+
+
+def _pattern(markers: list[str], recording: Recording) -> list[str]:
+    """The markers of a finding, or the pattern of all."""
+    return ["*"] if len(markers) == len(recording.markers) > 1 else markers
 
 
 def _value(classes: Sequence[str]) -> str | None:

@@ -77,6 +77,26 @@ def _joint(parts: Sequence[Change]) -> Change:
     )
 
 
+def markers_of(finding: Change, changes: Iterable[Change]) -> list[str]:
+    """List the markers of a finding.
+
+    Parameters
+    ----------
+    finding : Change
+        The finding; of one about several markers the change that stands for all.
+    changes : iterable of Change
+        What repair and filling did to each stretch.
+
+    Returns
+    -------
+    list of str
+        The markers by name.
+    """
+    joint = finding.group is not None
+    same = [c for c in changes if joint and (c.group, c.classes) == (finding.group, finding.classes)]
+    return sorted({finding.marker, *(change.marker for change in same if overlap(change, finding))})
+
+
 def reasons_for_blanking(applied: Iterable[Change], changes: Iterable[Change]) -> dict[Change, str]:
     """Say why samples were taken away where there is a change now.
 

@@ -198,7 +198,7 @@ def page(seen: Evidence, summary: Mapping[str, Any], options: QcOptions) -> str:
             seen.before, seen.after, seen.mesh, [line.change for line in plotted], context_s=options.context_s
         ),
         decidable={
-            **decidable((*changed, *left), seen.before.first_frame, seen.stages),
+            **decidable((*changed, *left), seen.before, seen.record, seen.stages),
             "decided": list(seen.decisions),
             "recording": summary["recording"],
             "subject": summary["subject"],

@@ -11,7 +11,17 @@ PATTERNS = IngestOptions().computed
 @pytest.mark.parametrize(
     "name",
     [
-        *("LHJC", "R_HJC", "L_HJC_reg", "RKJC", "HJC_L", "Anna:LAJC", "L_KneeJointCenter", "Pelvis_LFemur_score", "knee_sara"),
+        *(
+            "LHJC",
+            "R_HJC",
+            "L_HJC_reg",
+            "RKJC",
+            "HJC_L",
+            "Anna:LAJC",
+            "L_KneeJointCenter",
+            "Pelvis_LFemur_score",
+            "knee_sara",
+        ),
         *("COM", "CentreOfMass", "CentreOfMassFloor", "Center of Mass", "LHipAngles", "RAbsAnkleAngle"),
         *("LKneeMoment", "RGroundReactionForce", "LNormalisedGroundReactionForce"),
     ],

@@ -1,6 +1,7 @@
 """The line of a finding: where its values are stated, and what a person may decide about it."""
 
 from markermend.core.changes import Alternative, Change, Outcome
+from markermend.planning.decision_cells import parse
 from markermend.report.finding_lines import decidable, finding_lines
 from support.small_result import RECORD
 
@@ -49,9 +50,9 @@ def test_a_person_may_name_the_methods_of_the_class(before, after):
         Change("C", 4, 6, ("missing",), Outcome.BLANKED),
         Change("C", 7, 8, ("shift",), Outcome.LEFT, group="all"),
     ]
-    stated = decidable(lines_of(changes, [], before, after), 101, STAGES)
+    stated = decidable(lines_of(changes, [], before, after), before, changes, STAGES)
     assert stated["findings"][0] == {
-        "marker": "A", "first_frame": 103, "last_frame": 104, "classes": ["peak"], "value": "peak",
+        "marker": "A", "markers": ["A"], "first_frame": 103, "last_frame": 104, "classes": ["peak"], "value": "peak",
         "errors": {"local_ridge": 3.5},
     }  # fmt: skip
     assert [finding["value"] for finding in stated["findings"]] == ["peak", "swap", "", "gap", None, "shift"]
@@ -63,3 +64,29 @@ def test_a_person_may_name_the_methods_of_the_class(before, after):
         "slow": ["blank", "leave"],
         "swap": ["exchange", "leave"],
     }
+
+
+def test_all_markers_of_a_joint_finding_are_named_as_in_the_table(before, after):
+    slip = [Change(name, 2, 4, ("slip",), Outcome.LEFT, group="foot") for name in ("C", "A")]
+    later = Change("B", 5, 6, ("slip",), Outcome.LEFT, group="foot")
+    shift = [Change(name, 7, 8, ("shift",), Outcome.LEFT, group="all markers") for name in before.markers]
+    stated = decidable(lines_of([slip[0], shift[0]], [], before, after), before, [*slip, later, *shift], STAGES)
+    assert [finding["markers"] for finding in stated["findings"]] == [["A", "C"], ["*"]]
+
+
+def test_what_a_person_may_state_of_any_frames(before, after):
+    stated = decidable([], before, [], STAGES)
+    assert (stated["markers"], stated["frames"], stated["findings"]) == (["A", "B", "C"], [101, 110], [])
+    for name in stated["classes"]:
+        row = {
+            "recording": "r",
+            "marker": "A",
+            "decision": "class",
+            "value": name,
+            "first_frame": "101",
+            "last_frame": "102",
+        }
+        assert dict(parse(row, ()))["value"] == name
+    assert {"peak", "slow", "foreign"} <= set(stated["classes"]) and not {"swap", "unlabelled", "gap"} & set(
+        stated["classes"]
+    )

@@ -62,7 +62,7 @@ function introduce(text) {
   try { store?.setItem(NAME, person); } catch { keeps = false; }
   for (const [key, state] of allWaiting()) {
     const added = state.added.map((line) => line.map((cell, i) => (i === BY && !cell ? person : cell)));
-    if (added.some((line, i) => line[BY] !== state.added[i][BY])) writeWaiting(key, { ...state, added });
+    if (added.some((line, i) => line[BY] !== state.added[i][BY])) writeWaiting(key, { added, withdrawn: state.withdrawn });
   }
 }
 // What the last run has followed waits no longer.

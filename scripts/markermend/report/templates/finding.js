@@ -27,7 +27,8 @@ function detailsOf(row) {
   const plot = document.getElementById("data-" + row.id), place = element("div", { className: "plot" }), figure = element("div", { className: "figure" });
   const left = plot ? place : element("p", { className: "soft", textContent: "No plot: gaps that were left have none, and of the others the worst (option qc: plots)." });
   const cell = element("td", { colSpan: row.cells.length },
-    element("div", { className: "opened" }, element("div", { className: "sheet" }, left, figure), element("p", {}, reasonField(finding), " ", element("span", { className: "soft", textContent: tried(finding) }))));
+    element("div", { className: "opened" }, element("div", { className: "sheet" }, left, figure), element("p", {}, reasonField(finding), " ", element("span", { className: "soft", textContent: tried(finding) })),
+      element("details", { className: "other screen" }, element("summary", { textContent: "Decide on other frames, or state what they are" }), stretchForm(finding, plot ? place : null))));
   return { finding, plot, place, figure, below: element("tr", { className: "drawn" }, cell) };
 }
 function state(row, open) {

@@ -33,9 +33,16 @@ function pick(name) {
   list.value = option.value;
   list.dispatchEvent(new Event("change"));
 }
+function stateFrames() {
+  if (!chosen) return;
+  if (!isOpen(chosen)) openFinding(chosen);
+  const form = chosen.nextElementSibling.querySelector("details.other");
+  form.open = true;
+  form.querySelector("input").focus();
+}
 const KEYS = {
   j: () => stepFinding(1), k: () => stepFinding(-1), J: () => stepRecording(1), K: () => stepRecording(-1),
-  a: () => pick("accept"), r: () => pick("reject"), p: () => pick("protect"), u: () => pick(""), m: () => chosen?.querySelector("select")?.focus(),
+  a: () => pick("accept"), r: () => pick("reject"), p: () => pick("protect"), u: () => pick(""), m: () => chosen?.querySelector("select")?.focus(), f: stateFrames,
 };
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
