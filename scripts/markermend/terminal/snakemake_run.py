@@ -108,5 +108,6 @@ def _conclusion(status: int, log: Path, summary: Path, progress: Progress) -> li
         told = [line for message in progress.errors for line in message.splitlines() if not WHERE.match(line)]
         lines = told or [line for line in text if line.strip()][-LAST_LINES:]
     else:
-        lines = ["Nothing to be done: all results are up to date."]
+        index = log.parent.parent / "index.html"
+        lines = ["Nothing to be done: all results are up to date.", *[f"Report: {index}"] * index.exists()]
     return [*lines, f"What Snakemake said: {log}"] if status else lines

@@ -55,8 +55,10 @@ def test_what_snakemake_prints_is_in_the_log(run, tmp_path):
     assert (tmp_path / "report/logs/run.log").read_text() == "what it says\n"
 
 
-def test_a_run_with_nothing_to_do_says_so(run):
+def test_a_run_with_nothing_to_do_says_so_and_where_the_report_is(run, tmp_path):
     assert run([]) == (0, "Nothing to be done: all results are up to date.\n")
+    (tmp_path / "report/index.html").touch()
+    assert run([])[1].endswith(f"are up to date.\nReport: {tmp_path}/report/index.html\n")
 
 
 def test_an_earlier_summary_is_not_shown(run):
