@@ -302,11 +302,18 @@ def test_links_carry_what_waits_where_pages_share_no_storage(browser, report, wa
     """As in browsers that keep a storage for each file, or none."""
     browser.context.add_init_script(REFUSED)
     page = browser.open(walk)
+    page.get_by_label("Your name or initials").fill("王 A.")
+    page.get_by_label("Your name or initials").blur()
     decide(page, row_of(page, "peak"), "reject peak")
     for name in ("Recording ›", "‹ Recording"):
         page.get_by_role("button", name=name).click()
         page.wait_for_selector("#waiting button")
         assert "1 decision waiting" in page.locator("#waiting").inner_text() and "#waiting" not in page.url
+        assert page.get_by_label("Your name or initials").input_value() == "王 A."
+    with browser.context.expect_page() as opened:
+        page.get_by_role("link", name="All recordings").click(button="middle")
+    opened.value.wait_for_selector("#waiting button.main")
+    assert "1 decision waiting" in opened.value.locator("#waiting").inner_text()
     page.get_by_role("link", name="All recordings").click()
     page.wait_for_selector("#table")
     page.wait_for_selector("#waiting button.main")

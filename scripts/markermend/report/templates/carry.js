@@ -21,11 +21,15 @@ function takeCarried() {
   } catch { /* not of our making */ }
   history.replaceState(null, "", location.href.split("#")[0]);
 }
-document.addEventListener("click", (event) => {
+// The link to another page that an event is about, with what waits.
+function laden(event) {
   const link = event.target.closest?.("a[href]");
   const address = link?.href.split("#")[0];
-  if (!address?.endsWith(".html") || !address.startsWith(results) || address === location.href.split("#")[0]) return;
+  if (!address?.endsWith(".html") || !address.startsWith(results) || address === location.href.split("#")[0]) return null;
   link.href = address + carried();
-  carrying = !event.defaultPrevented;
-});
+  return link;
+}
+// Also for a middle click and the menu of a link, which open it elsewhere.
+document.addEventListener("pointerdown", laden);
+document.addEventListener("click", (event) => { if (laden(event)) carrying = !event.defaultPrevented; });
 takeCarried();

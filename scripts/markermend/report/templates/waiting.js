@@ -32,6 +32,8 @@ function discard() {
   for (const key of allWaiting().keys()) writeWaiting(key, { added: [], withdrawn: [] });
   document.dispatchEvent(new Event("decisions"));
 }
+// Firefox keeps a storage for each page that is opened from a folder.
+document.getElementById("apart").hidden = location.protocol !== "file:" || !navigator.userAgent.includes("Firefox");
 const own = document.getElementById("person");
 own.value = person;
 own.addEventListener("change", () => {
