@@ -28,7 +28,7 @@ from pathlib import Path
 
 from benchmarks.support import result_tables
 from markermend.core.artifacts import DETECTORS
-from markermend.planning.plan import FINISHING
+from markermend.options.general import FINISHING
 from markermend.storage import output_checksums
 
 PROJECT = Path(__file__).resolve().parents[2]

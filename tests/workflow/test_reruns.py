@@ -16,8 +16,8 @@ import pytest
 import yaml
 
 from markermend.core.artifacts import DETECTORS
+from markermend.options.general import FINISHING
 from markermend.planning import code_hashes
-from markermend.planning.plan import FINISHING
 from markermend.storage import stage_files
 from support.workflow_runs import Project, write_recording
 

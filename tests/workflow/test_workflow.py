@@ -15,7 +15,7 @@ import yaml
 from markermend.core.artifacts import DETECTORS
 from markermend.options.config import SECTIONS
 from markermend.options.flags import stage_options
-from markermend.planning.plan import FINISHING
+from markermend.options.general import FINISHING
 from support.workflow_runs import PROJECT, Project, write_recording
 
 RULES = ("ingest", "mesh", "detect", "repair", "poses", "finish", "report")

@@ -48,7 +48,7 @@ rule artifacts2022_networks:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("artifacts2022_networks"),
+        code=commands.code("artifacts2022_networks"),
         seed=papers.options.seed,
         options=artifacts2022["runs"].flag,
     message:
@@ -75,7 +75,7 @@ rule artifacts2022_runs:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("artifacts2022_runs"),
+        code=commands.code("artifacts2022_runs"),
         seed=papers.options.seed,
         options=artifacts2022["runs"].flag,
     message:
@@ -104,7 +104,7 @@ rule artifacts2022_readings:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("artifacts2022_readings"),
+        code=commands.code("artifacts2022_readings"),
         seed=papers.options.seed,
         options=artifacts2022["readings"].flag,
     message:
@@ -132,7 +132,7 @@ rule artifacts2022_slow:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(120),
     params:
-        code=plan.code("artifacts2022_slow"),
+        code=commands.code("artifacts2022_slow"),
         seed=papers.options.seed,
         options=artifacts2022["slow"].flag,
     message:
@@ -161,7 +161,7 @@ rule artifacts2022_repairs:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(120),
     params:
-        code=plan.code("artifacts2022_repairs"),
+        code=commands.code("artifacts2022_repairs"),
         seed=papers.options.seed,
         options=artifacts2022["repairs"].flag,
     message:
@@ -191,7 +191,7 @@ rule artifacts2022_operators:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("artifacts2022_operators"),
+        code=commands.code("artifacts2022_operators"),
         seed=papers.options.seed,
         options=artifacts2022["operators"].flag,
     message:
@@ -225,7 +225,7 @@ rule artifacts2022_tables:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("artifacts2022_tables"),
+        code=commands.code("artifacts2022_tables"),
         runs=artifacts2022_lists,
         tables=f"{papers.folder}/artifacts2022/tables",
     message:

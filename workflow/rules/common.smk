@@ -16,9 +16,10 @@ sys.path.insert(0, str(PROJECT / "scripts"))
 # A plan consists of millions of objects that stay: looking through them for garbage every now and then took a fifth of the time.
 gc.set_threshold(100_000, 50, 1000)
 
+from markermend.options.general import FINISHING
 from markermend.planning import end_of_run
 from markermend.planning.missing_results import count_missing, find_missing
-from markermend.planning.plan import FINISHING, make_plan
+from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
 from markermend.storage.atomic import check_writable
 
@@ -37,7 +38,7 @@ except (BadDataSet, OSError) as error:
 if workflow.is_main_process:
     print(*plan.warnings, sep="\n", end="\n" * bool(plan.warnings), file=sys.stderr)
 
-files = plan.files
+files, commands = plan.files, plan.commands
 
 
 def in_one_line(write):

@@ -24,8 +24,8 @@ if plan.detectors:
             mem_mb=plan.data.need(2000),
             runtime=plan.data.need(30),
         params:
-            code=plan.code("detect"),
-            stages=plan.flags_file(*plan.detectors),
+            code=commands.code("detect"),
+            stages=commands.flags_file(*plan.detectors),
             failures=plan.failed(*plan.detectors),
         message:
             "Detect artifacts in {wildcards.subject}/{wildcards.recording}"

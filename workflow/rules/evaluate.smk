@@ -60,7 +60,7 @@ rule papers_recording:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("papers_recording"),
+        code=commands.code("papers_recording"),
         recording=papers.recording_flags,
     message:
         "Prepare {wildcards.recording}"
@@ -83,7 +83,7 @@ rule papers_script:
         mem_mb=plan.data.need(1000),
         runtime=plan.data.need(5),
     params:
-        code=plan.code("papers_script"),
+        code=commands.code("papers_script"),
     message:
         "Copy the plotting script"
     shell:
@@ -112,7 +112,7 @@ rule papers_page:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("papers_page", "evaluation/templates", "report/templates"),
+        code=commands.code("papers_page", "evaluation/templates", "report/templates"),
         options=papers.paper_options,
         note=papers.note,
     message:
@@ -139,7 +139,7 @@ rule papers_index:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("papers_index", "evaluation/templates", "report/templates"),
+        code=commands.code("papers_index", "evaluation/templates", "report/templates"),
     message:
         "Put the papers together"
     shell:

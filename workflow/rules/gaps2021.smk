@@ -32,7 +32,7 @@ rule gaps2021_runs:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(240),
     params:
-        code=plan.code("gaps2021_runs"),
+        code=commands.code("gaps2021_runs"),
         seed=papers.options.seed,
         options=gaps2021["runs"].flag,
     message:
@@ -59,7 +59,7 @@ rule gaps2021_descriptors:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("gaps2021_descriptors"),
+        code=commands.code("gaps2021_descriptors"),
         options=gaps2021["descriptors"].flag,
     message:
         "Describe {wildcards.recording}"
@@ -93,7 +93,7 @@ rule gaps2021_tables:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("gaps2021_tables"),
+        code=commands.code("gaps2021_tables"),
         runs=gaps2021["runs"].list_file,
         described=gaps2021["descriptors"].list_file,
         options=papers.flag("gaps2021", "networks", "published_as"),

@@ -19,8 +19,8 @@ rule ingest:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(5),
     params:
-        code=plan.code("ingest"),
-        options=plan.stage_options("ingest"),
+        code=commands.code("ingest"),
+        options=commands.stage_options("ingest"),
         failures=plan.failed("ingest"),
         source=plan.data.original,
         within=plan.data.within,
@@ -49,8 +49,8 @@ rule mesh:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(20),
     params:
-        code=plan.code("mesh"),
-        options=plan.stage_options("mesh"),
+        code=commands.code("mesh"),
+        options=commands.stage_options("mesh"),
         failures=plan.failed("mesh"),
         list=files.markers_list,
     message:

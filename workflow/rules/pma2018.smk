@@ -46,7 +46,7 @@ rule pma2018_runs:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("pma2018_runs"),
+        code=commands.code("pma2018_runs"),
         seed=papers.options.seed,
         options=pma2018["runs"].flag,
     message:
@@ -79,7 +79,7 @@ rule pma2018_tables:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("pma2018_tables"),
+        code=commands.code("pma2018_tables"),
         runs=pma2018["runs"].list_file,
         options=pma2018_options,
     message:

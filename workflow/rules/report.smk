@@ -21,7 +21,7 @@ rule collect:
         mem_mb=plan.data.need(2000),
         runtime=plan.data.need(10),
     params:
-        code=plan.code("collect"),
+        code=commands.code("collect"),
         failures=plan.failed("collect"),
         list=files.batch_list,
     message:
@@ -49,8 +49,8 @@ rule report:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(20),
     params:
-        code=plan.code("report"),
-        options=plan.stage_options("report"),
+        code=commands.code("report"),
+        options=commands.stage_options("report"),
         failures=plan.failed("report"),
         list=files.quality_list,
         decisions=files.decision_table,

@@ -26,8 +26,8 @@ rule repair:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(30),
     params:
-        code=plan.code("repair"),
-        options=plan.stage_options("repair"),
+        code=commands.code("repair"),
+        options=commands.stage_options("repair"),
         decisions=plan.data.bare_decisions_flag,
         failures=plan.failed("repair"),
     message:
@@ -55,8 +55,8 @@ rule poses:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(20),
     params:
-        code=plan.code("poses"),
-        options=plan.stage_options("poses"),
+        code=commands.code("poses"),
+        options=commands.stage_options("poses"),
         failures=plan.failed("poses"),
         list=files.repaired_list,
     message:
@@ -94,8 +94,8 @@ rule finish:
         mem_mb=plan.data.need(4000),
         runtime=plan.data.need(60),
     params:
-        code=plan.code("finish"),
-        stages=plan.flags_file(*FINISHING),
+        code=commands.code("finish"),
+        stages=commands.flags_file(*FINISHING),
         decisions=plan.data.decisions_flag,
         failures=plan.failed(*FINISHING),
         source=plan.data.original,

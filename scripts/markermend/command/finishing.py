@@ -14,10 +14,8 @@ from typing import Any
 
 from markermend.command import shared_job
 from markermend.core.remarks import without_remarks
+from markermend.options.general import FINISHING
 from markermend.options.values import text
-
-STAGES = ("fill", "export", "qc")
-"""The stages in their order."""
 
 NAMES = {("export", "record"): "changes", ("export", "changes"): "table"}
 """What the command calls files of a stage that are called otherwise there."""
@@ -77,7 +75,7 @@ def run(scripts: Path, description: str, argv: Sequence[str] | None = None) -> N
         "export": [f"--within={given['within']}", *decided],
         "qc": decided,
     }
-    for stage in STAGES:
+    for stage in FINISHING:
         module = import_module(stage)
         words = [*_files(module.STAGE, given), *given["stages"][stage], *own.get(stage, [])]
         module.STAGE.run(

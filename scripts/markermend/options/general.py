@@ -11,6 +11,9 @@ from markermend.options.declaration import Distinct, Laboratory, NotEmpty, Regul
 EXPERIMENTS = "evaluate"
 """The key of the config that the experiments of the papers read, and no stage."""
 
+FINISHING = ("fill", "export", "qc")
+"""The stages that finish a recording, in their order; they share a job, `finish`."""
+
 Stages = Literal["labels", "frames", "frozen", "tails", "peaks", "noise", "steps", "slow"]
 """The classes of artifacts that `detect` may list."""
 

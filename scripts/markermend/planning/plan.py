@@ -1,13 +1,11 @@
-"""What a run consists of, for the rules to ask: recordings, result files, and what each command depends on.
+"""What a run consists of, for the rules to ask: recordings, result files, and what each job is about.
 
-Reads: the recordings' folder or table, the decisions, failures.tsv among the results, the code of the stages.
+Reads: the recordings' folder or table, the decisions, failures.tsv among the results.
 Writes: lists of files beside the results, and the flags of stages that share a job.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,11 +14,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import markermend
 from markermend.core.artifacts import DETECTORS
-from markermend.options.flags import flags, write_flags
-from markermend.options.general import EXPERIMENTS
-from markermend.planning import cleaned_tree, code_hashes
+from markermend.options.general import EXPERIMENTS, FINISHING
+from markermend.planning import cleaned_tree
 from markermend.planning import config as planning_config
 from markermend.planning.batches import batches
 from markermend.planning.code_changes import code_changes, unnoticed_changes
@@ -28,18 +24,10 @@ from markermend.planning.data_set import DataSet, Wildcards, find_data_set
 from markermend.planning.marker_names import unknown_names
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY, ResultFiles
+from markermend.planning.stage_commands import StageCommands
 from markermend.prediction.neural_network.predictor import KINDS as NETWORKS
 from markermend.prediction.registry import learn_from_pool
 from markermend.storage.atomic import write_json, write_list, write_text
-
-LIBRARY = Path(markermend.__file__).parent
-"""The folder of the package."""
-
-FINISHING = ("fill", "export", "qc")
-"""The stages that finish a recording, in their order."""
-
-READS_BESIDES = {"qc": ("report/templates",), "report": ("report/templates",)}
-"""Files and folders of the package that a stage reads besides its modules."""
 
 
 @dataclass(frozen=True)
@@ -79,39 +67,10 @@ class Plan:
         """The detectors that run, in their strict order."""
         return [stage for stage in DETECTORS if stage in self.options["general"].detect]
 
-    def flags(self, *stages: str) -> dict[str, list[str]]:
-        """List the options and the code of stages that run in one job.
-
-        Parameters
-        ----------
-        *stages : str
-            Their names.
-
-        Returns
-        -------
-        dict of str to list of str
-            The flags of the command of each.
-        """
-        return {stage: [f"--code={self.code(stage)}", *flags(self.options[stage])] for stage in stages}
-
-    def flags_file(self, *stages: str) -> str:
-        """Name the file of these flags: its name is another where a flag is, and the job that reads it runs again.
-
-        The flags themselves would be in the command that Snakemake records of each of the files that the job writes, in all a hundred
-        thousand bytes a recording.
-
-        Parameters
-        ----------
-        *stages : str
-            Their names.
-
-        Returns
-        -------
-        str
-            Its path.
-        """
-        content = json.dumps(self.flags(*stages), sort_keys=True)
-        return self.files.flags.format(checksum=hashlib.sha256(content.encode()).hexdigest()[:16])
+    @cached_property
+    def commands(self) -> StageCommands:
+        """What the commands of stages depend on."""
+        return StageCommands(self.options, self.project, self.files)
 
     @property
     def trains_networks(self) -> bool:
@@ -202,26 +161,6 @@ class Plan:
         chosen = self.data.chosen(subject, at_most=self.options["mesh"].max_recordings)
         return [pattern.format(subject=subject, recording=recording) for recording in chosen]
 
-    def code(self, stage: str, *extra: str) -> str:
-        """Hash the code of a stage: an edit of a module reruns the stages that use it.
-
-        Parameters
-        ----------
-        stage : str
-            Name of its script.
-        *extra : str
-            Files and folders of the package that the stage reads, besides those of READS_BESIDES.
-
-        Returns
-        -------
-        str
-            The first 16 hex digits of the sha256 of its script and modules, and what it reads besides. Snakemake keeps the parameters of every
-            job, and writes them to disk for every file: a hundred hashes each would be most of its memory.
-        """
-        read = map(LIBRARY.joinpath, (*READS_BESIDES.get(stage, ()), *extra))
-        entries = code_hashes.code(self.project / "scripts" / f"{stage}.py", read)
-        return hashlib.sha256("\n".join(entries).encode()).hexdigest()[:16]
-
     def cleaned(self, wildcards: Wildcards) -> str:
         """The cleaned file of a recording; see `DataSet.entry`."""
         return f"{self.files.cleaned}/{self.data.places[wildcards.subject, wildcards.recording]}"
@@ -239,26 +178,6 @@ class Plan:
         places = self.data.places.values()
         stems = Counter(place.rpartition(".")[0] for place in places)
         return frozenset([*places, *(f"{stem}.trc" for stem, count in stems.items() if count > 1)])
-
-    def stage_options(self, stage: str) -> Callable[[Wildcards], str]:
-        """Write the options of a stage as flags.
-
-        Parameters
-        ----------
-        stage : str
-            Its name.
-
-        Returns
-        -------
-        callable
-            Gives the flags to every job; a function, so that Snakemake leaves braces in values as they are.
-        """
-        flags = write_flags(self.options[stage])
-
-        def of_stage(wildcards: Wildcards) -> str:
-            return flags
-
-        return of_stage
 
     def failed(self, *stages: str) -> Callable[[Wildcards], int]:
         """Count the failures of the stages of a job: one more, and the next run tries again.
@@ -283,7 +202,7 @@ class Plan:
     def write_lists(self) -> None:
         """Write what commands have no room for: flags of stages, the table of decisions, lists of files for meshes, poses and report."""
         for stages in (self.detectors, FINISHING):
-            write_json(Path(self.flags_file(*stages)), self.flags(*stages))
+            write_json(Path(self.commands.flags_file(*stages)), self.commands.flags(*stages))
         write_text(Path(self.files.decision_table), self.data.decision_table)
         write_list(self.files.quality_list, self.report_files)
         if len(self.batches) > 1:

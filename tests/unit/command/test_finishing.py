@@ -15,7 +15,7 @@ import repair
 from markermend.core.recording import BadRecording
 from markermend.options.config import read_config
 from markermend.options.flags import flags, write_flags
-from markermend.planning.plan import FINISHING
+from markermend.options.general import FINISHING
 from markermend.storage import output_checksums
 from support.paths import PROJECT
 from support.workflow_runs import write_recording

@@ -1,17 +1,13 @@
 """The plan of a run, asked as the rules ask it but without Snakemake."""
 
 import json
-import shlex
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from markermend.core.artifacts import DETECTORS
-from markermend.options.config import SECTIONS
-from markermend.options.flags import stage_options
 from markermend.planning import end_of_run
-from markermend.planning.plan import FINISHING, Plan, make_plan
+from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
 from support.paths import PROJECT
 
@@ -59,28 +55,6 @@ def test_detectors_that_run_have_events_in_their_strict_order(plan, config):
     assert some.events == [plan.files.events["peaks"], plan.files.events["slow"]]
 
 
-def test_the_flags_of_stages_that_share_a_job_lie_in_a_file_that_has_another_name_where_one_changes(
-    plan, config, monkeypatch
-):
-    def name(config):
-        made = make_plan(config, PROJECT, deployed=False)
-        return made.flags_file(*made.detectors)
-
-    plan.write_lists()
-    for stages in (plan.detectors, FINISHING):
-        assert json.loads(Path(plan.flags_file(*stages)).read_text(encoding="utf-8")) == plan.flags(*stages)
-    code, *options = plan.flags("slow")["slow"]
-    assert code == f"--code={plan.code('slow')}"
-    assert options == shlex.split(plan.stage_options("slow")(job()))
-    assert name(config) == plan.flags_file(*plan.detectors)
-    changed = [{**config, "detect": ["peaks"]}, {**config, "frozen": {**config["frozen"], "min_frames": 9}}]
-    names = {name(each) for each in changed}
-    monkeypatch.setattr(Plan, "code", lambda plan, stage: "edited")
-    names.add(name(config))
-    monkeypatch.undo()
-    assert len({*names, plan.flags_file(*plan.detectors)}) == 4
-
-
 def test_cleaned_files_go_to_a_tree_under_their_own_names_with_a_copy_as_trc_on_request(plan, config, tmp_path):
     folders = list(plan.data.entries)
     assert [plan.cleaned(job(*own)) for own in folders] == [
@@ -103,25 +77,6 @@ def test_copies_of_two_recordings_never_meet(config, tmp_path):
     )
     copies = [path for own in plan.data.entries for path in plan.trc(job(*own))]
     assert [path.rpartition("/")[2] for path in copies] == ["walk.c3d.trc", "walk.csv.trc"]
-
-
-@pytest.mark.parametrize("stage", ["ingest", "mesh", *DETECTORS, "repair", "poses", "fill", "export", "qc", "report"])
-def test_every_stage_gets_its_options_as_flags(plan, stage):
-    names = [word[2:].partition("=")[0] for word in shlex.split(plan.stage_options(stage)(job()))]
-    assert names == [option.name.replace("_", "-") for option in stage_options(SECTIONS[stage])]
-
-
-def test_an_option_reaches_the_stages_that_read_it_and_no_other(plan, config):
-    config["advanced"]["predictors"]["polynomial"]["lags"] = 2
-    other = make_plan(config, PROJECT, deployed=False)
-    stages = [name for name in SECTIONS if name not in ("general", "predictors")]
-    changed = [name for name in stages if plan.stage_options(name)(job()) != other.stage_options(name)(job())]
-    assert changed == ["slow", "repair", "fill"]
-
-
-def test_the_code_of_a_stage_is_one_short_hash_of_its_modules_and_of_what_else_it_reads(plan):
-    assert len(plan.code("qc")) == 16 and plan.code("qc") == plan.code("qc")
-    assert len({plan.code("fill"), plan.code("fill", "report/templates"), plan.code("qc")}) == 3
 
 
 def test_after_an_edit_the_next_plan_names_the_module(tmp_path, plan, config):
