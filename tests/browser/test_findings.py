@@ -1,5 +1,6 @@
 """Moving among findings and recordings, links to findings, the stick figure, printing, and pages without their program."""
 
+import numpy as np
 import pytest
 
 from support.browser import Browser, settled, until
@@ -109,13 +110,43 @@ def test_few_figures_are_live_at_a_time(solid, walk):
 def test_a_browser_without_3d_says_so(browser, walk):
     page = browser.open(walk)
     until(page, "document.querySelector('.opened .figure')?.textContent.includes('nothing in 3-D')")
+    figure = page.locator(".opened .figure")
+    first = figure.locator("svg path.result").first.get_attribute("d")
+    assert figure.locator("svg .ring").count() == 1 and len(first) > 500
+    figure.get_by_label("Frame", exact=True).focus()
+    page.keyboard.press("End")
+    assert figure.locator("svg path.result").first.get_attribute("d") != first
 
 
 def test_all_plots_are_drawn_to_be_printed(browser, walk):
     page = browser.open(walk, "?print")
     until(page, "document.documentElement.dataset.drawn === 'all'")
     assert page.locator("tr.drawn .main-svg").count() >= page.locator('script[id^="data-finding-"]').count()
+    assert page.locator(".still svg").count() == page.locator('script[id^="data-finding-"]').count()
+    assert page.locator(".still").first.is_visible() and page.locator(".opened .figure").count() == 0
     assert len(page.pdf()) > 100_000
+
+
+def test_a_still_picture_is_seen_as_the_figure_at_first(browser, walk):
+    """Where the camera looks, and which way is up: the eye lies on the normal of the picture."""
+    page = browser.open(walk)
+    for row, up in enumerate("xyz"):
+        axes = np.array(page.evaluate("up => [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(projection(up))", up))
+        eye = np.array(page.evaluate("up => EYES[up]", up))
+        assert np.allclose(axes.T @ axes, np.eye(2)) and np.allclose(axes.T @ eye, 0)
+        assert axes[row, 0] == pytest.approx(0) and axes[row, 1] < 0
+        assert np.linalg.det(np.column_stack([axes[:, 0], -axes[:, 1], eye])) > 0
+
+
+def test_what_is_open_is_fitted_to_paper_and_back(browser, walk):
+    page = browser.open(walk)
+    settled(page)
+    width = "document.querySelector('.plot .main-svg').getAttribute('width')"
+    before = page.evaluate(width)
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    assert page.evaluate(width) == "690" != before
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    until(page, f"{width} === '{before}'")
 
 
 def test_the_button_prints_all_plots_and_leaves_the_page_as_it_was(browser, walk):

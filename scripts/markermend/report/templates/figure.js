@@ -1,5 +1,6 @@
 // The stick figure: before and after overlaid, the lines of the mesh, and a slider over the poses that the page holds.
 const MAX_FIGURES = 4;
+const NOT_SOLID = "This browser draws nothing in 3-D (WebGL is off), so the figure cannot be turned.";
 const live = [];
 let figureData = null;
 function poses() {
@@ -58,7 +59,7 @@ function cube(data, shown) {
   return (k) => middles[k].map(([low, high]) => [(low + high) / 2 - half, (low + high) / 2 + half]);
 }
 function figureLayout(data, ranges) {
-  const camera = { x: [0.4, 1.4, 1.2], y: [1.2, 0.4, 1.4], z: [1.4, 1.2, 0.4] }[data.up];
+  const camera = EYES[data.up];
   const axis = (name, i) => ({ title: { text: name }, range: ranges[i], gridcolor: colour("line"), zeroline: false, showbackground: false, showticklabels: false, nticks: 5,
     color: colour("soft"), showspikes: false });
   return {
@@ -94,10 +95,10 @@ async function drawFigure(place, shown, start, marker = -1) {
     const k = Number(slider.value), number = data.numbers[shown[k]];
     label.textContent = "frame " + number + ", " + ((number - data.origin) / data.rate).toFixed(2) + " s";
     slider.setAttribute("aria-valuetext", label.textContent);
+    if (!canDraw3d()) return view.replaceChildren(stillPicture(shown[k], marker, shown), NOT_SOLID);
     return Plotly.react(view, figureTraces(data, shown[k], marker, shown), figureLayout(data, ranges(k)), { displaylogo: false, responsive: true });
   };
-  if (!canDraw3d()) { view.className = "note"; view.textContent = "This browser draws nothing in 3-D (WebGL is off), so there is no figure."; return; }
-  live.push(place);
+  if (canDraw3d()) live.push(place);
   while (live.length > MAX_FIGURES) release(live[0]);
   await draw();
   slider.addEventListener("input", draw);

@@ -44,12 +44,14 @@ async function openFinding(row, { figures = true } = {}) {
   try {
     await loadLibrary(results + "report/plotly.min.js", NO_PLOTTING_SCRIPT);
     if (!below.isConnected) return;
-    if (plot) draw(place, JSON.parse(plot.textContent));
-    const shown = figures ? framesOf(finding) : [];
-    if (!shown.length) { figure.remove(); return; }
+    const shown = framesOf(finding);
     const middle = (finding.first_frame + finding.last_frame) / 2;
     const start = shown.reduce((best, i, k) => (Math.abs(poses().numbers[i] - middle) < Math.abs(poses().numbers[shown[best]] - middle) ? k : best), 0);
-    const again = () => drawFigure(figure, shown, start, poses().markers.indexOf(finding.marker));
+    const marker = poses().markers.indexOf(finding.marker), still = shown.length ? stillPicture(shown[start], marker, shown) : "";
+    figure.after(still);
+    if (plot) draw(place, JSON.parse(plot.textContent));
+    if (!figures || !shown.length) { figure.remove(); return; }
+    const again = () => drawFigure(figure, shown, start, marker);
     figure.addEventListener("again", again);
     await again();
   } catch (error) { place.className = "note bad"; place.textContent = error.message; figure.remove(); }

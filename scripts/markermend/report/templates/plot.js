@@ -120,8 +120,11 @@ function undraw(place) {
   drawn.delete(place);
   Plotly.purge(place);
 }
-// After the colours of the page changed.
+// After the colours of the page changed, or its width for paper.
 function redraw() {
-  for (const [place, finding] of drawn) Plotly.react(place, traces(finding), layout(finding, place.clientWidth));
+  const printing = document.documentElement.classList.contains("printing");
+  for (const [place, finding] of drawn) {
+    Plotly.react(place, traces(finding), { ...layout(finding, place.clientWidth), ...(printing ? { width: place.clientWidth } : { autosize: true }) });
+  }
 }
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
