@@ -16,6 +16,7 @@ from markermend.planning.recordings import Entry
 from markermend.storage import tab_separated
 from support.browser import REFUSED, Browser, decide
 from support.html_pages import HOSTILE
+from support.table_rules import CASES
 
 ENTRIES = [Entry("Anna", "Walk 1", "/a.c3d"), Entry("Anna", "Calm", "/b.c3d"), Entry("Bob", "Bad", "/c.c3d")]
 STATED = (
@@ -346,29 +347,24 @@ def test_two_data_sets_do_not_share_decisions(browser, report, walk, tmp_path):
 
 def test_cells_are_written_as_by_the_program(browser, walk):
     page = browser.open(walk)
-    texts = [
-        HOSTILE,
-        "=1",
-        "-1",
-        "+.5e3",
-        "-x",
-        "@a",
-        "'=1",
-        "''+",
-        "a\tb",
-        'say "x"',
-        "line\nend",
-        "\uff1d1",
-        "*0",
-        "",
-        "nan",
-        "-inf",
-        "ü",
-        "'",
-    ]
-    rows = [texts[at : at + 4] for at in range(0, len(texts), 4)]
-    own = page.evaluate("rows => tableText([], rows).slice(1)", rows)
-    assert own == tab_separated.lines(rows)
+    texts, cells = zip(*CASES["cells"], strict=True)
+    assert page.evaluate("texts => texts.map(cellText)", texts) == list(cells)
+    assert page.evaluate("cellText", HOSTILE) + "\n" == tab_separated.lines([[HOSTILE]])
+
+
+@pytest.mark.parametrize("kind", ["decisions", "markers", "frames"])
+def test_lines_contradict_each_other_in_the_page_as_in_the_program(browser, walk, kind):
+    page = browser.open(walk)
+
+    def line(case, verb):
+        marker, frames = case if kind == "markers" else "LANK", case if kind == "frames" else ("", "")
+        word, _, value = (case if kind == "decisions" else verb).partition(" ")
+        return ["r", marker, *frames, word, value, "", "", "", ""]
+
+    for one, other, clash in CASES[kind]:
+        both = [line(one, "accept"), line(other, "reject")]
+        for order in (both, both[::-1]):
+            assert page.evaluate("lines => contradictions(lines).length", order) == int(clash), (one, other)
 
 
 def test_contradictions_are_found_as_by_the_program(browser, walk):

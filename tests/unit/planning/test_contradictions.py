@@ -3,10 +3,13 @@
 from fnmatch import fnmatchcase
 from itertools import product
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from markermend.planning.contradictions import Line, find_contradictions, patterns_overlap
+from markermend.planning.decision_cells import parse
+from support.table_rules import CASES
 
 patterns = st.text("ab*?", max_size=4)
 
@@ -29,3 +32,23 @@ def test_lines_on_the_same_samples_contradict_each_other():
 
 def test_protected_samples_may_have_other_decisions():
     assert not list(find_contradictions([line(2, "LANK", "accept"), line(3, "LANK", "protect")]))
+
+
+@pytest.mark.parametrize(("one", "other", "shared"), CASES["markers"])
+def test_names_and_patterns_that_share_a_name_overlap(one, other, shared):
+    assert patterns_overlap(one, other) == patterns_overlap(other, one) == shared
+
+
+@pytest.mark.parametrize(("one", "other", "shared"), CASES["frames"])
+def test_stretches_that_share_a_frame_overlap(one, other, shared):
+    lines = []
+    for number, (frames, verb) in enumerate(((one, "accept"), (other, "reject"))):
+        cells = {
+            "recording": "r",
+            "marker": "LANK",
+            "decision": verb,
+            "first_frame": frames[0],
+            "last_frame": frames[1],
+        }
+        lines.append(Line(number, dict(parse({name: cell for name, cell in cells.items() if cell}, ()))))
+    assert bool(list(find_contradictions(lines))) == shared

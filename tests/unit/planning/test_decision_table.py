@@ -9,6 +9,7 @@ from markermend.export import change_table
 from markermend.planning.decision_table import COLUMNS, NONE, load, standard_form
 from markermend.planning.recordings import BadDataSet, Entry
 from support.paths import PROJECT
+from support.table_rules import CASES
 
 ENTRIES = [
     Entry("S01", "walk", "/a.c3d"),
@@ -159,36 +160,21 @@ def test_a_recording_that_is_not_there_is_a_warning(tmp_path, line, warning):
 
 @pytest.mark.parametrize(
     ("one", "other", "clash"),
-    [
-        ("accept", "reject", True),
-        ("accept|peak", "reject|noise", False),
-        ("accept|peak", "reject|peaks", True),
-        ("accept|gap", "reject", False),
-        ("accept|gap", "missing", False),
-        ("accept", "missing", True),
-        ("reject", "missing", True),
-        ("class|peak", "class|noise", True),
-        ("class|peak", "class|peak", False),
-        ("class|peak", "reject", True),
-        ("class|peak", "reject|noise", False),
-        ("method|spline", "method|kalman", True),
-        ("method|spline", "accept", False),
-        ("method|leave", "accept", True),
-        ("method|leave", "missing", False),
-        ("method|spline", "missing", False),
-        *((f"{verb}", "protect", False) for verb in ("accept", "reject", "missing", "protect")),
-    ],
+    [*CASES["decisions"], ["accept|peak", "reject|peaks", True]],
 )
 def test_lines_that_cannot_both_be_followed_are_refused(tmp_path, one, other, clash):
-    place = "run|L*|10|20|{}", "run|*ANK|20|30|{}"
+    # A swap is stated of one marker.
+    names = ("LANK", "LANK") if "swap" in one + other else ("L*", "*ANK")
+    place = f"run|{names[0]}|10|20|{{}}", f"run|{names[1]}|20|30|{{}}"
+    one, other = one.replace(" ", "|"), other.replace(" ", "|")
     for first, second in ((one, other), (other, one)):
         if clash:
-            with pytest.raises(BadDataSet, match=r"lines 2 and 3 contradict each other: L\* .*, \*ANK "):
+            with pytest.raises(BadDataSet, match=r"lines 2 and 3 contradict each other: L.* .*, .*ANK "):
                 loaded(tmp_path, place[0].format(first), place[1].format(second))
         else:
             loaded(tmp_path, place[0].format(first), place[1].format(second))
         loaded(tmp_path, place[0].format(first), place[1].replace("20", "21").format(second))
-        loaded(tmp_path, place[0].format(first), place[1].replace("*ANK", "RANK").format(second))
+        loaded(tmp_path, place[0].format(first), place[1].replace(names[1], "RANK").format(second))
         loaded(tmp_path, place[0].format(first), place[1].replace("run", "jump").format(second))
 
 
