@@ -33,6 +33,16 @@ use rule * from markermend
 """
 """What `snakedeploy deploy-workflow` writes into workflow/Snakefile."""
 
+HOOKS = """
+onstart:
+    print("Ours begins")
+    markermend.onstart()
+
+onsuccess:
+    markermend.onsuccess()
+"""
+"""What a person adds to it who has hooks."""
+
 
 def snakemake(*arguments: str | Path, cwd: Path, environment: dict[str, str] | None = None) -> str:
     """Run Snakemake, which must succeed, and return what it printed."""
@@ -81,11 +91,12 @@ class Source:
 
     snakefile: str
     environment: dict[str, str]
+    hooks: str = ""
 
 
 def local(folder: Path) -> Source:
-    """The checkout."""
-    return Source(f'"{PROJECT / "workflow/Snakefile"}"', {})
+    """The checkout, in a workflow that has hooks."""
+    return Source(f'"{PROJECT / "workflow/Snakefile"}"', {}, HOOKS)
 
 
 def hosted(folder: Path) -> Source:
@@ -112,7 +123,8 @@ def test_deployed_as_a_module_it_gives_the_same_results(tested, tmp_path, source
     for name in ("config", "profiles"):
         shutil.copytree(PROJECT / name, folder / name)
     (folder / "workflow").mkdir()
-    (folder / "workflow/Snakefile").write_text(DEPLOYED.format(snakefile=found.snakefile), encoding="utf-8")
+    text = DEPLOYED.format(snakefile=found.snakefile) + found.hooks
+    (folder / "workflow/Snakefile").write_text(text, encoding="utf-8")
     config = (folder / "config/config.yaml").read_text(encoding="utf-8")
     own = re.sub("^recordings: .*$", f"recordings: {tested / 'recordings'}", config, flags=re.MULTILINE)
     (folder / "config/config.yaml").write_text(own, encoding="utf-8")
@@ -121,7 +133,7 @@ def test_deployed_as_a_module_it_gives_the_same_results(tested, tmp_path, source
     said = snakemake("--cores", "2", cwd=folder, environment=environment)
     assert "2 recordings: 2 cleaned" in said and f"Report: {folder}/results/report/index.html" in said
     assert results(folder / "results") == results(tested / "results")
-    assert (folder / "results/report/provenance.json").exists()
+    assert (folder / "results/report/provenance.json").exists() and ("Ours begins" in said) == bool(found.hooks)
     assert "Nothing to be done" in snakemake("--dry-run", "--cores", "2", cwd=folder, environment=environment)
 
 
