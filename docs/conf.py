@@ -24,11 +24,12 @@ from markermend.planning import option_tables  # noqa: E402
 project, author, copyright = "markermend", "markermend developers", "markermend developers"
 release = version = __version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "_templates"]
+templates_path = ["_templates"]
 nitpicky = True
 suppress_warnings = ["myst.header"]  # a part of a page may begin at any level
 
-myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist"]
+myst_enable_extensions = ["attrs_inline", "deflist", "substitution"]
 myst_heading_anchors = 4
 
 autodoc_typehints = "none"
@@ -48,15 +49,37 @@ PAGES = {
     "CONTRIBUTING.md": "contributing.md",
     "DECISIONS.md": "design.md",
     "CHANGELOG.md": "changelog.md",
+    "README.md#figures": "figures.md",
+    "benchmarks/README.md#kinds-of-faults": "benchmarks.md#kinds-of-faults",
 }
 """The page of this site that shows a page of the project."""
 
 LINK = re.compile(
-    r"(?P<code>(?P<ticks>`+).*?(?P=ticks))|\[(?P<words>[^\]]+)\]\((?!\w+:|#)(?P<file>[^)#\s]+)(?P<anchor>#[^)\s]*)?\)",
+    r"(?P<code>(?P<ticks>`+).*?(?P=ticks))|(?<!!)\[(?P<words>[^\]]+)\]\((?!\w+:|#)(?P<file>[^)#\s]+)(?P<anchor>#[^)\s]*)?\)",
     re.S,
 )
 HEADING = re.compile(r"^#{2,3} (?:`([\w.]+)`: )?")
 ROW = re.compile(r"^\| `([\w.]+)` \|")
+
+
+FAULT = re.compile(r"^\| ([a-z][^|]*?) \| \d+ of \d+ \| \d+ of (\d+) \((\d+)\) \|", re.M)
+"""A row of the two tables of kinds of faults in benchmarks/README.md: what is found now, and how much in the right class."""
+
+
+def faults_found() -> dict[str, str]:
+    """How many faults of each kind are found, in words: on calm recordings, then on moving ones."""
+    rows = FAULT.findall((PROJECT / "benchmarks/README.md").read_text(encoding="utf-8"))
+    calm, moving = ({kind: f"{right} of {all_}" for kind, all_, right in part} for part in halves(rows))
+    return {kind: f"{calm[kind]} calm, {moving[kind]} moving" for kind in calm}
+
+
+def halves(rows: list[tuple[str, str, str]]) -> tuple[list[tuple[str, str, str]], list[tuple[str, str, str]]]:
+    """The rows of either table: the second begins where the first kind comes again."""
+    second = [kind for kind, *_ in rows].index(rows[0][0], 1)
+    return rows[:second], rows[second:]
+
+
+myst_substitutions = {"found": faults_found()}
 
 
 def included(app: Sphinx, path: Path, docname: str, content: list[str]) -> None:
