@@ -7,7 +7,7 @@ RESULTS ?= results
 # For networks (config/README.md), which tests and papers train: 750 of 1,700 MB. Nothing else installs it; `TORCH=` never does.
 TORCH ?= $(shell sed -n 's/^ *- \(torch==.*\)/\1/p' envs/torch.yaml)
 
-.PHONY: demo docs papers test test-library test-set test-papers test-cluster faults wheel lint config lock clean
+.PHONY: demo docs pictures papers test test-library test-set test-papers test-cluster faults wheel lint config lock clean
 
 demo: .venv/ready
 	$(BIN)/python scripts/synthesize.py --folder demo/recordings --truth demo/truth --seed 1
@@ -21,6 +21,10 @@ docs: .venv/ready
 	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --keep-going docs docs/_build/html
 	$(BIN)/python docs/links.py docs/_build/html
 	@echo "$(CURDIR)/docs/_build/html/index.html"
+
+# The pictures of the documentation, from made-up recordings in Chromium: about ten minutes of one core.
+pictures: .venv/ready
+	PYTHONPATH=scripts:tests:. $(BIN)/python docs/pictures.py demo/pictures
 
 # The experiments of the papers (config/evaluate): SIZE=quick takes minutes; RECORDINGS=FOLDER in place of a synthetic person.
 papers: .venv/networks

@@ -9,6 +9,7 @@ from __future__ import annotations
 import posixpath
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +21,12 @@ sys.path.insert(0, str(PROJECT / "scripts"))
 
 from markermend import __version__  # noqa: E402
 from markermend.planning import option_tables  # noqa: E402
+from markermend.planning.result_files import ResultFiles  # noqa: E402
 
 project, author, copyright = "markermend", "markermend developers", "markermend developers"
 release = version = __version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc"]
-exclude_patterns = ["_build", "_templates"]
+exclude_patterns = ["_build", "_static", "_templates"]
 templates_path = ["_templates"]
 nitpicky = True
 suppress_warnings = ["myst.header"]  # a part of a page may begin at any level
@@ -36,8 +38,10 @@ autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 numpydoc_show_class_members = False
 
+highlight_language = "none"
 html_theme = "furo"
 html_title = "markermend"
+html_static_path, html_css_files = ["_static"], ["site.css"]
 html_copy_source = html_show_sourcelink = html_show_sphinx = False
 
 PAGES = {
@@ -79,7 +83,22 @@ def halves(rows: list[tuple[str, str, str]]) -> tuple[list[tuple[str, str, str]]
     return rows[:second], rows[second:]
 
 
-myst_substitutions = {"found": faults_found()}
+def result_files() -> str:
+    """A table of the files of results, from what the properties of their names say."""
+    files, rows = ResultFiles("RESULTS"), ["| file | content |", "|---|---|"]
+    for name, own in vars(ResultFiles).items():
+        if isinstance(own, property):
+            paths = getattr(files, name)
+            listed = paths.values() if isinstance(paths, Mapping) else [paths]
+            shown = "<br>".join(f"`{WILDCARD.sub(lambda found: found[1].upper(), path)}`" for path in listed)
+            rows.append(f"| {shown} | {own.__doc__} |")
+    return "\n".join(rows)
+
+
+WILDCARD = re.compile(r"\{(\w+)\}")
+"""A part of a file's name that differs between subjects and recordings."""
+
+myst_substitutions = {"found": faults_found(), "result_files": result_files()}
 
 
 def included(app: Sphinx, path: Path, docname: str, content: list[str]) -> None:

@@ -107,18 +107,10 @@ def photograph(folder: Path, chromium: Any) -> None:
     with Browser(chromium, device_scale_factor=1) as person:
         camera = Camera(person)
         gait = folder / "gait_results"
-        with camera.page(gait / "report/index.html") as page:
+        with camera.page(gait / "report/index.html", height=840) as page:
             camera.take(page, "report")
         with camera.page(gait / "S01/walk1/page.html", height=820) as page:
             camera.take(page, "recording")
-        with camera.page(gait / "S01/walk1/page.html", width=1500, height=1100) as page:
-            line = page.evaluate(LINE_OF_CLASS, "step")
-            page.goto(page.url.split("#")[0] + "#" + line)
-            page.reload()
-            settled(page)
-            page.wait_for_timeout(1500)
-            page.locator(f"#{line} td.decide select").select_option("reject")
-            camera.take_element(page, "finding", f"#{line}", f"#{line} + tr .sheet", scale=0.8)
         for name in sorted({artifact.name for artifact in ARTIFACTS} | {"gap"}):
             path = folder / "classes_results/K01" / name / "page.html"
             if path.exists():
@@ -126,6 +118,11 @@ def photograph(folder: Path, chromium: Any) -> None:
                     photograph_class(camera, page, name)
     with Browser(chromium, solid=True) as person:
         camera = Camera(person)
+        with camera.page(gait / "S01/walk1/page.html", width=1500, height=1100) as page:
+            line = visit(page, "step")
+            page.wait_for_timeout(15_000)
+            page.locator(f"#{line} td.decide select").select_option("reject")
+            camera.take_element(page, "finding", f"#{line}", f"#{line} + tr .sheet", scale=0.8)
         with camera.page(gait / "S01/walk1/page.html", "#figure", width=900) as page:
             page.get_by_role("button", name="Show the figure").first.click()
             page.wait_for_selector("#figure-place canvas", timeout=120_000)
@@ -135,16 +132,20 @@ def photograph(folder: Path, chromium: Any) -> None:
 
 def photograph_class(camera: Camera, page: Any, name: str) -> None:
     """Photograph the plot of the finding that a page has of its class."""
-    kind = "filled" if name == "gap" else name
+    line = visit(page, "filled" if name == "gap" else name)
+    camera.take_element(page, f"classes/{name}", f"#{line} + tr .plot", scale=0.75)
+
+
+def visit(page: Any, kind: str) -> str:
+    """Open the first finding of a class on a page; gives its name."""
     line = page.evaluate(LINE_OF_CLASS, kind)
     if line is None:
-        print(f"{name}: no finding of this class", file=sys.stderr)
-        return
+        raise ValueError(f"{page.url} has no finding of the class {kind}: the recordings or the detectors have changed")
     page.goto(page.url.split("#")[0] + "#" + line)
     page.reload()
     settled(page)
     page.wait_for_timeout(1000)
-    camera.take_element(page, f"classes/{name}", f"#{line} + tr .plot", scale=0.75)
+    return str(line)
 
 
 def main(argv: list[str] | None = None) -> None:

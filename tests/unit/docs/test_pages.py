@@ -5,6 +5,7 @@ import re
 import pytest
 
 from markermend.core.artifacts import ARTIFACTS
+from markermend.export.change_table import COLUMNS
 from markermend.options.config import SECTIONS, own_options, place
 from markermend.options.description import describe
 from support.paths import PROJECT
@@ -83,3 +84,11 @@ def test_every_message_that_troubleshooting_explains_is_one_of_the_program():
     ]
     assert len(messages) >= 8
     assert [message for message in messages if not any(message in text for text in library)] == []
+
+
+def test_every_column_of_the_table_of_changes_is_explained():
+    page = (PROJECT / "docs/results.md").read_text(encoding="utf-8").partition("### Changes")[2]
+    explained = {
+        name for cell in re.findall(r"^\| ([^|]+) \|", page, re.MULTILINE) for name in re.findall(r"`(\w+)`", cell)
+    }
+    assert explained == set(COLUMNS)
