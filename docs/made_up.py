@@ -34,6 +34,9 @@ DAYS = ("2024-05-03", "2024-06-12")
 PROP = ("Sword:Grip", "Sword:Guard", "Sword:Edge", "Sword:Tip")
 """Markers of the sword."""
 
+HIDDEN, HIDDEN_FROM = {"LSHO": 3.0, "RWRA": 0.8, "RWRB": 0.8, "T10": 1.5}, 120
+"""How long markers of the performer are hidden in each take, s, and from which frame on."""
+
 PROP_PLACES = ((60.0, 0.0, 0.0), (140.0, 70.0, 0.0), (500.0, 20.0, 30.0), (840.0, 0.0, 0.0))
 """Where they are, mm: away from the hand, across the palm, and out of it."""
 
@@ -135,12 +138,10 @@ def studio(plan: Plan) -> None:
         rng = plan.rng(2, number)
         clean = record(body, activities, rng, duration=plan.duration, rate=120.0)
         seen = as_raw(clean, rng).positions
-        middle = len(seen) // 2
-        for name, seconds in (("LSHO", 3.0), ("RWRA", 0.8), ("RWRB", 0.8), ("T10", 1.5)):
-            half = round(min(seconds, plan.duration / 4) * clean.rate / 2)
-            seen[middle - half : middle + half, clean.markers.index(name)] = np.nan
+        for name, seconds in HIDDEN.items():
+            seen[HIDDEN_FROM : HIDDEN_FROM + round(seconds * clean.rate), clean.markers.index(name)] = np.nan
         sword = carried(clean) + rng.normal(0.0, NOISE_MM, (len(seen), len(PROP), 3))
-        sword[middle + 30 : middle + 90, PROP.index("Sword:Edge")] = np.nan
+        sword[HIDDEN_FROM + 30 : HIDDEN_FROM + 90, PROP.index("Sword:Edge")] = np.nan
         names = [f"Ada:{name}" for name in clean.markers] + list(PROP)
         text = motive_csv(f"Take {number}", names, np.concatenate([seen, sword], axis=1), clean.rate)
         atomic.write_text(plan.folder / f"Ada/Take_{number:03d}.csv", text)
@@ -289,7 +290,7 @@ SPOILED: Mapping[str, Callable[[Spoiled], Recording]] = {
     "shift": lambda to: to.add([], None, np.array([15.0, -10.0, 6.0])),
     "slip": lambda to: to.add(["LFHD", "RFHD", "LBHD", "RBHD"], 0.04, np.array([4.0, 20.0, -6.0])),
     "frozen": lambda to: to.put(["C7"], 0.25, lambda p, start, stop: p[start - 1 : start]),
-    "tail": lambda to: hidden(to.add(["RSHO"], 0.06, lambda n: ramp(n, (18.0, -14.0, 10.0))), "RSHO", 6, 25),
+    "tail": lambda to: hidden(to.add(["RSHO"], 0.04, lambda n: ramp(n, (30.0, -24.0, 18.0))), "RSHO", 4, 25),
     "peak": lambda to: to.add(["LASI"], 0.03, lambda n: triangle(n + 2, (20.0, 25.0, -10.0))[1:-1]),
     "noise": lambda to: to.add(["C7"], 0.5, lambda n: to.rng.normal(0.0, 6.0, (n, 3))),
     "step": lambda to: to.add(["STRN"], 0.6, np.array([16.0, -12.0, 8.0])),

@@ -132,7 +132,7 @@ def photograph(folder: Path, chromium: Any) -> None:
 
 def photograph_class(camera: Camera, page: Any, name: str) -> None:
     """Photograph the plot of the finding that a page has of its class."""
-    line = visit(page, "filled" if name == "gap" else name)
+    line = visit(page, name)
     camera.take_element(page, f"classes/{name}", f"#{line} + tr .plot", scale=0.75)
 
 

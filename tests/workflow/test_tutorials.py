@@ -2,18 +2,23 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+import yaml
 
+from markermend.options.config import read_config
+from markermend.terminal.arguments import make_parser
+from markermend.terminal.command_line import COMMANDS
 from support.paths import PROJECT
 
 TUTORIALS = sorted((PROJECT / "docs/tutorials").glob("*.md"))
 BLOCK = re.compile(r"^```(?:\{code-block\} )?(\w+)\n(?::caption: (\S+)\n)?(.*?)^```", re.MULTILINE | re.DOTALL)
-SHORT_S = 3
+SHORT_S = 5
 """Length of the recordings, s: long enough for every artifact of the made-up data sets."""
 
 TIME_AND_PLACE = re.compile(r" about | cores?\b|^Report: ")
@@ -85,7 +90,38 @@ def test_commands_and_files_are_read_from_a_page():
     assert steps(page) == [Step("a b", ("said",)), Step("c"), Step(file="x.yaml", content="key: 1\n")]
 
 
+def calls(page: str) -> list[list[str]]:
+    """The words of each call of `markermend` on a page, whether it is run there or only shown."""
+    blocks = [text for language, _, text in BLOCK.findall(page) if language in ("console", "sh")]
+    found = re.findall(r"^(?:\$ |for .*; do )?markermend ([^;\n]*)", "\n".join(blocks), re.MULTILINE)
+    return [shlex.split(call) for call in found]
+
+
 @pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
+def test_each_call_means_something_and_names_files_that_are_there(path):
+    page = path.read_text(encoding="utf-8")
+    files = {step.file for step in steps(page)}
+    presets = {preset.stem for preset in (PROJECT / "config/presets").glob("*.yaml")}
+    assert len(calls(page)) >= 4
+    for words in calls(page):
+        own, given = (words[: words.index("--")], words[words.index("--") + 1 :]) if "--" in words else (words, [])
+        call = vars(make_parser(COMMANDS, presets).parse_args(own))
+        assert set(call.get("options") or ()) | ({call["decisions"]} if call.get("decisions") else set()) <= files
+        assert "--profile" not in given or (PROJECT / given[given.index("--profile") + 1] / "profile.yaml").exists()
+    for step in steps(page):
+        if step.file.endswith(".yaml"):
+            read_config(yaml.safe_load(step.content))
+
+
+LONG = "archive"
+"""A tutorial with many recordings."""
+
+
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=pytest.mark.slow) if path.stem == LONG else path for path in TUTORIALS],
+    ids=lambda path: path.stem,
+)
 def test_the_commands_of_a_tutorial_run(path, place):
     done = follow(path.read_text(encoding="utf-8"), place, short=True)
     assert len(done) >= 4 and any(step.command.startswith("markermend clean") for step, _ in done)
