@@ -4,6 +4,7 @@ import csv
 import shutil
 import subprocess
 import sys
+from datetime import date
 
 import pytest
 
@@ -51,11 +52,24 @@ def browser(chromium):
 def test_a_run_follows_what_was_decided_in_the_page(project, browser):
     before, clean = changes(project), project.outputs()
     page = browser.open(project.results / SUBJECT / "daily/page.html")
+    page.get_by_label("Your name or initials").fill("李 A.")
+    page.get_by_label("Your name or initials").blur()
     decided = {}
     for kind, verb in (("peak", "reject"), ("noise", "protect"), ("step", "method local_ridge"), ("gap", "reject")):
         row = page.locator(f'#changes tbody tr[data-kind="{kind}"]').first
         decide(page, row, f"{verb} {kind}" if verb == "reject" else verb)
         decided[kind] = tuple(row.locator("td").nth(place).inner_text() for place in (3, 4, 5))
+    row = page.locator('#changes tbody tr[data-kind="peak"]').nth(1)
+    decide(page, row, "class noise")
+    decided["class"] = tuple(row.locator("td").nth(place).inner_text() for place in (3, 4, 5))
+    marker = next(name for name in page.evaluate("about.markers") if not any(name == key[0] for key in before))
+    form = page.locator("#stretch form")
+    for label, frame in (("First frame", "700"), ("Last frame", "709")):
+        form.get_by_label(label).fill(frame)
+    form.get_by_label("Marker", exact=True).select_option(marker)
+    form.get_by_label("What these frames are").select_option("missing")
+    form.get_by_role("button", name="Add").click()
+    decided["missing"] = (marker, "700", "709")
     text = browser.download(page)
     assert OTHER.strip() in text
     (project.folder / "config/decisions.tsv").write_text(text, encoding="utf-8")
@@ -70,6 +84,13 @@ def test_a_run_follows_what_was_decided_in_the_page(project, browser):
     assert (*decided["peak"], "peak") in before and decided["peak"] not in places
     assert decided["noise"] not in places and decided["gap"] not in places
     assert places[decided["step"]]["method"] == "local_ridge"
+    for kind, name, decision in (
+        ("step", "step", "method local_ridge"),
+        ("class", "noise", "class noise"),
+        ("missing", "missing", "missing"),
+    ):
+        row = places[decided[kind]]
+        assert (row["class"], row["decision"]) == (name, f"{decision} (李 A., {date.today()})")
     touched = {place[0] for place in decided.values()}
     same = [key for key in before if key[0] not in touched]
     assert same and all(key in after for key in same)
@@ -79,6 +100,7 @@ def test_a_run_follows_what_was_decided_in_the_page(project, browser):
 
     page = browser.open(project.results / SUBJECT / "daily/page.html")
     assert "No decision waiting" in page.locator("#waiting").inner_text()
-    assert page.locator("#decided tbody tr").count() == 4
+    assert page.locator("#decided tbody tr").count() == 6
+    assert f"judged by hand by 李 A. ({date.today()})." in page.locator("body").inner_text()
     assert browser.download(page) == text
     assert "Nothing to be done" in project.plan(*STUDY).text
