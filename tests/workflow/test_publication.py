@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -152,3 +153,24 @@ def test_its_linter_objects_to_what_is_decided_and_to_nothing_else(tmp_path):
         "Shell command directly uses variable MARKERMEND from outside of the rule",
         "Param tables is a prefix of input or output file but hardcoded",
     }
+
+
+def test_the_forge_runs_targets_of_the_makefile_with_every_python_that_the_package_names():
+    jobs = yaml.safe_load((PROJECT / ".github/workflows/tests.yml").read_text(encoding="utf-8"))["jobs"]
+    commands = [step["run"].split() for job in jobs.values() for step in job["steps"] if "run" in step]
+    targets = re.findall(r"^([a-z-]+):", (PROJECT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    assert {make for make, *_ in commands} == {"make"}
+    assert (
+        {target for _, target, *_ in commands} == {"test", "test-library", "test-set", "wheel", "docs"} <= set(targets)
+    )
+    package = tomllib.loads((PROJECT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    named = [text.rpartition(" :: ")[2] for text in package["classifiers"] if "Python :: 3." in text]
+    assert jobs["all"]["strategy"]["matrix"]["python"] == named
+    assert set(jobs["library"]["strategy"]["matrix"]["python"]) <= set(named)
+
+
+def test_the_library_that_is_tested_elsewhere_is_all_that_knows_no_workflow():
+    (listed,) = re.findall(r"^LIBRARY := (.*)$", (PROJECT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    packages = {path.name for path in (PROJECT / "scripts/markermend").iterdir() if (path / "__init__.py").exists()}
+    of_workflow = {"command", "evaluation", "planning", "report", "terminal"}
+    assert {name for name in listed.split() if not name.endswith(".py")} == packages - of_workflow

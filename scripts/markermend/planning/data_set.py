@@ -16,7 +16,7 @@ from typing import Any, Protocol
 from markermend.core.remarks import without_remarks
 from markermend.options.general import GeneralOptions
 from markermend.options.values import text
-from markermend.planning import cleaned_tree, discovery
+from markermend.planning import capital_letters, cleaned_tree, discovery
 from markermend.planning.decision_table import NONE
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry, NoRecordings
@@ -232,6 +232,8 @@ def find_data_set(
     table = discovery.standard_decisions(options)
     path = os.path.abspath(os.path.expanduser(options["general"].recordings))
     places = cleaned_tree.places(entries, path if os.path.isdir(path) else os.path.dirname(path))
+    subjects, recordings = (subject for subject, _ in entries), map("/".join, entries)
+    capital_letters.check_distinct([*subjects, *recordings, *places.values()], Path(results))
     return DataSet(entries, checksums, meshes, decisions, table, places, missing), [*left_out, *warnings]
 
 
