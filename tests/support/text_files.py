@@ -148,3 +148,12 @@ def patched(
 def assert_positions(reading: Reading, values: np.ndarray) -> None:
     """Check the positions of a reading, mm."""
     np.testing.assert_allclose(reading.recording.positions, values, rtol=0, atol=1e-9)
+
+
+def short_rows(path: Path) -> Path:
+    """Write a table in which rows end where nothing more was seen."""
+    rows = ["Frame,Time," + ",".join(f"{name}_{axis} (mm)" for name in "ABC" for axis in "xyz")]
+    rows += [f"{n},{n / 100},1{n}.0,2.0,3.0,4.0,5.{n},6.0,7.0,8.0,9.{n}" for n in range(1, 9)]
+    rows[3], rows[5], rows[6] = "3,0.03,13.0,2.0,3.0", "5,0.05,15.0,2.0,3.0,4.0", "6,0.06"
+    path.write_bytes("\r\n".join(rows).encode())
+    return path

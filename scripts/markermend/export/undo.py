@@ -17,6 +17,7 @@ import numpy as np
 from markermend.core.originals import Originals, find_originals, select_findings
 from markermend.core.recording import BadRecording, Recording, SetAside
 from markermend.core.written import WrittenChanges
+from markermend.export.partly_undone import file_bytes, recognise
 from markermend.formats.original_bytes import find_original_bytes
 from markermend.storage import atomic, originals_file
 from markermend.storage.original_bytes import OriginalBytes
@@ -96,7 +97,7 @@ def keep_originals(
         columns=about["columns"],
     )
     digest = hashlib.sha256()
-    for part in stored.put_back(_content(cleaned), np.ones(len(originals.frame), bool), originals.frame):
+    for part in stored.put_back(file_bytes(cleaned), np.ones(len(originals.frame), bool), originals.frame):
         digest.update(part)
     if digest.hexdigest() != sha256:
         raise BadRecording(f"the original would not come back from {cleaned.name} bit for bit; not written")
@@ -204,12 +205,9 @@ def read_certificate(path: Path) -> dict[str, Any]:
 def _written(cleaned: Path, stored: OriginalBytes, expected: str) -> tuple[np.ndarray, np.ndarray]:
     """The cleaned file as it was written, and the stretches of it that have the original bytes; refused where it was altered otherwise."""
     try:
-        found = atomic.sha256(cleaned)
+        written = recognise(cleaned, stored, expected)
     except OSError as error:
         raise NotUndone(f"{cleaned} cannot be read ({error.strerror}): clean the recording again") from error
-    if found == expected:
-        return _content(cleaned), np.zeros(len(stored.start), bool)
-    written = _partly_taken_back(cleaned, stored, expected)
     if written is None:
         raise NotUndone(
             f"{cleaned} was altered after it was written, so that its changes cannot be taken back: put the file back as it was, or "
@@ -218,20 +216,12 @@ def _written(cleaned: Path, stored: OriginalBytes, expected: str) -> tuple[np.nd
     return written
 
 
-def _partly_taken_back(copy: Path, stored: OriginalBytes, expected: str) -> tuple[np.ndarray, np.ndarray] | None:
-    """The cleaned file and the stretches that have the original bytes, of a copy in which changes were taken back; None of another file."""
-    state = stored.as_written(_content(copy))
-    if state is None or hashlib.sha256(state[0]).hexdigest() != expected:
-        return None
-    return np.frombuffer(state[0], np.uint8), state[1]
-
-
 def _taken_back(target: Path, stored: OriginalBytes, certificate: Mapping[str, Any]) -> np.ndarray | None:
     """The stretches with the original bytes of a copy that stands in the place of the next, in which some changes were taken back and not all."""
     if not target.exists() or atomic.sha256(target) in (certificate["original_sha256"], certificate["cleaned_sha256"]):
         return None
-    state = _partly_taken_back(target, stored, certificate["cleaned_sha256"])
-    return None if state is None else state[1]
+    copy = recognise(target, stored, certificate["cleaned_sha256"])
+    return None if copy is None else copy[1]
 
 
 def _kept(path: Path) -> tuple[Originals, OriginalBytes]:
@@ -246,11 +236,6 @@ def _kept(path: Path) -> tuple[Originals, OriginalBytes]:
         raise NotUndone(f"{path} is of an earlier version, without all bytes: clean the recording again") from error
     except (OSError, BadRecording, KeyError) as error:
         raise NotUndone(f"{path} is missing or damaged: clean the recording again") from error
-
-
-def _content(path: Path) -> np.ndarray:
-    """The bytes of a file, mapped into memory; a file without any cannot be."""
-    return np.memmap(path, np.uint8, "r") if path.stat().st_size else np.zeros(0, np.uint8)
 
 
 def _stretches(kept: Originals, selected: np.ndarray) -> tuple[tuple[str, int, int], ...]:

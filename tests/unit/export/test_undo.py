@@ -81,19 +81,9 @@ def test_a_delimiter_behind_a_blank_last_cell_goes_again(tmp_path):
         assert_comes_back(tmp_path / "walk.trc", seed)
 
 
-def short_rows(tmp_path):
-    """A table in which rows end where nothing more was seen."""
-    rows = ["Frame,Time," + ",".join(f"{name}_{axis} (mm)" for name in "ABC" for axis in "xyz")]
-    rows += [f"{n},{n / 100},1{n}.0,2.0,3.0,4.0,5.{n},6.0,7.0,8.0,9.{n}" for n in range(1, 9)]
-    rows[3], rows[5], rows[6] = "3,0.03,13.0,2.0,3.0", "5,0.05,15.0,2.0,3.0,4.0", "6,0.06"
-    path = tmp_path / "walk.csv"
-    path.write_bytes("\r\n".join(rows).encode())
-    return path
-
-
 def test_rows_that_lacked_cells_lack_them_again(tmp_path):
     for seed in range(20):
-        assert_comes_back(short_rows(tmp_path), seed)
+        assert_comes_back(text_files.short_rows(tmp_path / "walk.csv"), seed)
 
 
 def fill_all(positions, origin):
@@ -102,7 +92,7 @@ def fill_all(positions, origin):
 
 
 def test_a_row_keeps_its_length_while_one_of_its_added_samples_stays(tmp_path):
-    path = short_rows(tmp_path)
+    path = text_files.short_rows(tmp_path / "walk.csv")
     before = path.read_bytes().split(b"\r\n")
     cleaned, kept = keep(path, fill_all)
     undo(cleaned, tmp_path / "back", **kept, markers=["B"])
@@ -170,87 +160,6 @@ def test_a_finding_about_several_markers_is_restored_for_all(tmp_path):
     changes = [Change(f"M{m}", 5, 9, ("jump",), Outcome.REPAIRED, group="all markers") for m in range(4)]
     cleaned, kept = keep(c3d_files.write(tmp_path / "walk.c3d"), move, changes)
     assert undo(cleaned, tmp_path / "back.c3d", **kept, markers=["M3"]).whole
-
-
-def make(path, kind):
-    """A file of a text format, or of C3D in a storage."""
-    if kind in text_files.FORMATS:
-        path.write_bytes(text_files.make(kind, text_files.positions()))
-    else:
-        residuals = np.random.default_rng(1).integers(-1, 9, (20, 4)).astype(float)
-        c3d_files.write(path, storage=kind, residuals=residuals)
-    return path
-
-
-def findings(kept, seed):
-    """A marker and a frame of each finding, in random order."""
-    own = originals_file.read(kept["originals"])
-    _, first = np.unique(own.finding, return_index=True)
-    for at in np.random.default_rng(seed).permutation(first).tolist():
-        frame = int(own.frame[at]) + own.first_frame
-        yield {"markers": [own.markers[own.marker[at]]], "frames": (frame, frame)}
-
-
-KINDS = [*c3d_files.STORAGES, *text_files.FORMATS]
-
-
-def suffix(kind):
-    return {"trc": ".trc", "qtm": ".tsv", "csv": ".csv", "nexus": ".csv", "motive": ".csv"}.get(kind, ".c3d")
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_finding_by_finding_in_any_order_gives_the_original(tmp_path, kind):
-    path = make(tmp_path / f"walk{suffix(kind)}", kind)
-    original = path.read_bytes()
-    cleaned, kept = keep(path, anything())
-    for seed in range(2):
-        at = cleaned
-        for number, named in enumerate(findings(kept, seed)):
-            done = undo(at, tmp_path / f"{seed}_{number}", **kept, **named)
-            assert not done.whole or at.read_bytes() != original
-            at = tmp_path / f"{seed}_{number}"
-        assert number > 10 and done.whole and at.read_bytes() == original
-        # The copy in the place of the next one is gone on from.
-        for named in findings(kept, seed):
-            done = undo(cleaned, tmp_path / f"back{seed}", **kept, **named)
-        assert done.whole and (tmp_path / f"back{seed}").read_bytes() == original
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_was_taken_back_in_part_can_be_taken_back_whole(tmp_path, kind):
-    path = make(tmp_path / f"walk{suffix(kind)}", kind)
-    cleaned, kept = keep(path, anything())
-    undo(cleaned, tmp_path / "part", **kept, **next(findings(kept, 0)))
-    assert undo(tmp_path / "part", tmp_path / "back", **kept).whole
-    assert (tmp_path / "back").read_bytes() == path.read_bytes()
-    assert undo(tmp_path / "back", tmp_path / "again", **kept).whole
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_file_that_was_edited_besides_is_refused(tmp_path, kind):
-    path = make(tmp_path / f"walk{suffix(kind)}", kind)
-    cleaned, kept = keep(path, anything())
-    one, other = list(findings(kept, 0))[:2]
-    undo(cleaned, tmp_path / "part", **kept, **one)
-    part, stored = (tmp_path / "part").read_bytes(), originals_file.read_bytes(kept["originals"])
-    # In a sample of any finding, and before all samples.
-    for place in (int(stored.start[len(stored.start) // 2]), 3):
-        (tmp_path / "part").write_bytes(part[:place] + bytes([part[place] ^ 1]) + part[place + 1 :])
-        with pytest.raises(NotUndone, match="part was altered after it was written"):
-            undo(tmp_path / "part", tmp_path / "back", **kept, **other)
-        with pytest.raises(NotUndone, match="part is another file already"):
-            undo(cleaned, tmp_path / "part", **kept, **other)
-
-
-def test_rows_that_lacked_cells_lack_them_again_finding_by_finding(tmp_path):
-    for seed in range(10):
-        path = short_rows(tmp_path)
-        cleaned, kept = keep(path, anything(seed, share=0.5))
-        at = cleaned
-        for number, named in enumerate(findings(kept, seed)):
-            undo(at, tmp_path / f"{seed}_{number}", **kept, **named)
-            at = tmp_path / f"{seed}_{number}"
-        assert at.read_bytes() == path.read_bytes()
 
 
 def test_a_file_that_was_edited_after_it_was_cleaned_is_refused(tmp_path):
