@@ -94,11 +94,11 @@ def run(source, folder, config):
     written = ["--changes", str(own / "changes.tsv"), "--certificate", str(own / "certificate.json")]
     export.main(
         ["--source", str(source), "--within", "none", "--markers", files["01_markers.parquet"], "--filled", at["07"], "--record", at["07_changes"],
-         "--cleaned", str(own / "cleaned.c3d"), "--originals", at["originals"], *written, "--trc", *code, *options("export")]
+         "--cleaned", str(own / "cleaned.c3d"), "--originals", at["originals"], *written, "--trc", *code, *decided, *options("export")]
     )  # fmt: skip
     qc.main(
         [*common, "--events", *found, "--repaired", at["06"], "--filled", at["07"], "--changes", at["07_changes"],
-         "--certificate", written[3], "--qc", str(own / "qc.json"), "--page", str(own / "page.html"), *code, *options("qc")]
+         "--certificate", written[3], "--qc", str(own / "qc.json"), "--page", str(own / "page.html"), *code, *decided, *options("qc")]
     )  # fmt: skip
     return own
 

@@ -1,6 +1,8 @@
 """The export stage as a command: what it writes of a recording, and of one that was set aside."""
 
+import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -16,7 +18,7 @@ from markermend.formats.c3d.writer import Content, write_new
 from markermend.storage import atomic, change_file, originals_file, stage_files
 
 
-def flags(folder, *trc):
+def flags(folder, *trc, decisions=()):
     names = {
         "source": "walk.c3d", "markers": "01.parquet", "filled": "07.parquet", "record": "07_changes.parquet",
         "cleaned": "cleaned/walk.c3d", "changes": "changes.tsv", "originals": "originals.parquet",
@@ -27,6 +29,8 @@ def flags(folder, *trc):
         *named,
         "--code",
         "c",
+        "--decisions",
+        json.dumps(decisions),
         "--within",
         "none",
         "--trc",
@@ -76,6 +80,22 @@ def test_the_table_and_the_originals_say_what_was_changed(folder):
     assert certificate["cleaned"] == "cleaned/walk.c3d"
     assert len(originals.frame) == certificate["changed_samples"] == 7 and originals.measured.sum() == 2
     assert pq.read_table(folder / "originals.parquet")["class"].to_pylist() == ["peak"] * 2 + ["gap"] * 5
+
+
+def test_the_table_says_by_whom_and_why_a_change_was_decided(folder):
+    changes = [replace(change_file.read(folder / "07_changes.parquet")[0], decisions=("accept peak",))]
+    change_file.write(folder / "07_changes.parquet", changes, {})
+    decided = {
+        "marker": "A",
+        "decision": "accept",
+        "value": "peak",
+        "note": "hop",
+        "by": '=王\t"A"',
+        "date": "2026-03-31",
+    }
+    export.main(flags(folder, decisions=[decided]))
+    (row, *_) = csv.DictReader((folder / "changes.tsv").open(newline="", encoding="utf-8"), delimiter="\t")
+    assert row["decision"] == 'accept peak (hop; =王\t"A", 2026-03-31)'
 
 
 def test_what_was_ingested_comes_back_from_the_files(folder):
