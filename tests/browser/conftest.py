@@ -16,12 +16,7 @@ from markermend.report import recording_report, rendering
 from markermend.storage import atomic, tab_separated
 from support import report_files
 from support.browser import ARGUMENTS, Browser
-
-STATED = (
-    ("Walk 1", "LFIN", "", "", "protect", "", "taped", "Anna", "A.L.", "2026-03-31"),
-    ("gone", "A*", 5, 9, "reject", "peak", "", "", "", ""),
-)
-"""Lines of the table of decisions: one that the run followed, and one on a recording that is not there."""
+from support.decision_pages import STATED
 
 
 def pytest_collection_modifyitems(items):
@@ -44,9 +39,9 @@ def chromium() -> Iterator[Any]:
 
 
 @pytest.fixture
-def browser(chromium) -> Iterator[Browser]:
-    """The browser as one person uses it, with a storage of its own; it fails where a page had an error."""
-    with Browser(chromium) as person:
+def browser(chromium, request) -> Iterator[Browser]:
+    """The browser as one person uses it, with a storage of its own; it fails where a page had an error. It draws plots unless the module says not."""
+    with Browser(chromium, plots=getattr(request.module, "PLOTS", True)) as person:
         yield person
 
 
@@ -82,3 +77,9 @@ def report(contaminated, tmp_path_factory) -> Path:
     quality = sorted(results.glob("*/*/08_qc.json"))
     report_script.main(report_files.report_flags(results / "report", quality, decisions=table))
     return results
+
+
+@pytest.fixture(scope="session")
+def walk(report) -> Path:
+    """The page of the contaminated walker."""
+    return report / "Anna/Walk%201/page.html"

@@ -8,10 +8,11 @@ from datetime import date
 
 import pytest
 
-from support.browser import Browser, decide
+from support.browser import decide
 from support.paths import PROJECT
 from support.workflow_runs import Project
 
+PLOTS = False
 SUBJECT = "S01"
 STUDY = ("--configfile", "study.yaml")
 OTHER = "a recording\tLANK\t1\t9\tprotect\t\tof another data set\t\n"
@@ -41,12 +42,6 @@ def changes(project: Project) -> dict[tuple[str, ...], dict[str, str]]:
     with open(project.results / SUBJECT / "daily/changes.tsv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file, delimiter="\t"))
     return {tuple(row[name] for name in ("marker", "first_frame", "last_frame", "class")): row for row in rows}
-
-
-@pytest.fixture
-def browser(chromium):
-    with Browser(chromium, plots=False) as person:
-        yield person
 
 
 def test_a_run_follows_what_was_decided_in_the_page(project, browser):

@@ -8,11 +8,6 @@ from support.browser import Browser, settled, until
 CHOSEN = "document.querySelector('tr.chosen')?.id"
 
 
-@pytest.fixture
-def walk(report):
-    return report / "Anna/Walk%201/page.html"
-
-
 def test_the_worst_finding_is_open_and_keys_lead_to_the_next(browser, walk):
     page = browser.open(walk)
     settled(page)
