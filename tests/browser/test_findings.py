@@ -102,6 +102,17 @@ def test_few_figures_are_live_at_a_time(solid, walk):
     until(page, "live.length === MAX_FIGURES && live[3] === document.querySelector('tr.drawn .figure')")
 
 
+def test_frames_to_decide_on_are_taken_from_the_view(browser, walk):
+    page = browser.open(walk)
+    settled(page)
+    page.locator("details.other summary").click()
+    form = page.locator("form.stretch").first
+    for view, frames in (([1400.4, 1433.2], ["1401", "1433"]), ([-50, 10_000], ["705", "1904"])):
+        page.evaluate("view => Plotly.relayout(document.querySelector('.plot'), { 'xaxis.range': view })", view)
+        form.get_by_role("button", name="Take the frames in view").click()
+        assert [form.get_by_label(name).input_value() for name in ("First frame", "Last frame")] == frames
+
+
 def test_a_browser_without_3d_says_so(browser, walk):
     page = browser.open(walk)
     until(page, "document.querySelector('.opened .figure')?.textContent.includes('nothing in 3-D')")
