@@ -217,7 +217,7 @@ class TestDecisions:
         assert fill_decided(person, recording, **limits).gaps_left
         result = fill_decided(person, recording, [decide(person, "accept", "gap")], **limits)
         assert result.gaps_left == []
-        assert result.fills[0].decisions == ("accept gap (why)",)
+        assert result.fills[0].decisions == ("accept gap",)
         assert np.linalg.norm((result.positions - person[0])[recording.missing], axis=1).max() < 30
         assert (result.error[recording.missing] > 0).all()
 
@@ -227,7 +227,7 @@ class TestDecisions:
         result = fill_decided(person, recording, [decide(person, *verb.split())])
         assert np.array_equal(result.positions, recording.positions, equal_nan=True)
         (left,) = result.gaps_left
-        assert (left.reason.text, left.decisions) == (f"a person decided: {verb} (why)", (f"{verb} (why)",))
+        assert (left.reason.text, left.decisions) == (f"a person decided: {verb}", (f"{verb}",))
 
     def test_a_gap_is_filled_by_the_persons_method_alone_even_where_it_is_no_member(self, person):
         recording = gapped(person, (MARKER, 200, 280))
@@ -237,7 +237,7 @@ class TestDecisions:
             assert (entry.method, weights(entry), entry.decisions) == (
                 method,
                 {method: 1.0},
-                (f"method {method} (why)",),
+                (f"method {method}",),
             )
 
     def test_a_method_of_repair_says_nothing_about_gaps(self, person):

@@ -96,7 +96,7 @@ def test_what_a_person_accepts_is_repaired_whatever_the_limits(clean, drifting, 
     result = mend(drifting, SLOW, decisions=[decide("accept", note="taped")], **limits)
     assert error(clean, result).max() < 1
     (repair,) = result.repairs
-    assert (repair.method, repair.decisions) == ("local_ridge", ("accept (taped)",))
+    assert (repair.method, repair.decisions) == ("local_ridge", ("accept",))
     assert result.repairs_left == []
 
 
