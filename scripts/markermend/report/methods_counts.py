@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from markermend.report.methods_text import enumeration
+from markermend.report.phrases import enumeration
 
 DONE = {
     "filled": ("gap", "filled"),

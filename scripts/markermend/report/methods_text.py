@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import groupby
 from typing import Any
 
 from markermend.core.artifacts import ARTIFACTS, ArtifactClass
+from markermend.report.methods_filling import filling_sentences
+from markermend.report.phrases import enumeration, limits
 from markermend.report.references import Citations
 
 PLACES = {
@@ -22,18 +24,6 @@ PRESETS = {
 }
 """Where the detectors look, by their option `preset`."""
 
-PSEUDO_GAPS = "pseudo-gaps, stretches of similar length of the same marker that were hidden for this purpose"
-
-WEIGHTS = {
-    "error": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}; where neighbours move more than there, larger "
-    "errors are expected of interpolations in time.",
-    "pma": "The weights are the likelihoods of the distances between markers that each predictor leads to.",
-    "both": f"The weights fall with the errors of the predictors on {PSEUDO_GAPS}, and are multiplied by the likelihoods "
-    "of the distances between markers that each predictor leads to.",
-    "equal": "All predictors have equal weights.",
-}
-"""How the predictors are weighted, by the option `weights` of the averaging."""
-
 REPAIRS = {
     "spline": "a cubic spline",
     "linear": "linear interpolation",
@@ -42,14 +32,6 @@ REPAIRS = {
     "replicated_network": "a feed-forward neural network",
 }
 """The methods of repair that were published, by their names."""
-
-LIMITS = {
-    "max_gap_s": "of at most {:g} s",
-    "max_repair_s": "in stretches of at most {:g} s",
-    "max_error_mm": "with an expected error of at most {:g} mm",
-    "max_error95_mm": "with an error of at most {:g} mm at a probability of 0.95",
-}
-"""Options that limit a stage."""
 
 Stages = Mapping[str, Mapping[str, Any]]
 """The options of each stage that ran, by its name, as the footers of its files state them."""
@@ -88,48 +70,16 @@ def paragraph(
     else:
         sentences += [*_mesh(stages, citations), *_sought(stages, citations)]
         sentences += [*(_repairs(stages) if repaired else ()), *_reported(stages), *_unmeasured(stages)]
-        sentences += [*(_filling(stages, citations, pooled) if filled else ()), *_decisions(stages)]
+        sentences += [
+            *(filling_sentences(stages["fill"], citations, pooled=pooled) if filled and "fill" in stages else ()),
+            *_decisions(stages),
+        ]
         if filled or repaired:
             sentences.append(
                 "Changed samples, and no others, were overwritten in a copy of each file, which was then compared with the "
                 "original byte by byte."
             )
     return {"text": " ".join(sentences), "references": citations.keys}
-
-
-def limits(options: Mapping[str, Any]) -> str:
-    """Name the limits of a stage.
-
-    Parameters
-    ----------
-    options : mapping of str
-        The options of the stage.
-
-    Returns
-    -------
-    str
-        The limits, with a space before them; empty where there are none.
-    """
-    phrases = [
-        phrase.format(options[key]) for key, phrase in LIMITS.items() if isinstance(options.get(key), int | float)
-    ]
-    return f" {enumeration(phrases)}" if phrases else ""
-
-
-def enumeration(words: Sequence[str]) -> str:
-    """Join words as a sentence does.
-
-    Parameters
-    ----------
-    words : sequence of str
-        The words.
-
-    Returns
-    -------
-    str
-        Such as `a, b and c`.
-    """
-    return " and ".join([", ".join(words[:-1]), *words[-1:]] if len(words) > 1 else words)
 
 
 def _place(stage: str, stages: Stages) -> str:
@@ -226,52 +176,6 @@ def _unmeasured(stages: Stages) -> Iterator[str]:
 def _adopts(stages: Stages) -> bool:
     """Whether markers were given their samples that lay under unlabelled trajectories."""
     return bool(stages.get("labels", {}).get("adopt_unlabelled"))
-
-
-def _filling(stages: Stages, citations: Citations, pooled: bool) -> Iterator[str]:
-    """How gaps were filled."""
-    if "fill" not in stages:
-        return
-    options = stages["fill"]
-    members = [name.replace("_", " ") for name in options.get("members", ())]
-    named = f" ({', '.join(members)})" if members else ""
-    yield (
-        f"Gaps{limits(options)} were filled with the weighted mean of several predictors{named} "
-        f"{citations.cite('averaging')}."
-    )
-    if pooled:
-        yield (
-            "Predictors that can learn from several recordings also learned from a sample of the poses in the subject's other recordings "
-            "that shared its mesh."
-        )
-    if (weights := options.get("ensemble", {}).get("weights")) in WEIGHTS:
-        yield WEIGHTS[weights]
-    yield from _constraints(options)
-    yield "The expected error of each filled sample was calibrated on pseudo-gaps."
-
-
-def _constraints(options: Mapping[str, Any]) -> Iterator[str]:
-    """The published constraints on what was filled, and smoothing, where the options of filling differ from the default."""
-    ensemble = options.get("ensemble", {})
-    distances = ensemble.get("distances", {})
-    if ensemble.get("time_constraint") == "off":
-        yield "Predictions were not made to meet the samples at the borders of a gap."
-    elif ensemble.get("weights") == "pma" and ensemble.get("time_constraint"):
-        frame = (
-            ", in the frame of the reference markers where there is one,"
-            if ensemble["time_constraint"] == "local"
-            else ""
-        )
-        yield f"A linear ramp{frame} made each prediction meet the samples at the borders of a gap."
-    if distances.get("spacing_rounds"):
-        quantiles = [f"{100 * distances[f'spacing_{end}_quantile']:g}" for end in ("lower", "upper")]
-        count = distances["spacing_references"]
-        yield (
-            f"The mean was moved to where its distance{'s' * (count > 1)} to the {f'{count} steadiest markers' if count > 1 else 'steadiest marker'} "
-            f"lie{'s' * (count == 1)} between the {quantiles[0]} and {quantiles[1]} % quantiles."
-        )
-    if options.get("smoothing_s"):
-        yield f"What was filled was smoothed by a moving median and a moving mean over {options['smoothing_s']:g} s."
 
 
 def _decisions(stages: Stages) -> Iterator[str]:

@@ -12,6 +12,7 @@ from markermend.core.recording import SetAside
 from markermend.options.reporting import AttentionOptions, QcOptions
 from markermend.report import rendering, sample_statistics, timeline
 from markermend.report import summary as report_summary
+from markermend.report.attention import with_attention
 from markermend.report.decision_outcomes import drafts, judged
 from markermend.report.evidence import Evidence
 from markermend.report.finding_lines import decidable, finding_lines
@@ -35,7 +36,7 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
     seen : Evidence
         What the stages wrote.
     weights : AttentionOptions
-        Points of attention, see summary.attention.
+        Points of attention, see `attention.attention`.
 
     Returns
     -------
@@ -51,7 +52,7 @@ def summarize(seen: Evidence, weights: AttentionOptions) -> dict[str, Any]:
         warnings=seen.warnings,
         unjudged=list(seen.unjudged),
     )
-    summary = report_summary.with_attention(summary, weights)
+    summary = with_attention(summary, weights)
     done = {key: bool(summary[key]["events"]) for key in DONE}
     methods = paragraph(
         seen.stages,

@@ -1,4 +1,4 @@
-"""What cleaning did to a recording, in numbers: what was missing, found, changed and left, and the attention that it needs.
+"""What cleaning did to a recording, in numbers: what was missing, found, changed and left.
 
 A sample is one marker at one frame. It counts as *changed* where what was written differs from what was measured, bit
 for bit: a value that was replaced, a gap that was filled, or a value that was taken away because no repair was reliable.
@@ -16,7 +16,6 @@ import numpy as np
 from markermend.core.changes import Change, Outcome
 from markermend.core.events import Event
 from markermend.core.recording import ORIGINS, Recording, Restored, changed, gaps
-from markermend.options.reporting import AttentionOptions
 from markermend.report.sample_statistics import (
     DIGITS,
     extent,
@@ -38,7 +37,7 @@ def summarize(
     warnings: Sequence[str],
     unjudged: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Summarize one recording; `with_attention` adds the score of its need of attention.
+    """Summarize one recording; `attention.with_attention` adds the score of its need of attention.
 
     Parameters
     ----------
@@ -86,25 +85,6 @@ def summarize(
         "unjudged": list(unjudged),
         "warnings": [*warnings, *inconsistent_origins(before, after)],
     }
-
-
-def with_attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str, Any]:
-    """Add the score of attention to a summary.
-
-    Parameters
-    ----------
-    summary : mapping of str to Any
-        What `summarize` gives.
-    weights : AttentionOptions
-        Points of attention, see `attention`.
-
-    Returns
-    -------
-    dict of str to Any
-        The summary with the score and its parts by cause.
-    """
-    parts = attention(summary, weights)
-    return {**summary, "attention": round(sum(parts.values()), 3), "attention_parts": parts}
 
 
 def size(recording: Recording) -> dict[str, float]:
@@ -176,34 +156,6 @@ def set_aside(facts: Mapping[str, Any], stage: str, reason: str) -> dict[str, An
         "markers": len(facts["markers"]) if "markers" in facts else None,
         "warnings": list(facts.get("warnings", ())),
     }
-
-
-def attention(summary: Mapping[str, Any], weights: AttentionOptions) -> dict[str, float]:
-    """Score how much a recording needs a person's attention.
-
-    Parameters
-    ----------
-    summary : mapping of str to Any
-        Of the recording.
-    weights : AttentionOptions
-        Points per percent of the samples changed (`changed_percent`), per percent still missing (`missing_percent`),
-        per mm of the largest expected error (`error_mm`), per artifact found but not repaired (`open`), per marker
-        that no detector could judge (`unjudged`) and per warning (`warning`).
-
-    Returns
-    -------
-    dict of str to float
-        Points by cause, which add up to the score; a complete recording that nothing was done to scores 0.
-    """
-    points = {
-        "changed": weights.changed_percent * 100 * summary["changed_share"],
-        "missing": weights.missing_percent * 100 * summary["missing_share_after"],
-        "expected error": weights.error_mm * (summary["expected_error_max_mm"] or 0.0),
-        "artifacts left": weights.open * summary["findings_open"]["events"],
-        "markers not judged": weights.unjudged * len(summary["unjudged"]),
-        "warnings": weights.warning * len(summary["warnings"]),
-    }
-    return {name: round(value, 3) for name, value in points.items()}
 
 
 def identity(facts: Mapping[str, Any]) -> dict[str, Any]:

@@ -12,7 +12,8 @@ from markermend.options.config import read_config
 from markermend.options.filling import FillOptions
 from markermend.options.flags import write_flags
 from markermend.options.values import plain
-from markermend.report.methods_text import LIMITS, WEIGHTS, enumeration, limits, paragraph
+from markermend.report.methods_filling import WEIGHTS
+from markermend.report.methods_text import paragraph
 from markermend.storage import change_file, stage_files
 from support.fillings import fill_options, restored, rigid_body
 from support.paths import PROJECT
@@ -143,23 +144,6 @@ def test_all_classes_in_one_text():
     )
     adopting = paragraph(ran | {"labels": {"adopt_unlabelled": True}}, "dynamic", "1")["text"]
     assert "under an unlabelled trajectory were given these samples" in adopting
-
-
-def test_enumerations():
-    assert [enumeration(words) for words in ([], ["a"], ["a", "b"], ["a", "b", "c"])] == [
-        "",
-        "a",
-        "a and b",
-        "a, b and c",
-    ]
-
-
-def test_limits_are_joined_and_absent_ones_left_out():
-    assert (
-        limits({"max_gap_s": 2.0, "max_error_mm": 50}) == " of at most 2 s and with an expected error of at most 50 mm"
-    )
-    assert limits({"max_gap_s": None}) == limits({}) == ""
-    assert all("{:g}" in phrase for phrase in LIMITS.values())
 
 
 def test_what_was_not_done_is_not_described():
