@@ -49,7 +49,7 @@ def test_a_folder_is_cleaned_with_a_line_for_each_recording(recordings, tmp_path
     assert "Detect artifacts in S01/a" in (results / "report/logs/run.log").read_text()
     again = markermend("clean", recordings, "--results", results, "--cores", "2")
     assert again[0].endswith("; 3 of them have results, which are kept where nothing has changed")
-    assert again[1:] == ["Nothing to be done: all results are up to date."]
+    assert again[1:] == ["Nothing to be done: all results are up to date.", report]
     assert markermend("report", results)[0] == summary
     assert markermend("verify", results)[-1].endswith(" files are as they were, 0 differ")
 
