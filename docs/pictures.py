@@ -98,8 +98,9 @@ RECTANGLE = """(selector) => {
 }"""
 """Where an element is on its page."""
 
-LINE_OF_CLASS = """(kind) => document.querySelector(`table.findings tr[id][data-kind="${kind}"]`)?.id"""
-"""The first line of a class on a page."""
+LINE = """([kind, marker]) => [...document.querySelectorAll(`table.findings tr[id][data-kind="${kind}"]`)]
+  .find((row) => row.textContent.includes(marker))?.id"""
+"""The first line of a class, and of a marker, on a page."""
 
 
 def photograph(folder: Path, chromium: Any) -> None:
@@ -111,6 +112,9 @@ def photograph(folder: Path, chromium: Any) -> None:
             camera.take(page, "report")
         with camera.page(gait / "S01/walk1/page.html", height=820) as page:
             camera.take(page, "recording")
+        with camera.page(folder / "studio_results/Ada/Take_001/page.html", width=1500, height=1100) as page:
+            line = visit(page, "gap", "LSHO")
+            camera.take_element(page, "long_gap", f"#{line} + tr .plot", scale=0.75)
         for name in sorted({artifact.name for artifact in ARTIFACTS} | {"gap"}):
             path = folder / "classes_results/K01" / name / "page.html"
             if path.exists():
@@ -136,9 +140,9 @@ def photograph_class(camera: Camera, page: Any, name: str) -> None:
     camera.take_element(page, f"classes/{name}", f"#{line} + tr .plot", scale=0.75)
 
 
-def visit(page: Any, kind: str) -> str:
-    """Open the first finding of a class on a page; gives its name."""
-    line = page.evaluate(LINE_OF_CLASS, kind)
+def visit(page: Any, kind: str, marker: str = "") -> str:
+    """Open the first finding of a class, and of a marker, on a page; gives its name."""
+    line = page.evaluate(LINE, [kind, marker])
     if line is None:
         raise ValueError(f"{page.url} has no finding of the class {kind}: the recordings or the detectors have changed")
     page.goto(page.url.split("#")[0] + "#" + line)

@@ -5,9 +5,10 @@ import re
 import pytest
 
 from markermend.core.artifacts import ARTIFACTS
-from markermend.export.change_table import COLUMNS
+from markermend.export import change_table
 from markermend.options.config import SECTIONS, own_options, place
 from markermend.options.description import describe
+from markermend.report import dataset_summary
 from support.paths import PROJECT
 from support.workflow_runs import write_recording
 
@@ -86,9 +87,13 @@ def test_every_message_that_troubleshooting_explains_is_one_of_the_program():
     assert [message for message in messages if not any(message in text for text in library)] == []
 
 
-def test_every_column_of_the_table_of_changes_is_explained():
-    page = (PROJECT / "docs/results.md").read_text(encoding="utf-8").partition("### Changes")[2]
-    explained = {
-        name for cell in re.findall(r"^\| ([^|]+) \|", page, re.MULTILINE) for name in re.findall(r"`(\w+)`", cell)
-    }
-    assert explained == set(COLUMNS)
+@pytest.mark.parametrize(
+    ("section", "columns"), [("Changes", change_table.COLUMNS), ("The summary", dataset_summary.COLUMNS)]
+)
+def test_every_column_of_a_table_is_explained(section, columns):
+    page = (PROJECT / "docs/results.md").read_text(encoding="utf-8")
+    part = re.split(r"^##", page.partition(f"### {section}\n")[2], flags=re.MULTILINE)[0]
+    explained = [
+        name for cell in re.findall(r"^\| ([^|]+) \|", part, re.MULTILINE) for name in re.findall(r"`(\w+)`", cell)
+    ]
+    assert sorted(explained) == sorted(columns)
