@@ -21,8 +21,8 @@ BLOCK = re.compile(r"^```(?:\{code-block\} )?(\w+)\n(?::caption: (\S+)\n)?(.*?)^
 SHORT_S = 5
 """Length of the recordings, s: long enough for every artifact of the made-up data sets."""
 
-TIME_AND_PLACE = re.compile(r" about | cores?\b|^Report: ")
-"""Lines that depend on the machine."""
+TIME_AND_PLACE = re.compile(r" about | cores?\b|^Report: |^…$")
+"""Lines that depend on the machine, or stand for others."""
 
 
 @dataclass(frozen=True)
