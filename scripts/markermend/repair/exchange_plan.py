@@ -54,7 +54,13 @@ NO_METHOD = Reason(Cause.NO_METHOD, "no method for labels: left as recorded")
 
 
 def plan_exchanges(
-    decided: DecidedFindings, rulings: Rulings, maker: CandidateMaker, *, methods: Sequence[str], usual: bool
+    decided: DecidedFindings,
+    rulings: Rulings,
+    maker: CandidateMaker,
+    *,
+    detected: Sequence[Event],
+    methods: Sequence[str],
+    usual: bool,
 ) -> list[PlannedExchange]:
     """Plan the exchanges of labels.
 
@@ -66,6 +72,9 @@ def plan_exchanges(
         The decisions.
     maker : CandidateMaker
         Judges whether the markers of a cycle are better with the samples of their partners.
+    detected : sequence of Event
+        All label exchanges as detected. What protected samples leave of one is judged by the whole of it: beside its parts the labels are
+        still those of the partners.
     methods : sequence of str
         The methods for exchanged labels. Without `exchange`, only what a person confirmed is exchanged.
     usual : bool
@@ -83,12 +92,15 @@ def plan_exchanges(
         new = not any(exchange.holds(event) for exchange in planned)
         if event.partner in decided.recording.markers and wanted and new:
             cycle = tuple(cycle_of(event, decided.found["labels"]))
-            reason = None
+            reason: Reason | None = None
             if not ruling.confirmed:
                 # What is exchanged over the same frames, as a whole limb is, stands or falls together.
                 same = [one for one in decided.found["labels"] if one.partner and _stretch(one) == _stretch(event)]
                 every = dict.fromkeys([*cycle, *(one for one in same if one.partner in decided.recording.markers)])
-                reason = _worse(list(every), decided.recording.markers, maker) if "exchange" in methods else NO_METHOD
+                reason = NO_METHOD
+                if "exchange" in methods:
+                    stretch = _whole_stretch(event, detected)
+                    reason = _worse(list(every), stretch, decided.recording.markers, maker)
             planned.append(PlannedExchange(cycle, ruling, reason))
     return planned
 
@@ -116,8 +128,18 @@ def _stretch(event: Event) -> tuple[int, int]:
     return event.start, event.stop
 
 
-def _worse(cycle: Sequence[Event], markers: Sequence[str], maker: CandidateMaker) -> Reason | None:
-    """Why the markers of exchanges would be no better with the samples of their partners; None where they would."""
+def _whole_stretch(event: Event, detected: Sequence[Event]) -> tuple[int, int]:
+    """The interval of the exchange of which an event is a part, or its own."""
+    whole = (one for one in detected if (one.marker, one.partner) == (event.marker, event.partner))
+    return next(
+        (_stretch(one) for one in whole if one.start <= event.start and event.stop <= one.stop), _stretch(event)
+    )
+
+
+def _worse(
+    cycle: Sequence[Event], stretch: tuple[int, int], markers: Sequence[str], maker: CandidateMaker
+) -> Reason | None:
+    """Why the markers of exchanges would be no better with the samples of their partners over a stretch; None where they would."""
     members = [markers.index(event.marker) for event in cycle]
     partners = [markers.index(str(event.partner)) for event in cycle]
-    return maker.worse_exchanged(members, partners, cycle[0].start, cycle[0].stop)
+    return maker.worse_exchanged(members, partners, *stretch)

@@ -119,7 +119,7 @@ def repair_scene(
     )
     maker = _candidate_maker(decided.recording, decided.found, scene, predictors, options)
     methods = options.methods.get("labels", ())
-    planned = plan_exchanges(decided, rulings, maker, methods=methods, usual=refusal is None)
+    planned = plan_exchanges(decided, rulings, maker, detected=exchanges, methods=methods, usual=refusal is None)
     carried = [event for exchange in planned if exchange.reason is None for event in exchange.cycle]
     if set(carried) != set(exchanges):
         decided = apply_decisions(recording, _follow_samples(found, exchanges, carried), rulings.decisions)

@@ -65,6 +65,20 @@ def test_a_swap_with_a_protected_marker_is_left(clean, protect):
     assert [left.reason.text for left in result.repairs_left] == ["protected", "protected"]
 
 
+@pytest.mark.parametrize("one, other", [("2b", "3a"), ("1a", "1b"), ("3a", "3b")])
+def test_what_protected_frames_leave_of_a_swap_is_undone(clean, one, other):
+    both = [clean.markers.index(name) for name in (one, other)]
+    positions = clean.positions.copy()
+    positions[START:STOP, both] = positions[START:STOP, both[::-1]]
+    swap = [Event(one, START, STOP, 9.0, "xyz", other), Event(other, START, STOP, 9.0, "xyz", one)]
+    middle = slice(START + 6, START + 10)
+    kept = [Decision(one, middle.start, middle.stop, "protect")]
+    result = mend(bodies.recording(clean.markers, positions), {"labels": swap}, decisions=kept)
+    expected = clean.positions.copy()
+    expected[middle] = positions[middle]
+    assert np.array_equal(result.positions, expected)
+
+
 def test_a_swap_that_is_none_is_left(clean):
     swap = [Event("2b", START, STOP, 1.0, "xyz", "3a"), Event("3a", START, STOP, 1.0, "xyz", "2b")]
     result = mend(clean, {"labels": swap})
