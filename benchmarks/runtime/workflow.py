@@ -38,7 +38,9 @@ def costs(results: Path) -> dict[tuple[str, str], dict[str, float]]:
     jobs = {}
     for path in sorted(results.glob("**/logs/*.tsv")):
         with open(path, encoding="utf-8") as file:
-            row = next(csv.DictReader(file, delimiter="\t"))
+            row = next(csv.DictReader(file, delimiter="\t"), {})
+        if "max_rss" not in row:
+            continue  # a table of something else, such as the decisions
         figures = {key: float(row[key]) for key in ("s", "cpu_time", "max_rss") if row[key] not in ("NA", "-")}
         jobs[path.stem, str(path.parent.parent.relative_to(results))] = figures
     return jobs
