@@ -1,4 +1,7 @@
-"""The table changes.tsv: all changes for people, one row each; it is only written, programs read the files of changes."""
+"""The table changes.tsv: all changes for people, one row each, without most of what was left.
+
+It is only written: programs read the files of changes, which have that, too.
+"""
 
 from __future__ import annotations
 
