@@ -96,6 +96,6 @@ def test_a_run_follows_what_was_decided_in_the_page(project, browser):
     page = browser.open(project.results / SUBJECT / "daily/page.html")
     assert "No decision waiting" in page.locator("#waiting").inner_text()
     assert page.locator("#decided tbody tr").count() == 6
-    assert f"judged by hand by 李 A. ({date.today()})." in page.locator("body").inner_text()
+    assert f"treated as decided by 李 A. ({date.today()})." in page.locator("body").inner_text()
     assert browser.download(page) == text
     assert "Nothing to be done" in project.plan(*STUDY).text

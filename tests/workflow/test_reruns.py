@@ -247,7 +247,7 @@ def sign(finished: Project, line: str) -> None:
         in (folder / "changes.tsv").read_text() + (folder / "page.html").read_text()
     )
     assert "a person decided: reject peak (taped; 李 L., 2026-03-31)" in (folder / "page.html").read_text()
-    assert "judged by hand by 李 L. (2026-03-31)." in (finished.results / "report/index.html").read_text()
+    assert "treated as decided by 李 L. (2026-03-31)." in (finished.results / "report/index.html").read_text()
 
 
 def test_a_decision_on_a_recording_that_is_not_there_is_kept_in_the_report(finished):

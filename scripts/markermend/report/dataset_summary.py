@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from markermend.planning.counts import counted
 from markermend.planning.run_summary import STATUSES
 from markermend.report.exclusion import exclusion_codes
 from markermend.report.methods_counts import sentence
@@ -141,6 +142,10 @@ def _found(entry: Mapping[str, Any]) -> bool:
     return any(findings["events"] for findings in entry["findings"].values())
 
 
+NAMED = 3
+"""Largest number of recordings that the heading of their methods text names."""
+
+
 def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """List the distinct methods texts.
 
@@ -152,7 +157,8 @@ def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any
     Returns
     -------
     list[dict[str, Any]]
-        Each text once, with the number of recordings that it holds for, and what was done in them, in a sentence; most first.
+        Each text once, with the number of recordings that it holds for, a heading that says which they are where they are few, and what was
+        done in them, in a sentence; most first.
     """
     texts = {entry["methods"]["text"]: entry["methods"] for entry in entries if "methods" in entry}
     own: dict[str, list[Mapping[str, Any]]] = {}
@@ -161,4 +167,13 @@ def distinct_methods(entries: Sequence[Mapping[str, Any]]) -> list[dict[str, Any
             own.setdefault(entry["methods"]["text"], []).append(entry)
     counts = {text: len(alike) for text, alike in own.items()}
     order = sorted(texts, key=lambda text: (-counts[text], text))
-    return [{**texts[text], "recordings": counts[text], "counts": sentence(own[text])} for text in order]
+    return [
+        {**texts[text], "recordings": counts[text], "heading": _heading(own[text]), "counts": sentence(own[text])}
+        for text in order
+    ]
+
+
+def _heading(entries: Sequence[Mapping[str, Any]]) -> str:
+    """How many recordings there are, and which where they are few."""
+    names = sorted(f"{entry['subject']}/{entry['recording']}" for entry in entries)
+    return counted(len(names), "recording") + (f": {', '.join(names)}" if len(names) <= NAMED else "")

@@ -181,4 +181,4 @@ def _adopts(stages: Stages) -> bool:
 def _decisions(stages: Stages) -> Iterator[str]:
     """Whether a person decided anything."""
     if stages.get("fill", {}).get("decisions"):
-        yield "Where a person had reviewed findings and gaps, the decisions of that person took precedence."
+        yield "Where a person had decided on findings, gaps or frames, the decisions of that person took precedence."

@@ -49,7 +49,16 @@ def test_methods_are_listed_once_for_equal_steps(made):
     static = {**base, "methods": {"text": "Only checked.", "references": []}}
     texts = dataset_summary.distinct_methods([base, static, base])
     assert [text["recordings"] for text in texts] == [2, 1]
+    place = f"{base['subject']}/{base['recording']}"
+    assert [text["heading"] for text in texts] == [f"2 recordings: {place}, {place}", f"1 recording: {place}"]
     assert "isolated peaks" in texts[0]["text"] and "at most 2 s" in texts[0]["text"]
+
+
+def test_only_few_recordings_are_named_in_the_heading_of_their_methods_text(made):
+    alike = [{**made.summary, "subject": "S1", "recording": name} for name in "dbca"]
+    for number, heading in ((3, "3 recordings: S1/b, S1/c, S1/d"), (4, "4 recordings")):
+        (methods,) = dataset_summary.distinct_methods(alike[:number])
+        assert methods["heading"] == heading
 
 
 def test_a_subject_who_moved_too_little_is_advised_once_and_only_where_it_matters(made):

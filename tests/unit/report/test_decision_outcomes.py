@@ -126,7 +126,7 @@ def test_the_page_says_what_was_decided_and_is_not_hurt_by_a_note(made):
     page = Page(made.page)
     assert f"a person decided: accept ({HOSTILE}; =王 <b>, 2026-03-31)" in page.text
     assert made.summary["judged"] == {"events": 2, "by": ["=王 <b>"], "dates": ["2026-03-31"]}
-    assert "2 findings and gaps were judged by hand by =王 <b> (2026-03-31)." in page.text
+    assert "2 findings, gaps and stretches of frames were treated as decided by =王 <b> (2026-03-31)." in page.text
     assert "a person decided: reject" in page.text
     assert "Decisions</h2>" in made.page and "B, frames 741 to 742" in page.text
     assert {tag for tag, attributes in page.tags if "onerror" in attributes} == set()

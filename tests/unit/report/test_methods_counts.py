@@ -26,15 +26,17 @@ def test_what_was_not_done_is_not_named():
     assert sentence([summary(), summary()]) == "In 2 recordings of 4,000 samples nothing was changed."
 
 
-def test_those_who_judged_findings_are_named_with_the_days():
+def test_those_whose_decisions_were_followed_are_named_with_the_days():
     one = summary(judged={"events": 3, "by": ["B.K.", "王"], "dates": ["2026-03-04"]})
     other = summary(judged={"events": 1, "by": ["B.K."], "dates": ["2026-02-28"]})
     assert sentence([one, other]).endswith(
-        "4 findings and gaps were judged by hand by B.K. and 王 (2026-02-28 to 2026-03-04)."
+        "4 findings, gaps and stretches of frames were treated as decided by B.K. and 王 (2026-02-28 to 2026-03-04)."
     )
-    assert sentence([other]).endswith("changed. 1 finding or gap was judged by hand by B.K. (2026-02-28).")
+    assert sentence([other]).endswith(
+        "changed. 1 finding, gap or stretch of frames was treated as decided by B.K. (2026-02-28)."
+    )
     undated = summary(judged={"events": 2, "by": ["B.K."], "dates": []})
-    assert sentence([undated]).endswith("2 findings and gaps were judged by hand by B.K.")
+    assert sentence([undated]).endswith("2 findings, gaps and stretches of frames were treated as decided by B.K.")
 
 
 def test_nobody_is_named_where_nobody_gave_a_name():
