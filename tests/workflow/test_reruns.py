@@ -319,7 +319,7 @@ def test_after_a_run_that_failed_the_plan_names_the_module_still(finished, tmp_p
 def test_a_part_of_a_run_says_what_it_did_and_the_last_one_writes_the_report(finished, tmp_path):
     results = tmp_path / "results"
     text = finished.run("--batch", "report=1/2", results=results)
-    assert "1 recordings: 1 cleaned" in text and "not finished" not in text
+    assert "1 recording: 1 cleaned" in text and "not finished" not in text
     assert text.strip().splitlines()[-1] == "This part of the run is closed; the last part writes the report."
     assert "Report: " in finished.run("--batch", "report=2/2", results=results).strip().splitlines()[-1]
     undisturbed, parts = finished.outputs(), finished.outputs(results)

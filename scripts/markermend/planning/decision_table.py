@@ -14,6 +14,7 @@ from markermend.planning.decision_cells import Problem, parse, suggestion
 from markermend.planning.recordings import BadDataSet, Entry
 from markermend.planning.tables import read_table
 from markermend.storage import tab_separated
+from markermend.storage.folder_names import readable
 
 COLUMNS = ("recording", "marker", "first_frame", "last_frame", "decision", "value", "note", "subject", "by", "date")
 """Columns of the table, of which the first four are those of changes.tsv; recording, marker and decision are required."""
@@ -75,7 +76,7 @@ def load(
         problems += find_contradictions(several)
     decided = {folders: in_order(several) for folders, several in lines.items()}
     problems += [
-        f"{len(objects)} lines on {'/'.join(folders)} are too many; use patterns and longer stretches"
+        f"{len(objects)} lines on {readable(*folders)} are too many; use patterns and longer stretches"
         for folders, objects in decided.items()
         if len(json.dumps(objects)) > LARGEST
     ]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from markermend.formats.files import READABLE, UNREADABLE
-from markermend.storage.folder_names import printable
+from markermend.storage.folder_names import printable, visible
 
 NAMES = 3
 """How many names of a kind are said at most."""
@@ -78,7 +78,7 @@ class LeftOut:
         ]
         rest = list(_counts(others).values())
         lines = [("not read", "; ".join(said))] * bool(said) + [("left alone", ", ".join(rest))] * bool(rest)
-        return [_one_line(f"recordings: {what} below {self.top}: {text}") for what, text in lines]
+        return [visible(printable(f"recordings: {what} below {self.top}: {text}")) for what, text in lines]
 
 
 def _counts(kinds: Mapping[str, list[str]]) -> dict[str, str]:
@@ -91,8 +91,3 @@ def _names(names: list[str]) -> str:
     """The first names, and how many more there are."""
     more = f" and {len(names) - NAMES} more" if len(names) > NAMES else ""
     return ", ".join(sorted(names)[:NAMES]) + more
-
-
-def _one_line(text: str) -> str:
-    """A text without control characters and without bytes that are no characters."""
-    return "".join(char if char.isprintable() else "?" for char in printable(text))

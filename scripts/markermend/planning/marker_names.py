@@ -16,6 +16,7 @@ from markermend.core.recording import BadRecording
 from markermend.formats.outline import read_outline
 from markermend.planning.discovery import Folders
 from markermend.planning.recordings import Entry
+from markermend.storage.folder_names import readable
 
 LOOKED_AT = 1000
 """Recordings that are looked at; of more, as many evenly spaced ones stand for all."""
@@ -57,7 +58,7 @@ def unknown_names(
         names = _names(entries[place])
         for pattern in dict.fromkeys(str(line["marker"]) for line in lines):
             if names and not _matches(pattern, names):
-                warnings.append(f"decisions: {'/'.join(place)} has no marker {pattern}{_similar(pattern, names)}")
+                warnings.append(f"decisions: {readable(*place)} has no marker {pattern}{_similar(pattern, names)}")
     return warnings
 
 

@@ -218,7 +218,7 @@ def _walk(
             continue
         earlier = real != results and os.path.isfile(os.path.join(path, "report", "logs", "recordings.txt"))
         if earlier or "01_markers.parquet" in files:
-            left.note("results of earlier runs", os.path.dirname(path), [os.path.basename(path)])
+            left.note("with results of earlier runs", os.path.dirname(path), [os.path.basename(path)])
         if real in seen or real == results or earlier or "01_markers.parquet" in files:
             folders.clear()
             continue

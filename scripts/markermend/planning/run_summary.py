@@ -8,7 +8,9 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
+from markermend.planning.counts import counted
 from markermend.planning.partial_report import PARTIAL
+from markermend.storage.folder_names import readable
 
 STATUSES = ("cleaned", "unchanged", "static", "set aside")
 """The possible outcomes of a recording, in the order in which a summary counts them."""
@@ -47,9 +49,8 @@ def summary(paths: Sequence[Path], report: Path | None, unfinished: Collection[P
     found = [{} if path in unfinished else _read(path) for path in paths]
     counts = Counter(quality.get("status", "unfinished") for quality in found)
     lines = [", ".join(f"{counts[status]} {status}" for status in (*STATUSES, "unfinished") if counts[status])]
-    lines[0] = (
-        f"{len(found)} recordings: {lines[0]}; {sum(q.get('changed_samples') or 0 for q in found)} samples changed"
-    )
+    samples = sum(quality.get("changed_samples") or 0 for quality in found)
+    lines[0] = f"{counted(len(found), 'recording')}: {lines[0]}; {counted(samples, 'sample')} changed"
     for status in ("set aside", "static"):
         own = [quality for quality in found if quality.get("status") == status]
         lines += [f"  {status}: {q.get('subject')}/{q.get('recording')}: {q.get('reason')}" for q in own[:LISTED]]
@@ -57,7 +58,7 @@ def summary(paths: Sequence[Path], report: Path | None, unfinished: Collection[P
             lines.append(f"  and {len(own) - LISTED} more, all in the report")
     left = [path.parent for path, quality in zip(paths, found, strict=True) if not quality]
     lines += [
-        f"  not finished: {'/'.join(folder.parts[-2:])}: {_last_error(folder / 'logs')}" for folder in left[:LISTED]
+        f"  not finished: {readable(*folder.parts[-2:])}: {_last_error(folder / 'logs')}" for folder in left[:LISTED]
     ]
     if len(left) > LISTED:
         lines.append(f"  and {len(left) - LISTED} more that were not finished")

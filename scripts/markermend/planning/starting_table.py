@@ -17,6 +17,7 @@ from markermend.formats.outline import read_outline
 from markermend.options.general import GeneralOptions
 from markermend.options.ingest import IngestOptions
 from markermend.planning import recordings
+from markermend.planning.counts import counted
 from markermend.planning.recording_table import COLUMNS
 from markermend.planning.recordings import Entry
 from markermend.storage import tab_separated
@@ -127,7 +128,7 @@ def make_table(folder: str, general: GeneralOptions, ingest: IngestOptions) -> S
     static = [entry for entry in entries if entry.kind == "static"]
     left_out = [entry.source for entry in found if not _is_text(entry)]
     notes = [
-        f"{len(entries)} recordings of {len({entry.subject for entry in entries})} subjects",
+        f"{counted(len(entries), 'recording')} of {counted(len({entry.subject for entry in entries}), 'subject')}",
         *_subject_notes(entries, named),
         *_note(static, "static by name, reported and never changed", "recording"),
         *_note(
@@ -207,7 +208,7 @@ def _note(entries: Sequence[Entry], what: str, attribute: str) -> list[str]:
         return []
     names = list(dict.fromkeys(getattr(entry, attribute) for entry in entries))
     listed = ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
-    return [f"{len(entries)} recordings: {what}: {listed}"]
+    return [f"{counted(len(entries), 'recording')}: {what}: {listed}"]
 
 
 def _unreadable(entries: Iterable[Entry]) -> list[str]:

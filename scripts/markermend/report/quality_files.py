@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from markermend.storage.folder_names import readable
+
 
 def read(paths: Sequence[Path], checksums: Sequence[str | None]) -> tuple[list[dict[str, Any]], list[str]]:
     """Read the summaries of recordings.
@@ -43,6 +45,6 @@ def place(path: Path) -> str:
     Returns
     -------
     str
-        The names of its two folders.
+        The names that its two folders stand for.
     """
-    return "/".join(path.absolute().parts[-3:-1])
+    return readable(*path.absolute().parts[-3:-1])

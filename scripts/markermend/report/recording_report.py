@@ -22,7 +22,7 @@ from markermend.report.open_findings import reasons_for_blanking
 from markermend.report.plot_data import excerpt
 from markermend.report.stick_figure import stick_figure
 from markermend.storage import stage_files
-from markermend.storage.folder_names import decode
+from markermend.storage.folder_names import name_of
 
 TICKS = 8
 """About how many times are marked along the map of missing samples."""
@@ -117,31 +117,12 @@ def summarize_aside(markers: Path, certificate: Path, page: Path, note: SetAside
         stated = checksums(stage_files.read_json(certificate))
     except (SetAside, OSError, ValueError, KeyError, TypeError):
         stated = {}
-    recording, subject = name_of(page.absolute().parent), name_of(page.absolute().parent.parent)
+    recording, subject = name_of(page.absolute().parent.name), name_of(page.absolute().parent.parent.name)
     return {
         **report_summary.set_aside({"recording": recording, "subject": subject, **facts}, note.stage, note.reason),
         **stated,
         **place(page),
     }
-
-
-def name_of(folder: Path) -> str:
-    """Give the name that the name of a folder encodes.
-
-    Parameters
-    ----------
-    folder : Path
-        Of a recording or a subject.
-
-    Returns
-    -------
-    str
-        The name; that of the folder where it was cut.
-    """
-    try:
-        return decode(folder.name)
-    except ValueError:
-        return folder.name
 
 
 def place(page: Path) -> dict[str, str]:

@@ -93,6 +93,57 @@ def decode(folder: str) -> str:
     return unquote_to_bytes(folder).decode()
 
 
+def name_of(folder: str) -> str:
+    """Give the name that a folder name stands for.
+
+    Parameters
+    ----------
+    folder : str
+        A folder name.
+
+    Returns
+    -------
+    str
+        The name; the folder name where it was cut or encodes none.
+    """
+    try:
+        return decode(folder)
+    except ValueError:
+        return folder
+
+
+def readable(*folders: str) -> str:
+    """Name a recording or a subject on a terminal as people call it.
+
+    Parameters
+    ----------
+    *folders : str
+        The folder names of the subject and the recording.
+
+    Returns
+    -------
+    str
+        Their names with slashes between them, in which no character controls the terminal.
+    """
+    return visible("/".join(map(name_of, folders)))
+
+
+def visible(text: str) -> str:
+    """Write text on one line, so that no character of it controls the terminal.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+
+    Returns
+    -------
+    str
+        The same with `?` for each character that cannot be shown.
+    """
+    return "".join(character if character.isprintable() else "?" for character in text)
+
+
 def printable(text: str) -> str:
     r"""Write bytes of a file name that are not UTF-8 as `\xNN`, so that the text can be stored and shown.
 

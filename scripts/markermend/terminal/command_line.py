@@ -18,6 +18,7 @@ from rich.console import Console
 from markermend.command import run_workflow, verification
 from markermend.options.general import GeneralOptions
 from markermend.planning import run_summary
+from markermend.planning.counts import counted
 from markermend.planning.discovery import find_decisions, find_recordings
 from markermend.planning.marker_names import unknown_names
 from markermend.planning.option_files import read_option_files
@@ -171,7 +172,7 @@ def _crate(call: argparse.Namespace, given: list[str]) -> int:
         count = run_crate.write(call.results.resolve(), statement)
     except (run_crate.NoRun, NotWritten) as error:
         return _refuse(str(error))
-    print(f"{call.results / run_crate.METADATA} describes {count} recordings; the folder is an RO-Crate now")
+    print(f"{call.results / run_crate.METADATA} describes {counted(count, 'recording')}; the folder is an RO-Crate now")
     return 0
 
 

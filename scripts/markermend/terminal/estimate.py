@@ -11,6 +11,7 @@ from pathlib import Path
 
 from markermend.core.recording import BadRecording
 from markermend.formats.outline import Outline, read_outline
+from markermend.planning.counts import counted
 from markermend.planning.recordings import Entry
 from markermend.planning.result_files import QUALITY
 from markermend.terminal.progress import duration
@@ -54,13 +55,14 @@ def line(entries: Sequence[Entry], results: Path, *, cores: int | None) -> str:
     work = count * CPU_PER_RECORDING_S + share * CPU_PER_SAMPLE_S * sum(outline.samples for outline in outlines)
     of_cores = min(cores or 1, count)
     most = duration(MOST * work / of_cores)
-    where = f"on {_count(cores, 'core')}" if cores else "of one core"
+    where = f"on {counted(cores, 'core')}" if cores else "of one core"
     done = sum(
         (results / subject / recording / QUALITY).exists() for subject, recording in (e.folders for e in entries)
     )
-    there = f"; {done} of them have results, which are kept where nothing has changed" if done else ""
+    who = "it has" if count == 1 else f"{done} of them {'has' if done == 1 else 'have'}"
+    there = f"; {who} results, which are kept where nothing has changed" if done else ""
     return (
-        f"{_count(count, 'recording')} of {_count(subjects, 'subject')}, {duration(seconds)} of data: "
+        f"{counted(count, 'recording')} of {counted(subjects, 'subject')}, {duration(seconds)} of data: "
         f"about {duration(work / of_cores)} to {most} {where}{there}"
     )
 
@@ -73,8 +75,3 @@ def _outline(entry: Entry) -> Outline | None:
         return read_outline(Path(entry.source), rate=entry.rate)
     except (BadRecording, OSError):
         return None
-
-
-def _count(number: int, what: str) -> str:
-    """A number of things."""
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -12,7 +12,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from markermend.planning.counts import counted
 from markermend.planning.result_files import QUALITY
+from markermend.storage.folder_names import readable, visible
 
 WORK = {"detect": 10.0, "finish": 3.0, "repair": 1.5}
 """What the jobs of a recording take, in units of the shortest (benchmarks/results/runtime.tsv); 0.5 for all others."""
@@ -98,7 +100,7 @@ class Progress:
         if rule != LAST:
             return None
         self.judged += 1
-        return f"{'/'.join(place)}: {outcome(self.results.joinpath(*place, QUALITY))}"
+        return f"{readable(*place)}: {outcome(self.results.joinpath(*place, QUALITY))}"
 
     @property
     def share(self) -> float:
@@ -121,9 +123,9 @@ class Progress:
         """
         left = self.seconds_left
         now = [
-            f"{rule} {'/'.join(filter(None, place))}".strip() for rule, place in self.running.values() if rule != "all"
+            f"{rule} {readable(*filter(None, place))}".strip() for rule, place in self.running.values() if rule != "all"
         ]
-        parts = [f"{self.judged} of {self.total} recordings", f"{self.share:.0%}"]
+        parts = [f"{self.judged} of {counted(self.total, 'recording')}", f"{self.share:.0%}"]
         parts += [f"about {duration(left)} left"] if left is not None else []
         return ", ".join(parts) + (f": {', '.join(now[:3])}" if now else "")
 
@@ -144,22 +146,17 @@ def outcome(quality: Path) -> str:
     try:
         found = json.loads(quality.read_text(encoding="utf-8"))
         if found["status"] == "set aside":
-            return f"set aside: {_visible(found['reason'])}"
+            return f"set aside: {visible(found['reason'])}"
         counts = [
             (found["changed_samples"], "sample", "altered"),
             (found["filled"]["samples"], "sample", "filled"),
             (found["findings_open"]["events"], "finding", "left"),
             (found["gaps_open"]["events"], "gap", "left"),
         ]
-        parts = [f"{count} {what if count == 1 else what + 's'} {how}" for count, what, how in counts if count]
+        parts = [f"{counted(count, what)} {how}" for count, what, how in counts if count]
         return ", ".join([found["status"], *parts])
     except (OSError, ValueError, KeyError, TypeError):
         return "not judged"
-
-
-def _visible(text: str) -> str:
-    """A text of a recording, in which no character controls the terminal."""
-    return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def duration(seconds: float) -> str:

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from markermend.export.undo import NothingNamed, NotUndone, Restoration, read_certificate, undo
+from markermend.planning.counts import counted
 from markermend.planning.result_files import CERTIFICATE
 from markermend.storage.atomic import NotWritten
-from markermend.storage.folder_names import CLEANED, decode
+from markermend.storage.folder_names import CLEANED, name_of, readable
 
 STRETCHES = 4
 """Stretches that are named in the line of a recording."""
@@ -96,7 +97,7 @@ def _restore(
         markers=markers,
         frames=frames,
     )
-    name = f"{folder.parent.name}/{folder.name}"
+    name = readable(*folder.parts[-2:])
     what = "the original, bit for bit" if done.whole else _summary(done)
     return f"{name}: {what}: {target}"
 
@@ -117,7 +118,8 @@ def _summary(done: Restoration) -> str:
     """What was restored of a recording, and what was not."""
     named = [f"{marker} {first} to {last}" for marker, first, last in done.stretches]
     named = named[:STRETCHES] + ([f"{len(named) - STRETCHES} more"] if len(named) > STRETCHES else [])
-    return f"{done.samples} samples restored ({', '.join(named)}), {done.left} stay cleaned"
+    stay = "stays" if done.left == 1 else "stay"
+    return f"{counted(done.samples, 'sample')} restored ({', '.join(named)}), {done.left} {stay} cleaned"
 
 
 def _is_named(folder: Path, name: str) -> bool:
@@ -128,11 +130,7 @@ def _is_named(folder: Path, name: str) -> bool:
 def _names(folder: Path) -> list[str]:
     """What a recording may be called."""
     subject, recording = folder.resolve().parts[-2:]
-    plain = [f"{subject}/{recording}", recording]
-    try:
-        return [*plain, f"{decode(subject)}/{decode(recording)}", decode(recording)]
-    except ValueError:
-        return plain
+    return [f"{subject}/{recording}", recording, f"{name_of(subject)}/{name_of(recording)}", name_of(recording)]
 
 
 def _suggestion(name: str, folders: Sequence[Path]) -> str:

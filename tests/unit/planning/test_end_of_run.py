@@ -50,12 +50,12 @@ def test_a_part_of_a_run_is_summed_up_alone(tmp_path, plan, capsys):
     path.write_text(json.dumps({"status": "cleaned", "changed_samples": 2}))
     close(plan, [], {("S%201", "walk")})
     assert capsys.readouterr().err.splitlines() == [
-        "1 recordings: 1 cleaned; 2 samples changed",
+        "1 recording: 1 cleaned; 2 samples changed",
         "This part of the run is closed; the last part writes the report.",
     ]
     close(plan, [job(recording="run")], {("S%201", "walk"), ("S%201", "run")})
     text = capsys.readouterr().err
-    assert "2 recordings: 1 cleaned, 1 unfinished" in text and "not finished: S%201/run: see" in text
+    assert "2 recordings: 1 cleaned, 1 unfinished" in text and "not finished: S 1/run: see" in text
     assert not (tmp_path / "out/report/index.html").exists()
 
 
@@ -71,12 +71,12 @@ def test_jobs_that_were_not_finished_leave_their_recordings_out_of_the_report(tm
     text = capsys.readouterr().err
     assert text.startswith("3 recordings: 1 set aside, 2 unfinished")
     assert (
-        "not finished: S%201/walk: see" in text
+        "not finished: S 1/walk: see" in text
         and f"Report of what is finished: {tmp_path}/out/report/index.html" in text
     )
     assert (tmp_path / "out/report/failures.tsv").read_text().startswith("report\t")
     page = (tmp_path / "out/report/index.html").read_text()
-    assert "Not finished: 2" in page and "<li>S2/%7Bx%7D</li>" in page
+    assert "Not finished: 2" in page and "<li>S2/{x}</li>" in page
     assert (tmp_path / "out/report/summary.tsv").read_text().count("\n") == 2
 
 

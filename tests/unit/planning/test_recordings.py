@@ -30,7 +30,7 @@ def test_hidden_files_and_results_are_left_out(tmp_path):
     _, warnings = recordings.find(str(tmp_path), str(tmp_path / "results"))
     assert warnings == [
         f"recordings: left alone below {tmp_path}: 2 hidden (.trash/, S01/._walk.c3d),"
-        " 1 results of earlier runs (old/S01/walk)"
+        " 1 with results of earlier runs (old/S01/walk)"
     ]
 
 

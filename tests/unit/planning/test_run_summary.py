@@ -54,6 +54,14 @@ def test_a_long_list_of_what_was_not_finished_is_cut(tmp_path):
     assert "and 3 more that were not finished" in text and text.count("not finished: ") == 10
 
 
+def test_what_is_one_is_no_plural_and_names_are_those_of_people(tmp_path):
+    path = tmp_path / "S%201" / "a%20b" / "08_qc.json"
+    assert run_summary.summary([path], None).splitlines()[1].startswith("  not finished: S 1/a b: ")
+    path.parent.mkdir(parents=True)
+    path.write_text(json.dumps({"status": "cleaned", "changed_samples": 1}))
+    assert run_summary.summary([path], None).startswith("1 recording: 1 cleaned; 1 sample changed\n")
+
+
 def test_a_long_list_is_cut(tmp_path):
     path = tmp_path / "08_qc.json"
     path.write_text(json.dumps({"status": "set aside", "subject": "S", "recording": "r", "reason": "x"}))

@@ -79,7 +79,7 @@ def test_static_recordings_and_those_of_the_range_of_motion_are_named(make):
     assert {entry.recording for entry in made.entries if entry.kind == "static"} == {"static 1", "Cal01", "T-Pose"}
     assert "3 recordings: static by name, reported and never changed: Cal01, T-Pose, static 1" in made.notes
     [rom] = [note for note in made.notes if "range of motion" in note]
-    assert rom.startswith("1 recordings: ") and rom.endswith(": ROM")
+    assert rom.startswith("1 recording: ") and rom.endswith(": ROM")
 
 
 def test_what_cannot_be_read_or_named_and_what_else_is_there_is_said(make):

@@ -5,7 +5,15 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from markermend.storage.folder_names import LONGEST, RESERVED_RECORDINGS, RESERVED_SUBJECTS, decode, encode, printable
+from markermend.storage.folder_names import (
+    LONGEST,
+    RESERVED_RECORDINGS,
+    RESERVED_SUBJECTS,
+    decode,
+    encode,
+    printable,
+    readable,
+)
 
 
 @pytest.mark.parametrize(
@@ -83,6 +91,13 @@ def test_endless_repeats_are_broken(name):
     folder = encode(name)
     assert not re.search(r"(.+?)\1{19}$", folder)
     assert decode(folder) == name
+
+
+def test_a_recording_is_named_as_people_call_it():
+    assert readable(encode("Größe Zwei"), encode("take\tö 1")) == "Größe Zwei/take?ö 1"
+    cut = encode("x y" * 200)
+    assert readable("S", cut) == f"S/{cut}"
+    assert readable("100%FF") == "100%FF"
 
 
 def test_bytes_that_are_no_text_are_shown():

@@ -38,7 +38,10 @@ def test_results_that_are_there_are_counted(entries, tmp_path):
     (tmp_path / "S01/a").mkdir(parents=True)
     (tmp_path / "S01/a/08_qc.json").touch()
     assert estimate.line(entries, tmp_path, cores=1).endswith(
-        "; 1 of them have results, which are kept where nothing has changed"
+        "; 1 of them has results, which are kept where nothing has changed"
+    )
+    assert estimate.line(entries[:1], tmp_path, cores=1).endswith(
+        "; it has results, which are kept where nothing has changed"
     )
 
 

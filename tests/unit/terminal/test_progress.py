@@ -61,6 +61,14 @@ def test_a_recording_has_its_line_when_it_is_judged(tmp_path):
     assert run.line().startswith("1 of 2 recordings")
 
 
+def test_names_are_those_of_people_and_not_of_folders(tmp_path):
+    run = Progress(tmp_path)
+    run.tell({"event": "run_info", "stats": {"finish": 1}})
+    run.tell(begin(1, "finish", "Größe%20Zwei", "take%20ö%0A1"))
+    assert run.line() == "0 of 1 recording, 0%: finish Größe Zwei/take ö?1"
+    assert run.tell(end(1)) == "Größe Zwei/take ö?1: not judged"
+
+
 def test_what_is_none_is_not_counted_and_what_is_one_is_no_plural(tmp_path):
     nothing = write_quality(
         tmp_path, "a", status="unchanged", changed_samples=0, filled={"samples": 0}, gaps_open={"events": 0}

@@ -39,9 +39,9 @@ sys.exit({status})
 
 
 def test_a_line_for_each_recording_and_the_summary_are_shown(run):
-    status, shown = run([STATS, BEGUN, FINISHED], printed="noise", summary="1 recordings: 1 cleaned\nReport: there\n")
+    status, shown = run([STATS, BEGUN, FINISHED], printed="noise", summary="1 recording: 1 cleaned\nReport: there\n")
     assert status == 0
-    assert shown == "S/a: not judged\n1 recordings: 1 cleaned\nReport: there\n"
+    assert shown == "S/a: not judged\n1 recording: 1 cleaned\nReport: there\n"
 
 
 def test_a_line_longer_than_the_terminal_is_not_broken(run):
@@ -62,7 +62,7 @@ def test_a_run_with_nothing_to_do_says_so_and_where_the_report_is(run, tmp_path)
 
 
 def test_an_earlier_summary_is_not_shown(run):
-    run([], summary="1 recordings: 1 cleaned\n")
+    run([], summary="1 recording: 1 cleaned\n")
     assert run([])[1] == "Nothing to be done: all results are up to date.\n"
 
 

@@ -21,8 +21,8 @@ def test_a_table_is_written_and_what_it_was_guessed_from(here, capsys):
         "recording\tsubject\tfile\tkind\trate\tunit\nDay1_walk\tS01\tdata/S01/Day1/walk.c3d\tauto\t\t\n"
     )
     assert capsys.readouterr().out.splitlines() == [
-        "1 recordings of 1 subjects",
-        "1 recordings: subject from the folder: S01",
+        "1 recording of 1 subject",
+        "1 recording: subject from the folder: S01",
         "Correct recordings.tsv where it is wrong, and clean it: markermend clean recordings.tsv",
     ]
 

@@ -77,11 +77,12 @@ def test_a_recording_is_named_by_its_own_folder_wherever_that_was_moved(results,
     assert (tmp_path / "back/S01/walk.c3d").exists()
 
 
-def test_names_with_blanks_and_letters_of_any_script(results, tmp_path):
+def test_names_with_blanks_and_letters_of_any_script(results, tmp_path, capsys):
     content = add(results, "S%2001", "lauf%20ä", name="läuf 1.C3D")
     (results / "cleaned/S 01/läuf 1.C3D").chmod(0o444)
     assert run(results, "S 01/lauf ä", "--to", tmp_path / "zurück 1") == 0
     assert (tmp_path / "zurück 1/S 01/läuf 1.C3D").read_bytes() == content
+    assert capsys.readouterr().out.startswith("S 01/lauf ä: the original, bit for bit: ")
 
 
 def test_a_finding_is_restored_and_the_line_says_so(results, tmp_path, capsys):
