@@ -69,6 +69,7 @@ from markermend.planning import config as planning_config
 from markermend.planning import decision_cells
 from markermend.planning.contradictions import Line, find_contradictions
 from markermend.planning.decision_table import COLUMNS, in_order
+from markermend.planning.tables import Problem
 from markermend.repair.repair import repair as repair_findings
 from markermend.storage import atomic, mesh_file
 from markermend.storage.folder_names import printable
@@ -773,7 +774,7 @@ def read_decisions(
         cells = {column: text(value) for column, value in line.items() if value not in (None, "")}
         try:
             read.append(Line(number, dict(decision_cells.parse({"recording": "this", **cells}, methods))))
-        except decision_cells.Problem as problem:
+        except Problem as problem:
             problems.append(f"decision {number}, {problem}")
     problems += find_contradictions(read)
     if problems:

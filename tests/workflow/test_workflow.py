@@ -84,7 +84,7 @@ def test_recordings_that_are_not_there_are_named(project, tmp_path, missing):
     )
     assert done.returncode == 1
     if missing == "row":
-        assert "recordings[0].kind: 'dynamo' is not one of ['auto', 'dynamic', 'static']" in done.stdout
+        assert "line 2, column kind: 'dynamo' is none of auto, dynamic, static" in done.stdout
     else:
         assert f"no such folder or table: {place}" in done.stdout
     assert "Traceback" not in done.stdout

@@ -194,7 +194,6 @@ def find_data_set(
     options: Mapping[str, Any],
     results: str,
     *,
-    schemas: Path,
     failures: Mapping[tuple[str, str, str], int] | None = None,
 ) -> tuple[DataSet, list[str]]:
     """Find the data set that a config names.
@@ -205,8 +204,6 @@ def find_data_set(
         The options of each section of the config.
     results : str
         Absolute path of the folder of results, which holds no recordings.
-    schemas : Path
-        The folder of the schemas.
     failures : mapping of (str, str, str) to int, optional
         How often each stage failed so far, by subject, recording and stage.
 
@@ -222,7 +219,7 @@ def find_data_set(
     BadDataSet
         Where the recordings, the decisions or the mesh files cannot be used.
     """
-    entries, missing, left_out = _entries(options["general"], results, schemas)
+    entries, missing, left_out = _entries(options["general"], results)
     meshes = discovery.supplied_meshes(entries, options["mesh"].files)
     decisions, warnings = discovery.find_decisions(options, list(entries.values()))
     failed = Counter[str]()
@@ -237,10 +234,10 @@ def find_data_set(
     return DataSet(entries, checksums, meshes, decisions, table, places, missing), [*left_out, *warnings]
 
 
-def _entries(general: GeneralOptions, results: str, schemas: Path) -> tuple[dict[Folders, Entry], str, list[str]]:
+def _entries(general: GeneralOptions, results: str) -> tuple[dict[Folders, Entry], str, list[str]]:
     """The recordings; why there are none, where the config does not name any; and warnings."""
     try:
-        found, warnings = discovery.find_recordings(general, results, schemas=schemas)
+        found, warnings = discovery.find_recordings(general, results)
     except NoRecordings as error:
         if general.recordings != GeneralOptions().recordings:
             raise

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from datetime import date
-from difflib import get_close_matches
 from typing import Any
 
 from markermend.core.artifacts import ARTIFACTS, BY_NAME
 from markermend.core.changes import GAP
 from markermend.core.decisions import LEAVE, VERBS
+from markermend.planning.tables import Problem, unknown_word
 
 STAGES = Counter(artifact.stage for artifact in ARTIFACTS)
 """How many classes each detector finds."""
@@ -23,21 +23,6 @@ STATED = tuple(name for name, own in BY_NAME.items() if name != "swap" and own.o
 
 METHOD_NAMES = {"swap": "exchange"}
 """Methods that changes.tsv calls otherwise than the config."""
-
-
-class Problem(Exception):
-    """A cell that cannot be used.
-
-    Parameters
-    ----------
-    column : str
-        Name of its column.
-    text : str
-        What is wrong with it.
-    """
-
-    def __init__(self, column: str, text: str) -> None:
-        super().__init__(f"column {column}: {text}")
 
 
 def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[str, Any]]:
@@ -64,7 +49,7 @@ def parse(row: Mapping[str, str], methods: Collection[str]) -> Iterator[tuple[st
         if column not in row:
             raise Problem(column, "is empty")
     if row["decision"] not in VERBS:
-        raise Problem("decision", _unknown(row["decision"], VERBS))
+        raise Problem("decision", unknown_word(row["decision"], VERBS))
     yield "marker", row["marker"]
     yield "decision", row["decision"]
     yield from read_frames(row, required=row["decision"] == "class").items()
@@ -128,7 +113,7 @@ def read_class(row: Mapping[str, str]) -> str:
     """
     kind = NAMES.get(row.get("class", ""), row.get("class", ""))
     if kind and kind not in (*BY_NAME, GAP):
-        raise Problem("class", _unknown(kind, (*BY_NAME, GAP)))
+        raise Problem("class", unknown_word(kind, (*BY_NAME, GAP)))
     return kind
 
 
@@ -139,9 +124,9 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
     if verb in ("protect", "missing") and value:
         raise Problem("value", f"{value!r}: {verb} takes no value")
     if verb in ("accept", "reject") and value and value not in (*BY_NAME, GAP):
-        raise Problem("value", _unknown(value, (*BY_NAME, GAP)))
+        raise Problem("value", unknown_word(value, (*BY_NAME, GAP)))
     if verb == "method" and value not in (LEAVE, *methods):
-        raise Problem("value", _unknown(value, (LEAVE, *methods)))
+        raise Problem("value", unknown_word(value, (LEAVE, *methods)))
     if verb == "class":
         kind, _, partner = value.partition(":")
         if (kind, partner) == ("swap", "") or (kind == "swap" and set("*?") & set(row["marker"])):
@@ -149,7 +134,7 @@ def _value_of(row: Mapping[str, str], methods: Collection[str]) -> str:
                 "value", f"{value!r}: a swap is between two markers, write one as the marker and swap:OTHER here"
             )
         if kind not in (*STATED, "swap") or (partner and kind != "swap"):
-            raise Problem("value", _unknown(value, [*STATED, "swap:OTHER"]))
+            raise Problem("value", unknown_word(value, [*STATED, "swap:OTHER"]))
         if partner == row["marker"]:
             raise Problem("value", f"{value!r}: the other marker is the same")
     return value
@@ -171,27 +156,3 @@ def _day(text: str) -> str:
         raise Problem(
             "date", f"{text!r} is no day as in 2026-03-31 (in a spreadsheet: the format YYYY-MM-DD)"
         ) from None
-
-
-def _unknown(word: str, known: Collection[str]) -> str:
-    """Say that a word is none of those known, and which was meant."""
-    return f"{word!r} is none of {', '.join(known)}{suggestion(word, known)}"
-
-
-def suggestion(word: str, known: Collection[str]) -> str:
-    """Ask whether a similar word was meant.
-
-    Parameters
-    ----------
-    word : str
-        The word in the table.
-    known : Collection[str]
-        The words that mean something.
-
-    Returns
-    -------
-    str
-        The end of a sentence; empty where no word is similar.
-    """
-    close = get_close_matches(word, sorted(known), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""

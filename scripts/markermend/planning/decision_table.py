@@ -10,9 +10,9 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from markermend.planning.contradictions import Line, find_contradictions
-from markermend.planning.decision_cells import Problem, parse, suggestion
+from markermend.planning.decision_cells import parse
 from markermend.planning.recordings import BadDataSet, Entry
-from markermend.planning.tables import read_table
+from markermend.planning.tables import Problem, read_table, suggestion
 from markermend.storage import tab_separated
 from markermend.storage.folder_names import readable
 

@@ -8,19 +8,18 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from markermend.options.general import GeneralOptions
 from markermend.planning import config as planning_config
-from markermend.planning import config_schema, decision_table, recording_table, recordings
+from markermend.planning import decision_table, recording_table, recordings
 from markermend.planning.recordings import BadDataSet, Entry, NoRecordings
 
 Folders = tuple[str, str]
 """Names of the folders of a subject and a recording."""
 
 
-def find_recordings(general: GeneralOptions, results: str, *, schemas: Path) -> tuple[dict[Folders, Entry], list[str]]:
+def find_recordings(general: GeneralOptions, results: str) -> tuple[dict[Folders, Entry], list[str]]:
     """Find the recordings below a folder or in a table.
 
     Parameters
@@ -29,8 +28,6 @@ def find_recordings(general: GeneralOptions, results: str, *, schemas: Path) -> 
         Folder or table as the config has it, which links are followed, and which folders are days.
     results : str
         Absolute path of the folder of results, which holds no recordings.
-    schemas : Path
-        The folder of the schemas.
 
     Returns
     -------
@@ -55,9 +52,7 @@ def find_recordings(general: GeneralOptions, results: str, *, schemas: Path) -> 
     elif path.lower().endswith((".c3d", ".trc")) and os.path.isfile(path):
         raise BadDataSet(f"recordings: {path} is a recording itself: name the folder that holds it, or a table")
     elif os.path.isfile(path):
-        rows = recording_table.read_rows(path)
-        config_schema.check({"recordings": rows}, schemas / "recordings.schema.yaml", where=path)
-        found = recording_table.from_rows(rows, path)
+        found = recording_table.read(path)
     else:
         asked = "which recordings? There is" if general.recordings == GeneralOptions().recordings else "there is"
         raise NoRecordings(

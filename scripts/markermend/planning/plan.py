@@ -247,7 +247,7 @@ def make_plan(config: dict[str, Any], project: Path, *, deployed: bool, checks_n
     results = planning_config.folder(options["general"].results)
     files = ResultFiles(results)
     failures = planning_config.failures(results)
-    data, warnings = find_data_set(options, results, schemas=project / "workflow/schemas", failures=failures)
+    data, warnings = find_data_set(options, results, failures=failures)
     changes = [
         *code_changes(project, Path(files.provenance)),
         *unnoticed_changes(Path(results), Path(files.provenance)),

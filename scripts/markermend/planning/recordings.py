@@ -140,7 +140,7 @@ def find(
     if inside.startswith(os.path.realpath(results).rstrip(os.sep) + os.sep):
         raise BadDataSet(
             f"results: {results} holds the recordings ({folder}), so that the next run would take results for "
-            "recordings. Choose a folder of its own: --config results=FOLDER"
+            "recordings. Choose another folder for the results"
         )
     warnings: list[str] = []
     left = LeftOut(top)

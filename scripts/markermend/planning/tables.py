@@ -4,10 +4,26 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from difflib import get_close_matches
 
 from markermend.planning.recordings import BadDataSet
 from markermend.storage.tab_separated import plain
+
+
+class Problem(Exception):
+    """A cell that cannot be used.
+
+    Parameters
+    ----------
+    column : str
+        Name of its column.
+    text : str
+        What is wrong with it.
+    """
+
+    def __init__(self, column: str, text: str) -> None:
+        super().__init__(f"column {column}: {text}")
 
 
 def read_table(
@@ -69,3 +85,40 @@ def read_table(
         if row:
             rows.append((number, row))
     return rows
+
+
+def unknown_word(word: str, known: Collection[str]) -> str:
+    """Say that a word is none of those known, and which was meant.
+
+    Parameters
+    ----------
+    word : str
+        The word in the table.
+    known : Collection[str]
+        The words that mean something.
+
+    Returns
+    -------
+    str
+        What is wrong with the word.
+    """
+    return f"{word!r} is none of {', '.join(known)}{suggestion(word, known)}"
+
+
+def suggestion(word: str, known: Collection[str]) -> str:
+    """Ask whether a similar word was meant.
+
+    Parameters
+    ----------
+    word : str
+        The word in the table.
+    known : Collection[str]
+        The words that mean something.
+
+    Returns
+    -------
+    str
+        The end of a sentence; empty where no word is similar.
+    """
+    close = get_close_matches(word, sorted(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""

@@ -98,8 +98,7 @@ def _announce(call: argparse.Namespace, files: Sequence[str], *, profile: bool) 
     general: GeneralOptions = replace(options["general"], recordings=call.recordings)
     if call.decisions:
         general = replace(general, decisions=call.decisions)
-    schemas = workflow_folder() / "workflow/schemas"
-    found, _ = find_recordings(general, os.path.abspath(call.results), schemas=schemas)
+    found, _ = find_recordings(general, os.path.abspath(call.results))
     decisions, _ = find_decisions({**options, "general": general}, list(found.values()))
     cores = None if profile and not call.cores else _cores(call.cores)
     line = estimate.line(list(found.values()), call.results, cores=cores)

@@ -107,8 +107,8 @@ def test_other_remarks_on_decisions_do_not_reach_what_is_computed(tmp_path, plan
 
 def test_what_is_missing_by_default_is_said_and_what_is_named_must_be_there(tmp_path, config, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    data, warnings = find_data_set(read_config(config), str(tmp_path / "out"), schemas=PROJECT / "workflow/schemas")
+    data, warnings = find_data_set(read_config(config), str(tmp_path / "out"))
     assert not data.entries and "no such folder or table" in data.missing and warnings == []
     with pytest.raises(BadDataSet, match="no such folder or table"):
         options = read_config({**config, "recordings": "none"})
-        find_data_set(options, str(tmp_path / "out"), schemas=PROJECT / "workflow/schemas")
+        find_data_set(options, str(tmp_path / "out"))

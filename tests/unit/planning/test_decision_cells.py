@@ -2,7 +2,8 @@
 
 import pytest
 
-from markermend.planning.decision_cells import Problem, parse, suggestion
+from markermend.planning.decision_cells import parse
+from markermend.planning.tables import Problem, suggestion
 
 LINE = {"recording": "walk", "marker": "LANK", "decision": "reject"}
 

@@ -8,9 +8,6 @@ from markermend.options.config import read_config
 from markermend.options.general import GeneralOptions
 from markermend.planning import discovery
 from markermend.planning.recordings import BadDataSet, Entry
-from support.paths import PROJECT
-
-SCHEMAS = PROJECT / "workflow/schemas"
 
 
 def entry(subject, recording, mesh=None):
@@ -24,13 +21,11 @@ def by_folders(*entries):
 def test_recordings_come_from_a_folder_or_a_table(tmp_path):
     (tmp_path / "S01").mkdir()
     (tmp_path / "S01/walk.c3d").touch()
-    found, _ = discovery.find_recordings(
-        GeneralOptions(recordings=str(tmp_path)), str(tmp_path / "out"), schemas=SCHEMAS
-    )
+    found, _ = discovery.find_recordings(GeneralOptions(recordings=str(tmp_path)), str(tmp_path / "out"))
     assert list(found) == [("S01", "walk")] and found["S01", "walk"].source == str(tmp_path / "S01/walk.c3d")
     table = tmp_path / "recordings.tsv"
     table.write_text("recording\tsubject\tfile\trate\nwalk 1\tBob\tS01/walk.c3d\t50\n")
-    found, _ = discovery.find_recordings(GeneralOptions(recordings=str(table)), str(tmp_path / "out"), schemas=SCHEMAS)
+    found, _ = discovery.find_recordings(GeneralOptions(recordings=str(table)), str(tmp_path / "out"))
     assert list(found) == [("Bob", "walk%201")] and found["Bob", "walk%201"].rate == 50
 
 
@@ -38,26 +33,26 @@ def test_the_home_folder_may_be_written_as_a_tilde(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     (tmp_path / "S01").mkdir()
     (tmp_path / "S01/walk.c3d").touch()
-    assert discovery.find_recordings(GeneralOptions(recordings="~"), str(tmp_path / "out"), schemas=SCHEMAS)[0]
+    assert discovery.find_recordings(GeneralOptions(recordings="~"), str(tmp_path / "out"))[0]
 
 
 def test_recordings_that_are_not_there_are_named(tmp_path):
     with pytest.raises(BadDataSet, match=f"no such folder or table: {tmp_path}/none"):
-        discovery.find_recordings(GeneralOptions(recordings=str(tmp_path / "none")), "out", schemas=SCHEMAS)
+        discovery.find_recordings(GeneralOptions(recordings=str(tmp_path / "none")), "out")
 
 
 @pytest.mark.parametrize("name", ["walk.c3d", "walk.TRC"])
 def test_a_recording_in_place_of_its_folder_is_told_apart_from_a_table(tmp_path, name):
     (tmp_path / name).touch()
     with pytest.raises(BadDataSet, match="is a recording itself: name the folder"):
-        discovery.find_recordings(GeneralOptions(recordings=str(tmp_path / name)), "out", schemas=SCHEMAS)
+        discovery.find_recordings(GeneralOptions(recordings=str(tmp_path / name)), "out")
 
 
-def test_a_table_is_held_against_its_schema(tmp_path):
+def test_a_table_with_a_cell_that_means_nothing_is_refused(tmp_path):
     table = tmp_path / "recordings.tsv"
     table.write_text("recording\tsubject\tfile\tkind\nwalk\tBob\twalk.c3d\tdynamo\n")
-    with pytest.raises(BadDataSet, match=r"recordings\[0\].kind: 'dynamo' is not one of"):
-        discovery.find_recordings(GeneralOptions(recordings=str(table)), "out", schemas=SCHEMAS)
+    with pytest.raises(BadDataSet, match=r"line 2, column kind: 'dynamo' is none of auto, dynamic, static"):
+        discovery.find_recordings(GeneralOptions(recordings=str(table)), "out")
 
 
 def test_meshes_of_the_table_win_over_those_of_the_config(tmp_path):

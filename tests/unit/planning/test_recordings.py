@@ -167,7 +167,7 @@ def test_an_added_recording_renames_no_other(tmp_path):
 @pytest.mark.parametrize("results", [".", "study", "study/.."])
 def test_results_must_not_lie_over_the_recordings(tmp_path, results):
     make(tmp_path / "study", "S01/walk.c3d")
-    with pytest.raises(BadDataSet, match=r"results: .* holds the recordings"):
+    with pytest.raises(BadDataSet, match=r"results: .* holds the recordings .* Choose another folder for the results$"):
         recordings.find(str(tmp_path / "study"), str(tmp_path / results))
 
 

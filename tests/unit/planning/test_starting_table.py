@@ -26,7 +26,7 @@ def make(tmp_path):
         path = tmp_path / table
         path.parent.mkdir(exist_ok=True)
         path.write_text(made.text(path.parent))
-        entries = recording_table.from_rows(recording_table.read_rows(str(path)), str(path))
+        entries = recording_table.read(str(path))
         assert [(e.subject, e.recording, e.source, e.kind) for e in entries] == [
             (e.subject, e.recording, e.source, e.kind) for e in made.entries
         ]

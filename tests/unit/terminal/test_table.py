@@ -45,8 +45,8 @@ def test_a_table_that_cannot_be_written_is_said(here, capsys):
 def test_what_days_and_static_recordings_are_called_is_read_from_files_of_options(here):
     (here / "own.yaml").write_text("day_folders: []\ningest: {static_names: [walk]}\n")
     assert command_line.main(["table", "data", "--options", "own.yaml"]) == 0
-    [row] = recording_table.read_rows("recordings.tsv")
-    assert (row["subject"], row["recording"], row["kind"]) == ("Day1", "walk", "static")
+    [entry] = recording_table.read("recordings.tsv")
+    assert (entry.subject, entry.recording, entry.kind) == ("Day1", "walk", "static")
 
 
 @pytest.mark.parametrize(
@@ -56,5 +56,5 @@ def test_a_table_that_a_spreadsheet_saved_is_read(here, change):
     command_line.main(["table", "data"])
     text = (here / "recordings.tsv").read_text()
     (here / "recordings.tsv").write_bytes(change(text).encode())
-    [row] = recording_table.read_rows("recordings.tsv")
-    assert row["subject"] == "S01" and row["file"] == "data/S01/Day1/walk.c3d"
+    [entry] = recording_table.read("recordings.tsv")
+    assert entry.subject == "S01" and entry.source == str(here / "data/S01/Day1/walk.c3d")

@@ -13,10 +13,10 @@ from markermend.core.decisions import EVER
 from markermend.core.events import Event
 from markermend.core.recording import Recording
 from markermend.export.change_table import COLUMNS as COLUMNS_OF_CHANGES
-from markermend.planning.decision_cells import Problem, read_class, read_frames
+from markermend.planning.decision_cells import read_class, read_frames
 from markermend.planning.decision_table import COLUMNS as COLUMNS_OF_DECISIONS
 from markermend.planning.recordings import BadDataSet
-from markermend.planning.tables import read_table
+from markermend.planning.tables import Problem, read_table
 from markermend.storage.folder_names import encode
 
 REQUIRED = ("recording", "marker", "decision")
