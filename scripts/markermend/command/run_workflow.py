@@ -30,7 +30,7 @@ def command(arguments: Sequence[str]) -> list[str]:
 
 
 def config_file_problem(words: Sequence[str]) -> str | None:
-    """Say which config file on a command line is not there or cannot be read, of which Snakemake would show a traceback.
+    """Say which file of options on a command line cannot be read or holds nothing, of which Snakemake would show a traceback.
 
     Parameters
     ----------
@@ -48,11 +48,12 @@ def config_file_problem(words: Sequence[str]) -> str | None:
             option, _, word = word.partition("=")
         if option in ("--configfile", "--configfiles") and word:
             try:
-                with open(word, encoding="utf-8") as file:
-                    file.read()
+                text = Path(word).read_text(encoding="utf-8")
             except (OSError, UnicodeDecodeError) as error:
                 why = error.strerror if isinstance(error, OSError) else "it is not text in UTF-8"
-                return f"config file {word} cannot be read ({why}): name it by its path, as --configfile study.yaml"
+                return f"{word} cannot be read as a file of options ({why}): name one by its path, such as study.yaml"
+            if not any(line.split("#")[0].strip() for line in text.splitlines()):
+                return f"{word} holds no options: write some into it, or leave it out"
     return None
 
 

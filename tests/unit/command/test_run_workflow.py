@@ -31,9 +31,17 @@ def test_a_config_file_of_the_workflow_is_found_from_any_folder(monkeypatch, tmp
 )
 def test_a_config_file_that_is_not_there_is_named_in_one_line(monkeypatch, tmp_path, capsys, words):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "a.yaml").touch()
+    (tmp_path / "a.yaml").write_text("fill: {max_gap_s: 1}")
     monkeypatch.setattr(subprocess, "call", lambda command: pytest.fail("Snakemake was called"))
     assert run_workflow.run(["--cores", "1", *words, "--config", "recordings=none"]) == 1
     assert capsys.readouterr().err == (
-        "config file none.yaml cannot be read (No such file or directory): name it by its path, as --configfile study.yaml\n"
+        "none.yaml cannot be read as a file of options (No such file or directory): name one by its path, such as study.yaml\n"
     )
+
+
+@pytest.mark.parametrize("text", ["", "\n", "# fill:\n#   max_gap_s: 1\n"])
+def test_a_config_file_without_options_is_named_in_one_line(monkeypatch, tmp_path, capsys, text):
+    (tmp_path / "study.yaml").write_text(text)
+    monkeypatch.setattr(subprocess, "call", lambda command: pytest.fail("Snakemake was called"))
+    assert run_workflow.run(["--configfile", str(tmp_path / "study.yaml")]) == 1
+    assert capsys.readouterr().err == f"{tmp_path}/study.yaml holds no options: write some into it, or leave it out\n"

@@ -30,7 +30,7 @@ def runs(monkeypatch):
 def test_a_folder_is_cleaned_with_a_preset_and_own_options_over_it(runs, folder, tmp_path):
     words = ["--preset", "gait", "--options", "study.yaml", "--results", "out", "--cores", "3"]
     assert command_line.main(["clean", str(folder), *words]) == 1  # there is no study.yaml
-    (tmp_path / "study.yaml").touch()
+    (tmp_path / "study.yaml").write_text("fill: {max_gap_s: 1}\n")
     words[3] = str(tmp_path / "study.yaml")
     assert command_line.main(["clean", str(folder), *words, "--", "--keep-going"]) == 0
     [arguments] = runs[0]
@@ -153,7 +153,7 @@ def test_before_a_run_stands_what_it_will_take(runs, folder, capsys):
         (["clean", "empty"], 1, "recordings: no recording (.c3d, .trc, .csv, .tsv) in {here}/empty or below"),
         (["clean", "data/S01/walk.c3d"], 1, "recordings: {here}/data/S01/walk.c3d is a recording itself: name the folder that holds it, or a table"),
         (["clean", "notes.pdf"], 1, "recordings: {here}/notes.pdf is not a table in UTF-8 text"),
-        (["clean", "data", "--options", "none.yaml"], 1, "config file none.yaml cannot be read"),
+        (["clean", "data", "--options", "none.yaml"], 1, "none.yaml cannot be read as a file of options (No such file or directory): name one by its path"),
         (["clean", "data", "--options", "typo.yaml"], 1, "fill.max_gap_ms: there is no such key; did you mean max_gap_s?"),
         (["table", "data/S01/walk.c3d"], 1, "There is no folder data/S01/walk.c3d: name a folder of recordings"),
         (["table", "empty"], 1, "recordings: no recording"),
