@@ -86,7 +86,7 @@ class ResultFiles:
 
     @property
     def change_table(self) -> str:
-        """The table of changes, for people; programs read `changes`."""
+        """What was changed, as a table for people; `07_changes.parquet` has it for programs, with what was left."""
         return f"{self.recording}/changes.tsv"
 
     @property
@@ -166,7 +166,7 @@ class ResultFiles:
 
     @property
     def unfinished_list(self) -> str:
-        """The list of such files of recordings that are not finished."""
+        """The list of the files `08_qc.json` of recordings that the last run did not finish."""
         return f"{self.report}/logs/unfinished.txt"
 
     @property
@@ -176,7 +176,7 @@ class ResultFiles:
 
     @property
     def quality_list(self) -> str:
-        """The list of files that the report is made of."""
+        """The list of the files that the report is made of: `08_qc.json` of each recording, or `qc.json` of each batch."""
         return f"{self.report}/logs/recordings.txt"
 
     @property
