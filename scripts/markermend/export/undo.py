@@ -170,7 +170,10 @@ def undo(
             )
         if found == certificate["original_sha256"]:
             restored = replace(restored, left=0)
-        if there is None and target.exists() and atomic.sha256(target) != found:
+        present = atomic.sha256(target) if there is None and target.exists() else found
+        if present == certificate["original_sha256"] != found:
+            raise NotUndone(f"{target} is the original already: nothing is left to undo in it")
+        if present != found:
             raise NotUndone(f"{target} is another file already: name another folder")
     return restored
 

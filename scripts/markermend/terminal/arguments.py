@@ -159,6 +159,17 @@ def _about_report(command: argparse.ArgumentParser) -> None:
     command.add_argument("--open", action="store_true", help="open the report in the browser")
 
 
+class _Frames(argparse.Action):
+    """The first and last frame of a stretch."""
+
+    def __call__(self, parser: Any, namespace: argparse.Namespace, values: Any, option_string: Any = None) -> None:
+        """Keep the frames in their order; see `argparse.Action`."""
+        first, last = values
+        if last < first:
+            raise argparse.ArgumentError(self, f"the last frame, {last}, comes before the first, {first}")
+        setattr(namespace, self.dest, (first, last))
+
+
 def _about_undoing(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command that takes changes back."""
     command.add_argument(
@@ -182,6 +193,7 @@ def _about_undoing(command: argparse.ArgumentParser) -> None:
         "--frames",
         nargs=2,
         type=int,
+        action=_Frames,
         metavar=("FIRST", "LAST"),
         help="take back only findings and gaps with any of these frames, numbered as in changes.tsv",
     )

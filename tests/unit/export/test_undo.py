@@ -1,6 +1,7 @@
 """What was changed in a file comes back bit for bit, all of it or what is named, in every storage and every way of writing text."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -178,8 +179,11 @@ def test_a_file_that_was_edited_after_it_was_cleaned_is_refused(tmp_path):
 def test_another_file_is_never_overwritten_and_the_same_may_be(tmp_path):
     cleaned, kept = keep(c3d_files.write(tmp_path / "walk.c3d"), anything())
     assert undo(cleaned, tmp_path / "walk.c3d", **kept).whole  # the original is still there
-    with pytest.raises(NotUndone, match="is another file already: name another folder"):
+    with pytest.raises(NotUndone, match=r"walk.c3d is the original already: nothing is left to undo in it"):
         undo(cleaned, tmp_path / "walk.c3d", **kept, markers=["M0"])
+    shutil.copy(cleaned, tmp_path / "other.c3d")
+    with pytest.raises(NotUndone, match="is another file already: name another folder"):
+        undo(cleaned, tmp_path / "other.c3d", **kept, markers=["M0"])
     with pytest.raises(NotUndone, match="is another file already"):
         undo(cleaned, cleaned, **kept)
 

@@ -102,6 +102,23 @@ def test_what_is_not_there_is_said_in_one_line(results, tmp_path, capsys):
     assert not (tmp_path / "back").exists() or not any((tmp_path / "back").rglob("*.c3d"))
 
 
+def test_frames_in_the_wrong_order_are_said(results, tmp_path, capsys):
+    add(results, "S01", "walk")
+    with pytest.raises(SystemExit) as ended:
+        run(results, "--to", tmp_path / "back", "--frames", "84", "80")
+    said = "argument --frames: the last frame, 80, comes before the first, 84 (see markermend undo --help)\n"
+    assert ended.value.code == 2 and capsys.readouterr().err == said
+
+
+def test_a_copy_that_is_the_original_already_is_said(results, tmp_path, capsys):
+    content = add(results, "S01", "walk", other=True)
+    assert run(results, "--to", tmp_path / "back") == 0
+    assert run(results, "--to", tmp_path / "back", "--markers", "M1") == 1
+    path = tmp_path / "back/S01/walk.c3d"
+    assert capsys.readouterr().err == f"{path} is the original already: nothing is left to undo in it\n"
+    assert path.read_bytes() == content
+
+
 def test_recordings_without_what_is_named_are_passed_over(results, tmp_path, capsys):
     add(results, "S01", "walk")
     add(results, "S01", "turn", peak=False)
