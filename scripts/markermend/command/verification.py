@@ -6,15 +6,15 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from markermend.command.inputs import original_checksum
-from markermend.storage import output_checksums, snakemake_records, tab_separated
+from markermend.storage import crate_file, last_run, output_checksums, snakemake_records, tab_separated
 from markermend.storage.atomic import sha256
 from markermend.storage.failure_counts import count_failure
-from markermend.storage.folder_names import CLEANED, RESERVED_SUBJECTS, printable
+from markermend.storage.folder_names import CLEANED, printable
 from markermend.storage.source_checksums import ABSENT, SourceChecksums
 
 UNRECORDED = "nothing recorded"
@@ -22,6 +22,9 @@ UNRECORDED = "nothing recorded"
 
 READABLE, UNREADABLE = "a record", "cannot be read"
 """Stand for the checksums of a record of which none is known."""
+
+CURRENT, OUTDATED = "describes the results", "describes others: run markermend crate again"
+"""Stand for the checksums of a crate."""
 
 ALWAYS_RECORDED = (
     *("*.parquet", "changes.tsv", "certificate.json", "mesh.json", "08_qc.json", "page.html"),
@@ -69,16 +72,15 @@ def check(results: Path) -> Iterator[Checked]:
     Yields
     ------
     Checked
-        Each file of which a checksum is recorded, or should be: results by their folders, then originals. Records only where they cannot be
-        read.
+        Each file of which a checksum is recorded, or should be: results by their folders, the crate if there is one, then originals of
+        recordings of the last run. Records only where they cannot be read.
     """
-    subjects = [path for path in _folders(results) if path.name not in RESERVED_SUBJECTS]
-    recordings = [path for subject in subjects for path in _folders(subject) if path.name != output_checksums.FOLDER]
-    report = [results / "report", *_folders(results / "report/batches")]
-    recorded: set[str] = set()
+    subjects, recordings = last_run.subject_folders(results), last_run.recording_folders(results)
+    report = [results / "report", *last_run.folders(results / "report" / last_run.BATCHES)]
+    recorded: dict[str, str] = {}
     for folder in [*report, *sorted([*subjects, *recordings])]:
         for one in _outputs(folder, results):
-            recorded.add(one.file)
+            recorded[one.file] = one.expected
             yield one
     cleaned = (path for path in (results / CLEANED).rglob("*") if path.is_file() and not path.name.startswith("."))
     for path in sorted(cleaned):
@@ -86,16 +88,12 @@ def check(results: Path) -> Iterator[Checked]:
             yield Checked(path.relative_to(results).as_posix(), UNRECORDED, _checksum(path))
     for path in snakemake_records.unreadable(results):
         yield Checked(str(path.relative_to(results)), READABLE, UNREADABLE)
+    yield from _crate(results, recorded)
     sources = SourceChecksums(results / "report/logs/sources.json").recorded
-    for recording in recordings:
+    former = set(last_run.former_recordings(results))
+    for recording in (path for path in recordings if path not in former):
         source = sources.get(f"{recording.parent.name}/{recording.name}")
         yield from _source(recording, source["path"] if source else None)
-
-
-def _folders(path: Path) -> list[Path]:
-    """The folders in a folder, none where it is not there."""
-    inner = path.iterdir() if path.is_dir() else ()
-    return sorted(folder for folder in inner if folder.is_dir() and not folder.name.startswith("."))
 
 
 def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
@@ -113,6 +111,19 @@ def _outputs(folder: Path, results: Path) -> Iterator[Checked]:
     for path in sorted({path for pattern in ALWAYS_RECORDED for path in folder.glob(pattern)}):
         if path.name not in recorded:
             yield Checked(f"{place}/{path.name}", UNRECORDED, _checksum(path))
+
+
+def _crate(results: Path, recorded: Mapping[str, str]) -> Iterator[Checked]:
+    """The description of the results as a crate, if there is one: of the results as they were written last."""
+    if not (results / crate_file.METADATA).exists():
+        return
+    try:
+        stated = crate_file.checksums(results)
+        written = {name: recorded.get(name) or _checksum(results / name) for name in stated}
+        found = CURRENT if stated == written else OUTDATED
+    except (OSError, ValueError):
+        found = UNREADABLE
+    yield Checked(crate_file.METADATA, CURRENT, found)
 
 
 def _source(folder: Path, path: str | None) -> Iterator[Checked]:
@@ -172,5 +183,15 @@ def main(arguments: Sequence[str]) -> int:
             count_failure(flags.results / folder, stage, "its outputs are not as it wrote them")
     if flags.remake:
         snakemake_records.renew(flags.results)
-    print(f"{len(checked) - len(different)} files are as they were, {len(different)} differ", file=sys.stderr)
+    print(_counts(flags.results, len(checked) - len(different), len(different)), file=sys.stderr)
     return int(bool(different))
+
+
+def _counts(results: Path, equal: int, different: int) -> str:
+    """How many files are as they were, how many differ, and of how many recordings no original was looked for."""
+    former = len(last_run.former_recordings(results))
+    counts = f"{equal} files are as they were, {different} differ"
+    if not former:
+        return counts
+    are = "1 recording is" if former == 1 else f"{former} recordings are"
+    return f"{counts}; {are} no longer among those of the last run, and only the results of these were checked"

@@ -1,7 +1,7 @@
 """The end of a run: its facts, the summary in the terminal, and the report of what was finished where not all was.
 
 Reads: the quality files of the recordings.
-Writes: provenance.json, and where the run ended early a report.
+Writes: provenance.json, and where the run ended early a report. Takes away a description of the results as a crate, which is outdated.
 """
 
 from __future__ import annotations
@@ -16,6 +16,12 @@ from markermend.planning import partial_report, run_facts, run_summary
 from markermend.planning.discovery import Folders
 from markermend.planning.plan import Plan
 from markermend.storage.atomic import NotWritten, check_writable, write_json, write_text
+from markermend.storage.crate_file import METADATA
+
+CRATE_TAKEN_AWAY = (
+    f"{METADATA} described earlier results and was taken away: to publish these, run markermend crate again"
+)
+"""What is said where the results had been described as a crate."""
 
 
 def write_facts(plan: Plan, *, finished: bool) -> None:
@@ -67,6 +73,10 @@ def close(plan: Plan, pending: Sequence[Any], part: Collection[Folders] | None =
     lines = [*plan.warnings, run_summary.summary(about, index, unfinished)]
     try:
         check_writable(Path(plan.files.results))
+        crate = Path(plan.files.results, METADATA)
+        if crate.exists():
+            crate.unlink()
+            lines.append(CRATE_TAKEN_AWAY)
         write_text(Path(plan.files.summary), "".join(f"{line}\n" for line in lines))
     except NotWritten as error:
         lines.append(str(error))

@@ -200,11 +200,15 @@ class Plan:
         return of_job
 
     def write_lists(self) -> None:
-        """Write what commands have no room for: flags of stages, the table of decisions, lists of files for meshes, poses and report."""
+        """Write what commands have no room for: flags of stages, the table of decisions, lists of files for meshes, poses and report.
+
+        What an earlier run did not finish is no longer listed.
+        """
         for stages in (self.detectors, FINISHING):
             write_json(Path(self.commands.flags_file(*stages)), self.commands.flags(*stages))
         write_text(Path(self.files.decision_table), self.data.decision_table)
         write_list(self.files.quality_list, self.report_files)
+        Path(self.files.unfinished_list).unlink(missing_ok=True)
         if len(self.batches) > 1:
             for name, paths in self.batches.items():
                 write_list(self.files.batch_list.format(batch=name), paths)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from markermend.core.artifacts import BY_STAGE
+from markermend.storage import last_run
 from markermend.storage.folder_names import CLEANED
 
 QUALITY = "08_qc.json"
@@ -157,17 +158,17 @@ class ResultFiles:
     @property
     def batch_quality(self) -> str:
         """The recordings of a batch in numbers."""
-        return f"{self.batch}/qc.json"
+        return f"{self.batch}/{last_run.BATCH_QUALITY}"
 
     @property
     def batch_list(self) -> str:
         """The list of files that a batch is made of."""
-        return f"{self.batch}/logs/recordings.txt"
+        return f"{self.batch}/logs/{last_run.FINISHED}"
 
     @property
     def unfinished_list(self) -> str:
         """The list of the files `08_qc.json` of recordings that the last run did not finish."""
-        return f"{self.report}/logs/unfinished.txt"
+        return f"{self.report}/logs/{last_run.UNFINISHED}"
 
     @property
     def summary(self) -> str:
@@ -177,7 +178,7 @@ class ResultFiles:
     @property
     def quality_list(self) -> str:
         """The list of the files that the report is made of: `08_qc.json` of each recording, or `qc.json` of each batch."""
-        return f"{self.report}/logs/recordings.txt"
+        return f"{self.report}/logs/{last_run.FINISHED}"
 
     @property
     def decision_table(self) -> str:

@@ -1,16 +1,14 @@
 """A finished run described as a Workflow Run RO-Crate: ro-crate-metadata.json, for a repository or the supplement of a paper.
 
-Reads: report/provenance.json, report/summary.tsv, report/logs/decisions.tsv, and of each recording certificate.json.
+Reads: the results of the last run (see `described_results`) and report/logs/decisions.tsv.
 Writes: ro-crate-metadata.json in the folder of results, which is then the crate, and report/workflow/ with the workflow.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from rocrate.model.contextentity import ContextEntity
@@ -18,15 +16,15 @@ from rocrate.model.entity import Entity
 from rocrate.model.person import Person
 from rocrate.rocrate import ROCrate
 
+from markermend.planning import described_results
 from markermend.planning.decision_table import COLUMNS
+from markermend.planning.described_results import DescribedResults
 from markermend.planning.result_files import CERTIFICATE, ResultFiles
 from markermend.planning.tables import read_table
-from markermend.storage.atomic import sha256, write_json, write_text
-from markermend.storage.folder_names import RESERVED_SUBJECTS, decode
+from markermend.storage.atomic import write_json, write_text
+from markermend.storage.crate_file import CHECKSUM, METADATA
+from markermend.storage.folder_names import decode
 from markermend.storage.installation import workflow_folder
-
-METADATA = "ro-crate-metadata.json"
-"""Name of the file that describes a crate."""
 
 WORKFLOW = "report/workflow"
 """The folder of the workflow's copy in the folder of results."""
@@ -63,10 +61,6 @@ OF_RECORDING = {
 """What explains a cleaned file, by names in the folder of its recording."""
 
 
-class NoRun(Exception):
-    """A folder that holds no results of a finished run; the message says so."""
-
-
 @dataclass(frozen=True)
 class Statement:
     """What people state about their data set.
@@ -86,8 +80,8 @@ class Statement:
     authors: tuple[str, ...] = ()
 
 
-def write(results: Path, statement: Statement) -> int:
-    """Describe the results of a finished run as a crate.
+def write(results: Path, statement: Statement) -> DescribedResults:
+    """Describe the results of the last run as a crate.
 
     Parameters
     ----------
@@ -98,17 +92,18 @@ def write(results: Path, statement: Statement) -> int:
 
     Returns
     -------
-    int
-        Number of recordings described.
+    DescribedResults
+        What is described, and what else is in the folder.
 
     Raises
     ------
-    NoRun
-        Where the folder holds no results of a finished run.
+    NotDescribed
+        Where the folder holds no results of a finished run, or a file is not as it was written.
     NotWritten
         Where the file cannot be written.
     """
-    run, folders = _run(results), list(_recordings(results))
+    described = described_results.read(results)
+    run, folders = described.facts, described.certificates
     crate = ROCrate(version="1.1")
     root = crate.root_dataset
     root["name"] = statement.name
@@ -127,36 +122,19 @@ def write(results: Path, statement: Statement) -> int:
         crate.add(ContextEntity(crate, uri, {"@type": "CreativeWork", "name": name, "version": version}))
         for uri, (name, version) in PROFILES.items()
     ]
-    workflow = _workflow(crate, results, run)
-    files = [entity for folder in folders for entity in _of_recording(crate, results, folder)]
-    files += [_file(crate, results, path, text) for path, text in _of_data_set(results).items()]
-    files += _decisions(crate, results)
-    root["mentions"] = _action(crate, workflow, run, folders, files)
+    files = [entity for folder in folders for entity in _of_recording(crate, described, folder)]
+    files += [_file(crate, described, path, text) for path, text in _of_data_set(described.results).items()]
+    files += _decisions(crate, described)
+    root["mentions"] = _action(crate, _workflow(crate, described), described, files)
     if authors:
         root["mentions"]["agent"] = authors[0]
-    write_json(results / METADATA, crate.metadata.generate())
-    return len(folders)
+    write_json(described.results / METADATA, crate.metadata.generate())
+    return described
 
 
-def _run(results: Path) -> dict[str, Any]:
-    """The facts of the last run that finished."""
-    try:
-        found: dict[str, Any] = json.loads(Path(ResultFiles(str(results)).provenance).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise NoRun(f"{results} holds no results of a finished run: name the folder of results of a run") from error
-    return found
-
-
-def _recordings(results: Path) -> Iterator[Path]:
-    """The folders of the recordings that have a certificate."""
-    for path in sorted(results.glob(f"*/*/{CERTIFICATE}")):
-        if path.parent.parent.name not in RESERVED_SUBJECTS:
-            yield path.parent
-
-
-def _workflow(crate: ROCrate, results: Path, run: Mapping[str, Any]) -> Entity:
+def _workflow(crate: ROCrate, described: DescribedResults) -> Entity:
     """The workflow, of which the crate holds a copy."""
-    copy = results / WORKFLOW
+    copy, run = described.results / WORKFLOW, described.facts
     for path in [workflow_folder() / "Snakefile", *sorted((workflow_folder() / "workflow/rules").glob("*.smk"))]:
         write_text(copy / path.relative_to(workflow_folder()), path.read_text(encoding="utf-8"))
     workflow = crate.add_workflow(copy / "Snakefile", f"{WORKFLOW}/Snakefile", main=True, lang="snakemake")
@@ -171,14 +149,13 @@ def _workflow(crate: ROCrate, results: Path, run: Mapping[str, Any]) -> Entity:
     return workflow
 
 
-def _action(
-    crate: ROCrate, workflow: Entity, run: Mapping[str, Any], folders: list[Path], files: list[Entity]
-) -> Entity:
+def _action(crate: ROCrate, workflow: Entity, described: DescribedResults, files: list[Entity]) -> Entity:
     """The run: what the workflow made of which originals."""
+    run = described.facts
     return crate.add_action(
         workflow,
         identifier="#run",
-        object=_one_or_all([_original(crate, folder) for folder in folders]),
+        object=_one_or_all([_original(crate, described, folder) for folder in described.certificates]),
         result=files,
         properties={
             "name": f"Run of markermend {run['markermend']}",
@@ -190,27 +167,28 @@ def _action(
     )
 
 
-def _original(crate: ROCrate, folder: Path) -> Entity:
+def _original(crate: ROCrate, described: DescribedResults, folder: Path) -> Entity:
     """The original of a recording, which is not in the crate: named by its checksum."""
-    stated = json.loads((folder / CERTIFICATE).read_text(encoding="utf-8"))
+    stated = described.certificates[folder]
     name = f"{folder.parent.name}/{folder.name}"
     about = {
         "@type": "CreativeWork",
         "name": stated["source"],
         "description": f"The original of the recording {decode(folder.name)} of the subject {decode(folder.parent.name)}",
-        "identifier": f"sha256:{stated['original_sha256']}",
+        "identifier": f"{CHECKSUM}{stated['original_sha256']}",
     }
     return crate.add(ContextEntity(crate, f"#original/{quote(name)}", about))
 
 
-def _of_recording(crate: ROCrate, results: Path, folder: Path) -> Iterator[Entity]:
-    """The cleaned file of a recording, and what explains it."""
-    stated = json.loads((folder / CERTIFICATE).read_text(encoding="utf-8"))
-    cleaned = (folder / stated["cleaned"]).resolve()
+def _of_recording(crate: ROCrate, described: DescribedResults, folder: Path) -> Iterator[Entity]:
+    """The cleaned file of a recording, a copy in another format where there is one, and what explains it."""
+    stated = described.certificates[folder]
     what = f"The cleaned file of {stated['source']}: {stated['changed_samples']} samples were changed"
-    yield _file(crate, results, cleaned, what)
+    yield _file(crate, described, described.cleaned(folder), what)
+    for path in described.besides(folder):
+        yield _file(crate, described, path, f"The cleaned recording {stated['source']} in another format")
     for name, text in OF_RECORDING.items():
-        yield _file(crate, results, folder / name, f"{text}: {stated['source']}")
+        yield _file(crate, described, folder / name, f"{text}: {stated['source']}")
 
 
 def _of_data_set(results: Path) -> dict[Path, str]:
@@ -224,12 +202,12 @@ def _of_data_set(results: Path) -> dict[Path, str]:
     }
 
 
-def _decisions(crate: ROCrate, results: Path) -> Iterator[Entity]:
+def _decisions(crate: ROCrate, described: DescribedResults) -> Iterator[Entity]:
     """The table of decisions, where persons decided anything: it is by those whom it names."""
-    path = Path(ResultFiles(str(results)).decision_table)
+    path = Path(ResultFiles(str(described.results)).decision_table)
     rows = read_table(str(path), what="decisions", columns=COLUMNS, required=COLUMNS[:2]) if path.is_file() else []
     if rows:
-        table = _file(crate, results, path, "What persons decided on findings and gaps")
+        table = _file(crate, described, path, "What persons decided on findings and gaps")
         if names := sorted({row["by"] for _, row in rows if "by" in row}):
             table["author"] = _one_or_all([_person(crate, name) for name in names])
         yield table
@@ -245,13 +223,14 @@ def _one_or_all(entities: list[Entity]) -> Entity | list[Entity]:
     return entities[0] if len(entities) == 1 else entities
 
 
-def _file(crate: ROCrate, results: Path, path: Path, description: str) -> Entity:
+def _file(crate: ROCrate, described: DescribedResults, path: Path, description: str) -> Entity:
     """A file of the crate."""
+    checksum = described.checksum(path)
     about = {
         "name": path.name,
         "description": description,
         "encodingFormat": FORMATS.get(path.suffix.lower(), "application/octet-stream"),
         "contentSize": str(path.stat().st_size),
-        "identifier": f"sha256:{sha256(path)}",
+        "identifier": f"{CHECKSUM}{checksum}",
     }
-    return crate.add_file(path, path.relative_to(results.resolve()).as_posix(), properties=about)
+    return crate.add_file(path, path.relative_to(described.results).as_posix(), properties=about)

@@ -19,12 +19,15 @@ from markermend.command import run_workflow, verification
 from markermend.options.general import GeneralOptions
 from markermend.planning import run_summary
 from markermend.planning.counts import counted
+from markermend.planning.described_results import NotDescribed
 from markermend.planning.discovery import find_decisions, find_recordings
 from markermend.planning.marker_names import unknown_names
 from markermend.planning.option_files import read_option_files
 from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY
 from markermend.storage.atomic import NotWritten
+from markermend.storage.crate_file import METADATA
+from markermend.storage.folder_names import printable
 from markermend.storage.installation import workflow_folder
 from markermend.terminal import estimate, snakemake_arguments, snakemake_run, table, undo
 from markermend.terminal.arguments import Work, make_parser, suggestion
@@ -147,8 +150,7 @@ def _verify(call: argparse.Namespace, given: list[str]) -> int:
 
 def _undo(call: argparse.Namespace, given: list[str]) -> int:
     """Restore originals."""
-    frames = tuple(call.frames) if call.frames else None
-    return undo.run(call.results, call.recordings, call.to, markers=call.markers, frames=frames)
+    return undo.run(call.results, call.recordings, call.to, markers=call.markers, frames=call.frames)
 
 
 def _write_table(call: argparse.Namespace, given: list[str]) -> int:
@@ -168,10 +170,16 @@ def _crate(call: argparse.Namespace, given: list[str]) -> int:
 
     statement = run_crate.Statement(call.name, call.license, tuple(call.authors))
     try:
-        count = run_crate.write(call.results.resolve(), statement)
-    except (run_crate.NoRun, NotWritten) as error:
+        described = run_crate.write(call.results, statement)
+    except (NotDescribed, NotWritten) as error:
         return _refuse(str(error))
-    print(f"{call.results / run_crate.METADATA} describes {counted(count, 'recording')}; the folder is an RO-Crate now")
+    count = counted(len(described.certificates), "recording")
+    print(f"{call.results / METADATA} describes {count}; the folder is an RO-Crate now")
+    if described.left_over:
+        left = ", ".join(map(printable, described.left_over))
+        print(
+            f"Of no recording of the last run, and not described (take these away before you publish the folder): {left}"
+        )
     return 0
 
 

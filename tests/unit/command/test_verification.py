@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from markermend.command.verification import UNRECORDED, check, main
+from markermend.command.verification import CURRENT, OUTDATED, UNREADABLE, UNRECORDED, check, main
 from markermend.storage import output_checksums
 from markermend.storage.atomic import sha256
 from markermend.storage.source_checksums import ABSENT, SourceChecksums
@@ -134,6 +134,48 @@ def test_the_next_run_makes_anew_what_differs_on_request(results, capsys):
     (failures,) = results.rglob("failures.tsv")
     assert failures == results / "S01/walk/failures.tsv" and failures.read_text().split("\t")[0] == "export"
     assert failures.read_text().count("\n") == 1
+
+
+def test_the_original_of_a_recording_that_is_no_longer_one_is_not_looked_for_and_its_results_are_checked(
+    results, tmp_path, capsys
+):
+    listed = results / "report/logs/recordings.txt"
+    listed.write_text(f"{results}/S01/turn/08_qc.json\n")
+    (tmp_path / "walk.c3d").unlink()
+    own = "1 recording is no longer among those of the last run, and only the results of these were checked"
+    assert lines(results, capsys) == (0, [], f"8 files are as they were, 0 differ; {own}")
+    before = sha256(results / "cleaned/walk.c3d")
+    (results / "cleaned/walk.c3d").write_text("edited")
+    assert different(results) == {"cleaned/walk.c3d": (before, sha256(results / "cleaned/walk.c3d"))}
+    # One that the last run did not finish is among them.
+    (results / "report/logs/unfinished.txt").write_text(f"{results}/S01/walk/08_qc.json\n")
+    assert str(tmp_path / "walk.c3d") in different(results)
+
+
+def test_a_crate_that_describes_other_results_is_listed_and_one_of_these_is_not(results):
+    described = {"S01/walk/changes.tsv": "export changes.tsv", "report/a b.json": "facts"}
+    (results / "report/a b.json").write_text("facts")
+    about = [
+        {"@id": name.replace(" ", "%20"), "@type": "File", "identifier": f"sha256:{sha256(results / name)}"}
+        for name in described
+    ]
+    path = results / "ro-crate-metadata.json"
+    path.write_text(json.dumps({"@graph": [*about, {"@id": "./", "@type": "Dataset"}]}))
+    assert different(results) == {} and len(list(check(results))) == 10
+    # A file that was damaged since is one file that differs, not two.
+    (results / "S01/walk/changes.tsv").write_text("edited")
+    assert list(different(results)) == ["S01/walk/changes.tsv"]
+    output_checksums.write("export", [results / "S01/walk/changes.tsv"])
+    assert different(results)[path.name] == (CURRENT, OUTDATED)
+    (results / "S01/walk/changes.tsv").write_text("export changes.tsv")
+    output_checksums.write("export", [results / "S01/walk/changes.tsv"])
+    (results / "report/a b.json").write_text("facts of another run")
+    assert different(results)[path.name] == (CURRENT, OUTDATED)
+    (results / "report/a b.json").unlink()
+    assert different(results)[path.name] == (CURRENT, OUTDATED)
+    for damaged in ("", "[]", '{"@graph": [7]}'):
+        path.write_text(damaged)
+        assert different(results)[path.name] == (CURRENT, UNREADABLE)
 
 
 def test_a_folder_without_results_is_an_error(tmp_path, capsys):

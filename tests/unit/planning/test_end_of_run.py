@@ -7,7 +7,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from markermend.core.recording import SetAside
-from markermend.planning.end_of_run import close, write_facts
+from markermend.planning.end_of_run import CRATE_TAKEN_AWAY, close, write_facts
 from markermend.report import recording_report
 from markermend.storage.atomic import write_json
 
@@ -96,6 +96,17 @@ def test_an_earlier_report_is_not_taken_for_one_of_what_is_finished(tmp_path, pl
     close(replace(plan, project=tmp_path), [SimpleNamespace()])
     assert f"The report was not written again: {index} is older than the results" in capsys.readouterr().err
     assert index.read_text() == "earlier"
+
+
+def test_a_description_of_earlier_results_is_taken_away_and_a_line_says_so(tmp_path, plan, capsys):
+    path = tmp_path / "out/ro-crate-metadata.json"
+    path.parent.mkdir()
+    path.write_text("{}")
+    close(plan, [])
+    assert capsys.readouterr().err.splitlines()[-1] == CRATE_TAKEN_AWAY and not path.exists()
+    assert (tmp_path / "out/report/logs/summary.txt").read_text().endswith(f"{CRATE_TAKEN_AWAY}\n")
+    close(plan, [])
+    assert CRATE_TAKEN_AWAY not in capsys.readouterr().err
 
 
 def test_a_disk_without_room_is_named_at_the_end(plan, capsys, monkeypatch):

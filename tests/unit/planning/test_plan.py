@@ -1,6 +1,7 @@
 """The plan of a run, asked as the rules ask it but without Snakemake."""
 
 import json
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -9,6 +10,9 @@ from markermend.core.artifacts import DETECTORS
 from markermend.planning import end_of_run
 from markermend.planning.plan import make_plan
 from markermend.planning.recordings import BadDataSet
+from markermend.storage import last_run
+from markermend.storage.atomic import write_list
+from markermend.storage.last_run import LastRun
 from support.paths import PROJECT
 
 
@@ -110,6 +114,12 @@ def test_lists_name_the_files_that_meshes_and_the_report_are_made_of(tmp_path, p
     assert (tmp_path / "out/S2/logs/recordings.txt").read_text() == f"{tmp_path}/out/S2/%7Bx%7D/01_markers.parquet\n"
     assert (tmp_path / "out/S%201/logs/recordings.txt").read_text().count("\n") == 2
     assert (tmp_path / "out/report/logs/recordings.txt").read_text().splitlines() == plan.quality_files
+
+
+def test_what_an_earlier_run_did_not_finish_is_no_longer_listed_when_another_begins(plan):
+    write_list(plan.files.unfinished_list, plan.quality_files[:1])
+    plan.write_lists()
+    assert last_run.read(Path(plan.files.results)) == LastRun(tuple("/".join(entry) for entry in plan.data.entries))
 
 
 def test_the_report_of_many_recordings_is_made_of_batches(tmp_path, plan, config):

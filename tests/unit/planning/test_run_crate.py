@@ -1,44 +1,20 @@
-"""A finished run is described with every recording, its files and their checksums, and nothing that is not there."""
+"""The last run is described with every recording, its files and their checksums, and nothing that is not there."""
 
 import json
-from urllib.parse import unquote
 
 import pytest
 
-from markermend.planning.run_crate import METADATA, NO_LICENSE, NoRun, Statement, write
+from markermend.planning.described_results import NotDescribed
+from markermend.planning.run_crate import NO_LICENSE, Statement, write
 from markermend.storage.atomic import sha256
-
-RUN = {
-    "markermend": "0.1.0",
-    "commit": None,
-    "started": "2026-01-02T03:04:05+00:00",
-    "finished": "2026-01-02T03:09:05+00:00",
-}
+from markermend.storage.crate_file import METADATA, checksums
+from support.finished_runs import RUN, finish
 
 
 @pytest.fixture
 def results(tmp_path):
     """The results of two recordings, the names of which need care in addresses."""
-    for subject, recording, place in (("S01", "walk", "S01/walk.c3d"), ("S%202", "ä", "S 2/ä.trc")):
-        folder, cleaned = tmp_path / subject / recording, tmp_path / "cleaned" / place
-        folder.mkdir(parents=True)
-        cleaned.parent.mkdir(parents=True)
-        cleaned.write_text(place)
-        stated = {
-            "source": cleaned.name,
-            "original_sha256": "ab" * 32,
-            "changed_samples": 3,
-            "cleaned": f"../../cleaned/{place}",
-        }
-        (folder / "certificate.json").write_text(json.dumps(stated))
-        for name in ("changes.tsv", "originals.parquet"):
-            (folder / name).write_text(name)
-    report = tmp_path / "report"
-    report.mkdir()
-    (report / "provenance.json").write_text(json.dumps(RUN))
-    for name in ("index.html", "summary.tsv"):
-        (report / name).write_text(name)
-    return tmp_path
+    return finish(tmp_path, {"S01/walk": "S01/walk.c3d", "S%202/ä": "S 2/ä.trc"})
 
 
 def described(results):
@@ -48,13 +24,10 @@ def described(results):
 
 
 def test_every_file_is_described_where_it_lies_with_its_checksum(results):
-    assert write(results, Statement("Gait")) == 2
-    files = {name: entity for name, entity in described(results).items() if entity.get("identifier")}
+    assert len(write(results, Statement("Gait")).certificates) == 2
     there = [path for path in results.rglob("*") if path.is_file() and path.name != METADATA]
-    copied = [path for path in there if "workflow" in path.parts]
-    expected = {path.relative_to(results).as_posix(): f"sha256:{sha256(path)}" for path in set(there) - set(copied)}
-    found = {unquote(name): entity["identifier"] for name, entity in files.items() if "#" not in name}
-    assert found == expected
+    about = [path for path in there if not {"workflow", "logs"} & set(path.parts)]
+    assert checksums(results) == {path.relative_to(results).as_posix(): sha256(path) for path in about}
 
 
 def test_the_run_names_what_it_made_of_which_originals(results):
@@ -84,7 +57,6 @@ def test_people_and_license_are_those_that_were_stated(results):
 
 def test_decisions_are_by_those_whom_the_table_names(results):
     path = results / "report/logs/decisions.tsv"
-    path.parent.mkdir()
     path.write_text("recording\tmarker\tdecision\tby\n")
     write(results, Statement("Gait"))
     assert "report/logs/decisions.tsv" not in described(results)
@@ -114,7 +86,14 @@ def test_equal_results_are_described_with_equal_bytes(results):
     assert (results / METADATA).read_bytes() == before
 
 
+def test_a_copy_in_another_format_is_described(results):
+    (results / "cleaned/S01/walk.trc").write_text("walk")
+    finish(results, {"S01/walk": "S01/walk.c3d"}, besides=["S01/walk.trc"])
+    assert write(results, Statement("Gait")).left_over == ["S%202", "cleaned/S 2/ä.trc"]
+    assert "cleaned/S01/walk.trc" in checksums(results) and "cleaned/S 2/ä.trc" not in checksums(results)
+
+
 def test_a_folder_without_a_finished_run_is_no_crate(tmp_path):
-    with pytest.raises(NoRun, match="holds no results of a finished run"):
+    with pytest.raises(NotDescribed, match="holds no results of a finished run"):
         write(tmp_path, Statement("Gait"))
     assert not (tmp_path / METADATA).exists()

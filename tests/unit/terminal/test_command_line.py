@@ -7,6 +7,7 @@ import pytest
 from markermend.command import run_workflow
 from markermend.terminal import command_line, snakemake_run
 from support import c3d_files
+from support.finished_runs import finish
 from support.paths import PROJECT
 
 
@@ -173,3 +174,28 @@ def test_a_mistake_is_said_in_a_sentence(runs, folder, tmp_path, monkeypatch, ca
     shown = capsys.readouterr().err
     assert found == status and said.format(here=tmp_path) in shown
     assert "Traceback" not in shown and len(shown.splitlines()) <= 2 and not runs[0]
+
+
+def test_a_crate_names_what_is_left_of_recordings_that_are_no_longer_among_them(tmp_path, capsys):
+    finish(tmp_path, {"S01/walk": "S01/walk.c3d", "S01/turn": "S01/turn.c3d"})
+    words = ["crate", str(tmp_path), "--name", "Gait"]
+    assert command_line.main(words) == 0
+    assert capsys.readouterr().out == (
+        f"{tmp_path}/ro-crate-metadata.json describes 2 recordings; the folder is an RO-Crate now\n"
+    )
+    finish(tmp_path, {"S01/walk": "S01/walk.c3d"})
+    assert command_line.main(words) == 0
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "Of no recording of the last run, and not described (take these away before you publish the folder): "
+        "S01/turn, cleaned/S01/turn.c3d"
+    ]
+    assert "turn" not in (tmp_path / "ro-crate-metadata.json").read_text()
+
+
+def test_a_crate_of_a_damaged_file_is_refused_in_a_sentence(tmp_path, capsys):
+    finish(tmp_path, {"S01/walk": "S01/walk.c3d"})
+    (tmp_path / "cleaned/S01/walk.c3d").write_text("edited")
+    assert command_line.main(["crate", str(tmp_path), "--name", "Gait"]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith(f"{tmp_path}/cleaned/S01/walk.c3d is not as it was written: ") and said.count("\n") == 1
+    assert not (tmp_path / "ro-crate-metadata.json").exists()
