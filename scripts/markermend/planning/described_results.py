@@ -16,7 +16,7 @@ from typing import Any
 from markermend.planning.result_files import CERTIFICATE, ResultFiles
 from markermend.storage import last_run, output_checksums
 from markermend.storage.atomic import sha256
-from markermend.storage.folder_names import CLEANED
+from markermend.storage.folder_names import CLEANED, readable
 
 
 class NotDescribed(Exception):
@@ -138,7 +138,9 @@ def read(results: Path) -> DescribedResults:
         raise NotDescribed(f"{results} holds no results of a finished run: name the folder of results of a run")
     if last.unfinished:
         more = f" and {len(last.unfinished) - 1} more" if len(last.unfinished) > 1 else ""
-        raise NotDescribed(f"The last run did not finish {last.unfinished[0]}{more}: run the cleaning again")
+        raise NotDescribed(
+            f"The last run did not finish {readable(*last.unfinished[0].split('/'))}{more}: run the cleaning again"
+        )
     folders = [results / name for name in sorted(last.finished)]
     recorded: dict[Path, str] = {}
     for folder in (results / "report", *folders):

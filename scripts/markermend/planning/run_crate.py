@@ -23,7 +23,7 @@ from markermend.planning.result_files import CERTIFICATE, ResultFiles
 from markermend.planning.tables import read_table
 from markermend.storage.atomic import write_json, write_text
 from markermend.storage.crate_file import CHECKSUM, METADATA
-from markermend.storage.folder_names import decode
+from markermend.storage.folder_names import name_of
 from markermend.storage.installation import workflow_folder
 
 WORKFLOW = "report/workflow"
@@ -174,7 +174,7 @@ def _original(crate: ROCrate, described: DescribedResults, folder: Path) -> Enti
     about = {
         "@type": "CreativeWork",
         "name": stated["source"],
-        "description": f"The original of the recording {decode(folder.name)} of the subject {decode(folder.parent.name)}",
+        "description": f"The original of the recording {name_of(folder.name)} of the subject {name_of(folder.parent.name)}",
         "identifier": f"{CHECKSUM}{stated['original_sha256']}",
     }
     return crate.add(ContextEntity(crate, f"#original/{quote(name)}", about))

@@ -27,7 +27,7 @@ from markermend.planning.recordings import BadDataSet
 from markermend.planning.result_files import QUALITY
 from markermend.storage.atomic import NotWritten
 from markermend.storage.crate_file import METADATA
-from markermend.storage.folder_names import printable
+from markermend.storage.folder_names import visible
 from markermend.storage.installation import workflow_folder
 from markermend.terminal import estimate, snakemake_arguments, snakemake_run, table, undo
 from markermend.terminal.arguments import Work, make_parser, suggestion
@@ -176,7 +176,7 @@ def _crate(call: argparse.Namespace, given: list[str]) -> int:
     count = counted(len(described.certificates), "recording")
     print(f"{call.results / METADATA} describes {count}; the folder is an RO-Crate now")
     if described.left_over:
-        left = ", ".join(map(printable, described.left_over))
+        left = ", ".join(map(visible, described.left_over))
         print(
             f"Of no recording of the last run, and not described (take these away before you publish the folder): {left}"
         )

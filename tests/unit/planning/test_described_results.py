@@ -84,8 +84,8 @@ def test_a_recording_without_results_is_refused(results):
 
 def test_a_run_that_left_recordings_unfinished_or_no_facts_is_refused(results):
     unfinished = results / "report/logs/unfinished.txt"
-    write_list(str(unfinished), [str(results / f"S02/{name}/08_qc.json") for name in ("walk", "turn")])
-    with pytest.raises(NotDescribed, match="did not finish S02/walk and 1 more: run the cleaning again"):
+    write_list(str(unfinished), [str(results / f"S%202/{name}/08_qc.json") for name in ("walk", "turn")])
+    with pytest.raises(NotDescribed, match="did not finish S 2/walk and 1 more: run the cleaning again"):
         read(results)
     write_list(str(unfinished), [str(results / "S02/walk/08_qc.json")])
     with pytest.raises(NotDescribed, match="did not finish S02/walk: run the cleaning again"):

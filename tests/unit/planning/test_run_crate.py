@@ -86,6 +86,14 @@ def test_equal_results_are_described_with_equal_bytes(results):
     assert (results / METADATA).read_bytes() == before
 
 
+def test_a_name_that_was_cut_is_that_of_its_folder(results):
+    folder = f"S01/{'x' * 238}~{'0' * 16}"
+    finish(results, {folder: "S01/x.c3d"})
+    write(results, Statement("Gait"))
+    (original,) = [one for name, one in described(results).items() if name.startswith("#original")]
+    assert original["description"] == f"The original of the recording {folder.removeprefix('S01/')} of the subject S01"
+
+
 def test_a_copy_in_another_format_is_described(results):
     (results / "cleaned/S01/walk.trc").write_text("walk")
     finish(results, {"S01/walk": "S01/walk.c3d"}, besides=["S01/walk.trc"])
