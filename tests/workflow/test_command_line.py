@@ -85,7 +85,7 @@ def test_originals_come_back_when_they_are_gone_and_results_have_moved(recording
         [back] = (tmp_path / "back").rglob(f"{name}.c3d")
         assert back.read_bytes() == (recordings / f"S01/{name}.c3d").read_bytes()
     [line] = markermend("undo", tmp_path / "mövd out", "S01/a", "--to", tmp_path / "parts", "--markers", "M1")
-    assert "10 samples restored (M1 41 to 50), " in line and " stay cleaned: " in line
+    assert "10 samples restored (M1 41 to 50), " in line and " 1 stays cleaned: " in line
 
 
 def test_a_table_is_made_corrected_and_cleaned(recordings, tmp_path):
