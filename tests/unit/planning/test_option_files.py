@@ -32,3 +32,11 @@ def test_what_cannot_be_used_is_said(tmp_path, content):
         read_option_files(write(tmp_path, content))
     with pytest.raises(BadDataSet, match=r"none.yaml cannot be read"):
         read_option_files([str(tmp_path / "none.yaml")])
+
+
+def test_a_key_that_stands_twice_is_refused_with_its_lines(tmp_path):
+    files = write(tmp_path, "fill:\n  pool: false\nprotect: [A]\nfill:\n  max_gap_s: 1\n")
+    with pytest.raises(BadDataSet, match=r"0\.yaml .*the key fill stands twice, in lines 1 and 4: put both together"):
+        read_option_files(files)
+    with pytest.raises(BadDataSet, match="the key pool stands twice"):
+        read_option_files(write(tmp_path, "fill: {pool: false, pool: true}\n"))
