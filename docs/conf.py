@@ -62,12 +62,20 @@ LINK = re.compile(
     r"(?P<code>(?P<ticks>`+).*?(?P=ticks))|(?<!!)\[(?P<words>[^\]]+)\]\((?!\w+:|#)(?P<file>[^)#\s]+)(?P<anchor>#[^)\s]*)?\)",
     re.S,
 )
-HEADING = re.compile(r"^#{2,3} (?:`([\w.]+)`: )?")
-ROW = re.compile(r"^\| `([\w.]+)` \|")
+"""A link to another file of the project; what stands in backticks is none."""
 
+HEADING = re.compile(r"^#{2,3} (?:`([\w.]+)`: )?")
+"""The heading of a section of options, with its name where they have one."""
+
+ROW = re.compile(r"^\| `([\w.]+)` \|")
+"""The beginning of an option's row."""
 
 FAULT = re.compile(r"^\| ([a-z][^|]*?) \| \d+ of \d+ \| \d+ of (\d+) \((\d+)\) \|", re.M)
 """A row of the two tables of kinds of faults in benchmarks/README.md: what is found now, and how much in the right class."""
+
+
+WILDCARD = re.compile(r"\{(\w+)\}")
+"""A part of a file's name that differs between subjects and recordings."""
 
 
 def faults_found() -> dict[str, str]:
@@ -94,9 +102,6 @@ def result_files() -> str:
             rows.append(f"| {shown} | {own.__doc__} |")
     return "\n".join(rows)
 
-
-WILDCARD = re.compile(r"\{(\w+)\}")
-"""A part of a file's name that differs between subjects and recordings."""
 
 myst_substitutions = {"found": faults_found(), "result_files": result_files()}
 

@@ -29,7 +29,7 @@ READS_BESIDES = {"qc": ("report/templates",), "report": ("report/templates",)}
 class StageCommands:
     """What the commands of stages depend on, whatever recording they are about.
 
-    Parameters
+    Attributes
     ----------
     options : mapping of str to Any
         The options of each section of the config.

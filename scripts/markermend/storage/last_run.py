@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from markermend.storage.folder_names import RESERVED_SUBJECTS
+from markermend.storage.output_checksums import FOLDER as LOGS
 
 FINISHED = "recordings.txt"
 """Name of the list of files that a report is made of."""
@@ -19,8 +20,8 @@ UNFINISHED = "unfinished.txt"
 BATCH_QUALITY = "qc.json"
 """Name of the file of a batch in such a list."""
 
-LOGS, BATCHES = "logs", "batches"
-"""Names of the folders of such lists, and of the batches in that of the report."""
+BATCHES = "batches"
+"""Name of the folder of the batches in that of the report."""
 
 
 @dataclass(frozen=True)
